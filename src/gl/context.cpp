@@ -1,0 +1,1 @@
+#include <glad/gl.h>

@@ -1,0 +1,1 @@
+#include "glint/scene/scene.h"

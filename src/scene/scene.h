@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+/// What a mesh is drawn as. Strips, fans and loops are turned into these on loading.
+enum class Topology { points, lines, triangles };
+
+/// One thing to draw with one material: a glTF primitive, validated and made ready for upload.
+/// Every index is within range and every value finite; triangles have unit normals.
+struct Mesh {
+  Topology topology = Topology::triangles;
+  /// Model space; `positions` are relative to it. Not zero only where the mesh lies so far from its
+  /// own origin that float positions would lose digits when transformed.
+  glm::dvec3 origin{0.0};
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  ///< unit length, one a position; empty unless triangles
+  /// Linear RGB and alpha, one a position, or empty (glTF COLOR_0).
+  std::vector<glm::vec4> colors;
+  /// texcoords[set] has one a position, or is empty; only sets that the material's textures read.
+  std::vector<std::vector<glm::vec2>> texcoords;
+  std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
+  int material = 0;                    ///< index into Scene::materials
+};
+
+enum class Wrap { repeat, clampToEdge, mirroredRepeat };
+enum class Filter { nearest, linear };
+enum class MipFilter { none, nearest, linear };
+
+/// How a texture is sampled, as in glTF. A texture without sampler repeats, with trilinear filter.
+struct Sampler {
+  Filter magnify = Filter::linear;
+  Filter minify = Filter::linear;
+  MipFilter mip = MipFilter::linear;
+  Wrap wrapS = Wrap::repeat;
+  Wrap wrapT = Wrap::repeat;
+};
+
+/// A picture as it stands in the file: PNG or JPEG bytes, decoded only when a program reads it.
+struct EncodedImage {
+  std::string name;  ///< for messages: the file, or the place in the model file
+  std::vector<std::byte> bytes;
+};
+
+/// Which texture and which texture coordinates a material reads; empty means none.
+struct Texture {
+  int image = 0;  ///< index into Scene::images
+  int texcoord = 0;
+  Sampler sampler;
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// The notes' material: what `extras.glint`, `--material` and the panel set.
+struct ShadingParameters {
+  double ambient = 1.0;    ///< m_a, [0, 1e6]
+  double diffuse = 1.0;    ///< m_d, [0, 1e6]
+  double specular = 0.0;   ///< m_s, [0, 1e6]
+  double exponent = 20.0;  ///< m_sp, Phong's alpha, [0, 1e6]
+  double metalness = 0.0;  ///< m_sm in [0, 1]: 1 colours the highlight by `color`, 0 is white
+  double ior = 1.5;        ///< n, [1e-3, 1e3]
+  glm::dvec3 color{1.0};   ///< C, linear, components [0, 1e6]; multiplies texture and vertex colour
+};
+
+struct Material {
+  std::string name;
+  ShadingParameters shading;
+  double alpha = 1.0;         ///< multiplies the texture's and the vertex colour's, [0, 1]
+  glm::dvec3 emission{0.0};   ///< linear radiance added to the sum
+  double transmission = 0.0;  ///< [0, 1], read by the program `environment`
+  std::optional<Texture> colorTexture;     ///< sRGB colour and alpha
+  std::optional<Texture> emissionTexture;  ///< sRGB
+  AlphaMode alphaMode = AlphaMode::opaque;
+  double alphaCutoff = 0.5;  ///< for AlphaMode::mask
+  bool doubleSided = false;
+  bool unlit = false;  ///< shows colour alone
+};
+
+/// One mesh placed in the world.
+struct Instance {
+  int mesh = 0;
+  glm::dmat4 world{1.0};  ///< model to world; the last row is 0 0 0 1
+};
+
+/// A camera of the file. It looks along -Z of its own space, +Y up.
+struct FileCamera {
+  std::string name;
+  glm::dmat4 world{1.0};
+  bool orthographic = false;
+  double viewAngle = 0.6;   ///< radians, vertical; perspective only
+  double halfHeight = 1.0;  ///< world units; orthographic only
+  double near = 0.0;        ///< 0 where the file gives none
+  double far = 0.0;         ///< 0 where the file gives none (infinite)
+};
+
+/// All that is drawn, by value. World space: +Y up, right-handed, metres by glTF's word.
+struct Scene {
+  std::string name;  ///< file name without folder and ending
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
+  std::vector<EncodedImage> images;
+  std::vector<FileCamera> cameras;
+  std::vector<std::string> warnings;  ///< one line each
+};
+
+}  // namespace glint

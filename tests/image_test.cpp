@@ -1,0 +1,8 @@
+#include <gtest/gtest.h>
+
+#include "glint/image/image.h"
+
+TEST(Image, RowsFollowEachOther) {
+  glint::Image image{3, 2, std::vector<float>(24)};
+  EXPECT_EQ(image.row(1) - image.row(0), 12);
+}
