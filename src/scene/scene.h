@@ -27,6 +27,8 @@ struct Mesh {
   /// texcoords[set] has one a position, or is empty; only sets that the material's textures read.
   std::vector<std::vector<glm::vec2>> texcoords;
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
+  /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
+  bool normalsMayCancel = false;
   int material = 0;                    ///< index into Scene::materials
 };
 

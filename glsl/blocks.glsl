@@ -1,0 +1,37 @@
+// What the CPU tells the shaders; src/render/blocks.h has the same layout in C++ (std140).
+// Eye space: the eye at the origin, looking along -Z, in units of the camera's unit.
+
+layout(std140) uniform FrameBlock {
+  mat4 projection;       // eye to clip space of this tile
+  mat4 worldFromEye;     // rotation to the environment's space (its own rotation included)
+  vec4 view;             // xyz: to the viewer, where that is one direction; w: Schlick's exponent
+  vec4 ambientLight;     // rgb: A
+  vec4 rays;             // tile's x, y in [-1, 1] to the ray's x, y at distance 1: scale, offset
+} frame;
+
+struct Light {
+  vec4 position;         // xyz: to the light (directional) or where it is, eye space
+  vec4 intensity;        // rgb: I_m
+  vec4 axis;             // spot: xyz along its axis, w: cosine of the outer angle
+  vec4 constant;         // directional and constant view: xyz: L + V, or H; w: spot's 1 / (cos inner - cos outer)
+};
+
+#if LIGHTS > 0
+layout(std140) uniform LightBlock {
+  Light lights[LIGHTS];  // directional ones first, then points, then spots
+};
+#endif
+
+layout(std140) uniform DrawBlock {
+  mat4 eyeFromModel;
+  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz
+} draw;
+
+layout(std140) uniform MaterialBlock {
+  vec4 color;            // rgb: C, a: alpha
+  vec4 emission;         // rgb; a: alpha cutoff
+  vec4 strength;         // m_a, m_d, m_s, exponent of the lobe
+  vec4 surface;          // x: metalness, y: transmission
+  vec4 entering;         // Boundary of front faces
+  vec4 leaving;          // Boundary of back faces
+} material;

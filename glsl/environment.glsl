@@ -1,0 +1,49 @@
+// environment: the Blinn-Phong sum, plus what the surface reflects and refracts of the environment.
+#if !VERTEX_STAGE
+float reflectance(float cosine, Boundary boundary) {
+#if FRESNEL == FRESNEL_TEXTBOOK
+  return fresnelTextbook(cosine, boundary);
+#elif FRESNEL == FRESNEL_SCHLICK
+  return fresnelSchlick(cosine, boundary, frame.view.w);
+#else
+  return fresnelExact(cosine, boundary);
+#endif
+}
+
+vec3 environmentToward(vec3 eyeDirection) {
+  return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection);
+}
+
+vec3 shade(vec4 base) {
+  Pixel p = shadedPixel();
+  vec3 n = p.normal, v = p.view;
+  vec3 sum = surfaceColor(sumLights(p.position, n, v), base.rgb);
+  float cosine = dot(n, v);
+  vec4 b = material.entering;
+#if TWO_SIDED
+  if (!gl_FrontFacing) b = material.leaving;
+#endif
+  Boundary boundary = Boundary(b.x, b.y, b.z, b.w);
+  vec3 f = vec3(0.0);
+#if DIELECTRIC
+  f += (1.0 - material.surface.x) * reflectance(cosine, boundary);
+#endif
+#if METAL
+  float x = 1.0 - clamp(cosine, 0.0, 1.0), x2 = x * x;
+  f += material.surface.x * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
+#endif
+  vec3 radiance = sum + f * environmentToward(2.0 * cosine * n - v);
+#if REFRACTION
+#if ALPHA_BLEND
+  float t = 1.0 - (1.0 - material.surface.y) * base.a;
+#else
+  float t = material.surface.y;
+#endif
+  // Along the surface and against the normal; total reflection leaves nothing to refract.
+  vec3 along = boundary.ratio * (cosine * n - v);
+  vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
+  radiance += t * ((1.0 - f) * base.rgb * environmentToward(along + inward) - sum);
+#endif
+  return radiance;
+}
+#endif

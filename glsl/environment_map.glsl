@@ -1,0 +1,40 @@
+// The built-in environments: radiance from the direction d, world space, +Y up. Polynomials of
+// direction cosines; src/shading/environment_map.h has the formulas and says what they are.
+#if ENVIRONMENT_MAP == ENVIRONMENT_STUDIO
+// A box of light with soft edges: axis, right and up are orthonormal; extents are cosines.
+float boxLight(vec3 d, vec3 axis, vec3 right, vec3 up, vec2 extent, float soft) {
+  vec2 p = abs(vec2(dot(d, right), dot(d, up)));
+  vec2 edge = 1.0 - smoothstep(extent - soft, extent + soft, p);
+  return smoothstep(0.0, 0.3, dot(d, axis)) * edge.x * edge.y;
+}
+#endif
+
+vec3 environmentRadiance(vec3 direction) {
+#if ENVIRONMENT_MAP == ENVIRONMENT_WHITE
+  return vec3(1.0);
+#elif ENVIRONMENT_MAP == ENVIRONMENT_SKY
+  const vec3 sun = vec3(0.48, 0.64, 0.60);
+  vec3 d = safeUnit(direction);
+  float h = 1.0 - max(d.y, 0.0);
+  vec3 air = mix(vec3(0.14, 0.32, 0.70), vec3(0.82, 0.90, 0.98), h * h * h);
+  float s = dot(d, sun), g = max(s, 0.0);
+  float g2 = g * g, g4 = g2 * g2, g8 = g4 * g4, g16 = g8 * g8, g32 = g16 * g16;
+  float glow = 0.30 * g8 + 0.55 * g32 * g32 + 1.2 * smoothstep(0.990, 0.998, s);
+  vec3 ground = mix(vec3(0.46, 0.42, 0.36), vec3(0.26, 0.22, 0.18), max(-d.y, 0.0));
+  return mix(ground, air + glow * vec3(1.0, 0.90, 0.74), smoothstep(-0.05, 0.05, d.y));
+#else
+  vec3 d = safeUnit(direction);
+  float back = max(-d.z, 0.0), down = max(-d.y, 0.0);
+  float wall = 0.24 + 0.45 * back * back;
+  vec3 radiance = vec3(mix(0.07, wall, smoothstep(-0.22, 0.06, d.y)) + 0.30 * smoothstep(0.0, 1.0, d.y));
+  radiance += vec3(0.26, 0.24, 0.21) * (down * down);
+  // Overhead, leaning to the front; the key box, front left; the strip, right.
+  radiance += vec3(2.4, 2.4, 2.4) * boxLight(d, vec3(0.0, 0.96, 0.28), vec3(1.0, 0.0, 0.0),
+                                             vec3(0.0, 0.28, -0.96), vec2(0.5, 0.24), 0.1);
+  radiance += vec3(2.2, 2.3, 2.45) * boxLight(d, vec3(-0.768, 0.28, 0.576), vec3(0.6, 0.0, 0.8),
+                                              vec3(0.224, 0.96, -0.168), vec2(0.2, 0.3), 0.06);
+  radiance += vec3(2.1, 1.95, 1.75) * boxLight(d, vec3(0.9216, 0.28, 0.2688), vec3(0.28, 0.0, -0.96),
+                                               vec3(-0.2688, 0.96, -0.0784), vec2(0.09, 0.42), 0.05);
+  return radiance;
+#endif
+}

@@ -1,0 +1,44 @@
+// The fragment stage of every program: colours from material, vertices and textures, then the
+// program's own shading.
+#if VERTEX_COLORS
+VARYING in vec4 vColor;
+#endif
+#if COLOR_TEXTURE
+VARYING in vec2 vColorTexcoord;
+uniform sampler2D colorTexture;
+#endif
+#if EMISSION_TEXTURE
+VARYING in vec2 vEmissionTexcoord;
+uniform sampler2D emissionTexture;
+#endif
+out vec4 fragment;  // linear; straight alpha
+
+void main() {
+  vec4 base = material.color;
+#if VERTEX_COLORS
+  base *= vColor;
+#endif
+#if COLOR_TEXTURE
+  base *= texture(colorTexture, vColorTexcoord);
+#endif
+#if ALPHA_MASK
+  if (base.a < material.emission.a) discard;
+#endif
+#if UNLIT
+  vec3 radiance = base.rgb;
+#else
+  vec3 radiance = shade(base);
+#if EMISSION
+  vec3 emission = material.emission.rgb;
+#if EMISSION_TEXTURE
+  emission *= texture(emissionTexture, vEmissionTexcoord).rgb;
+#endif
+  radiance += emission;
+#endif
+#endif
+#if ALPHA_BLEND && !OPAQUE_OUTPUT
+  fragment = vec4(radiance, base.a);
+#else
+  fragment = vec4(radiance, 1.0);
+#endif
+}

@@ -1,0 +1,46 @@
+// Reflectance of a smooth boundary between two dielectrics, for unpolarised light, as a function of
+// the cosine of incidence c in [0, 1]. The constants of the boundary come from the CPU, in which
+// n = n2 / n1 never appears where n - 1 would cancel.
+struct Boundary {
+  float e;         // n^2 - 1 = d (2 + d), d = (n2 - n1) / n1
+  float square;    // n^2
+  float ratio;     // 1 / n = n1 / n2
+  float normal;    // R at c = 1: ((n1 - n2) / (n1 + n2))^2
+};
+
+// Free of cancellation (amplitudes times their conjugates): rs = e / (c + g)^2 and
+// rp = e q / (n^2 c + g)^2, with g = n cos(theta_t). Total reflection (g^2 <= 0) gives 1; equal
+// indices (e = 0) give 0 at every angle.
+float fresnelExact(float cosine, Boundary b) {
+  float c = clamp(cosine, 0.0, 1.0), c2 = c * c, sin2 = (1.0 - c) * (1.0 + c);
+  bool steep = b.e < 0.0 && c2 > 0.5;
+  float g2 = steep ? b.square - sin2 : b.e + c2;
+  float q = steep ? b.square * c2 - sin2 : (b.square + 1.0) * c2 - 1.0;
+  float g = sqrt(max(g2, 0.0));
+  float s = c + g, p = b.square * c + g;
+  float rs = b.e / (s * s), rp = b.e * q / (p * p);
+  return b.e == 0.0 ? 0.0 : g2 > 0.0 ? 0.5 * (rs * rs + rp * rp) : 1.0;
+}
+
+// As the textbooks write it, with the mean of both polarisations.
+float fresnelTextbook(float cosine, Boundary b) {
+  float c = clamp(cosine, 0.0, 1.0);
+  float sin2 = b.ratio * b.ratio * (1.0 - c * c);
+  if (sin2 >= 1.0) return b.e == 0.0 ? 0.0 : 1.0;
+  float n = 1.0 / b.ratio, t = sqrt(1.0 - sin2);
+  float rs = (c - n * t) / (c + n * t), rp = (n * c - t) / (n * c + t);
+  return 0.5 * (rs * rs + rp * rp);
+}
+
+// Schlick 1994: R0 + (1 - R0)(1 - c)^exponent, with the cosine on the thinner side: from the denser
+// side that is the refracted one, and beyond the critical angle R is 1.
+float fresnelSchlick(float cosine, Boundary b, float exponent) {
+  float c = clamp(cosine, 0.0, 1.0);
+  if (b.e < 0.0) {
+    float cos2 = (b.e + c * c) / b.square;
+    if (cos2 <= 0.0) return 1.0;
+    c = sqrt(cos2);
+  }
+  float x = 1.0 - c;
+  return b.normal + (1.0 - b.normal) * (x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : 1.0);
+}

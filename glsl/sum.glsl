@@ -1,0 +1,84 @@
+// The sum over the lights, without the colours C and S: what the light brings, not the surface.
+struct LightSum {
+  vec3 diffuse;   // m_a A + m_d sum of I N.L
+  vec3 specular;  // m_s sum of I lobe
+};
+
+// Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
+// and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
+// (Blinn-Phong) where those are constant, and is not read otherwise.
+void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 constant,
+              bool isConstant) {
+  float cosLight = dot(n, l);
+  if (!(cosLight > 0.0)) return;
+#if DIFFUSE
+  sum.diffuse += intensity * cosLight;
+#endif
+#if SPECULAR
+  vec3 between = isConstant ? constant : l + v;
+#if BLINN
+  // Where L = -V the half vector is undefined and the light grazes: no highlight.
+  vec3 h = between;
+  if (!isConstant) {
+    float square = dot(between, between);
+    if (!(square > 1e-12)) return;
+    h = between / sqrt(square);
+  }
+#if HIGHLIGHT == HIGHLIGHT_POW
+  float lobe = lobePow(dot(n, h), material.strength.w);
+#else
+  float lobe = lobeExact(blinnLambda(n, h), material.strength.w);
+#endif
+#else
+#if HIGHLIGHT == HIGHLIGHT_POW
+  float lobe = lobePow(dot(2.0 * cosLight * n - l, v), material.strength.w);
+#else
+  float lobe = lobeExact(phongLambda(n, between, cosLight), material.strength.w);
+#endif
+#endif
+  sum.specular += intensity * lobe;
+#endif
+}
+
+// All lights at the point `position` (eye space) with unit normal n and unit direction to the viewer
+// v.
+LightSum sumLights(vec3 position, vec3 n, vec3 v) {
+  LightSum sum = LightSum(vec3(0.0), vec3(0.0));
+#if DIRECTIONAL_LIGHTS > 0
+  for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i)
+    addLight(sum, n, v, lights[i].position.xyz, lights[i].intensity.rgb, lights[i].constant.xyz,
+             bool(CONSTANT_VIEW));
+#endif
+#if POINT_LIGHTS > 0
+  for (int i = DIRECTIONAL_LIGHTS; i < DIRECTIONAL_LIGHTS + POINT_LIGHTS; ++i)
+    addLight(sum, n, v, safeUnit(lights[i].position.xyz - position), lights[i].intensity.rgb,
+             vec3(0.0), false);
+#endif
+#if SPOT_LIGHTS > 0
+  for (int i = DIRECTIONAL_LIGHTS + POINT_LIGHTS; i < LIGHTS; ++i) {
+    vec3 l = safeUnit(lights[i].position.xyz - position);
+    // glTF's cone: full inside the inner angle, the square of a ramp in the cosine to the outer one.
+    float cone = clamp((dot(-l, lights[i].axis.xyz) - lights[i].axis.w) * lights[i].constant.w, 0.0, 1.0);
+    addLight(sum, n, v, l, lights[i].intensity.rgb * (cone * cone), vec3(0.0), false);
+  }
+#endif
+  sum.diffuse = material.strength.x * frame.ambientLight.rgb + material.strength.y * sum.diffuse;
+  sum.specular *= material.strength.z;
+  return sum;
+}
+
+// C diffuse + S specular, S = m_sm C + (1 - m_sm).
+vec3 surfaceColor(LightSum sum, vec3 color) {
+  vec3 shine = material.surface.x * color + (1.0 - material.surface.x);
+  return color * sum.diffuse + shine * sum.specular;
+}
+
+// To the viewer from the point `position` (eye space). At the eye itself: towards +Z.
+vec3 toViewer(vec3 position) {
+#if CONSTANT_VIEW
+  return frame.view.xyz;
+#else
+  float square = dot(position, position);
+  return square > 0.0 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);
+#endif
+}

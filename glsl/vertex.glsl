@@ -1,0 +1,46 @@
+// The vertex stage of every program.
+layout(location = 0) in vec3 position;
+#if !UNLIT
+layout(location = 1) in vec3 normal;  // of the vertex; with flat shading, of the face
+#endif
+#if VERTEX_COLORS
+layout(location = 2) in vec4 vertexColor;
+VARYING out vec4 vColor;
+#endif
+#if COLOR_TEXTURE
+layout(location = 3) in vec2 colorTexcoord;
+VARYING out vec2 vColorTexcoord;
+#endif
+#if EMISSION_TEXTURE
+layout(location = 4) in vec2 emissionTexcoord;
+VARYING out vec2 vEmissionTexcoord;
+#endif
+
+#if !UNLIT
+// Cofactors keep normals perpendicular under any transform; where the transform is a rotation with
+// one scale they stay unit and need no division.
+vec3 eyeNormal() {
+  vec3 n = mat3(draw.normalMatrix) * normal;
+#if UNEVEN_SCALE
+  n = safeUnit(n);
+#endif
+  return n;
+}
+#endif
+
+void main() {
+  vec4 eye = draw.eyeFromModel * vec4(position, 1.0);
+  gl_Position = frame.projection * eye;
+#if VERTEX_COLORS
+  vColor = vertexColor;
+#endif
+#if COLOR_TEXTURE
+  vColorTexcoord = colorTexcoord;
+#endif
+#if EMISSION_TEXTURE
+  vEmissionTexcoord = emissionTexcoord;
+#endif
+#if !UNLIT
+  passVertex(eye.xyz, eyeNormal());
+#endif
+}

@@ -1,0 +1,111 @@
+#include "glint/render/composition.h"
+
+#include <vector>
+
+namespace glint {
+namespace {
+
+std::string header(bool fileNames) {
+  return fileNames ? "#version 330 core\n#extension GL_ARB_shading_language_include : enable\n"
+                   : "#version 330 core\n";
+}
+
+std::string define(const char* name, int value) {
+  return std::string("#define ") + name + " " + std::to_string(value) + "\n";
+}
+
+std::string stageDefines(bool vertex) {
+  return define("VERTEX_STAGE", vertex) + "#define VERTEX_OUT " + (vertex ? "out" : "in") + "\n";
+}
+
+std::string environmentDefines(Environment environment) {
+  return define("ENVIRONMENT_STUDIO", 0) + define("ENVIRONMENT_SKY", 1) +
+         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_MAP", int(environment));
+}
+
+std::string defines(const Variant& v) {
+  std::string text;
+  text += define("UNLIT", v.unlit);
+  text += define("VERTEX_COLORS", v.vertexColors);
+  text += define("COLOR_TEXTURE", v.colorTexture);
+  text += define("ALPHA_MASK", v.alphaMask);
+  text += define("ALPHA_BLEND", v.alphaBlend);
+  text += define("EMISSION", v.emission);
+  text += define("EMISSION_TEXTURE", v.emissionTexture);
+  text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
+  if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0);
+  const int lights = v.directionalLights + v.pointLights + v.spotLights;
+  text += define("LIGHTS", lights);
+  text += define("DIRECTIONAL_LIGHTS", v.directionalLights);
+  text += define("POINT_LIGHTS", v.pointLights);
+  text += define("SPOT_LIGHTS", v.spotLights);
+  text += define("DIFFUSE", v.diffuse);
+  text += define("SPECULAR", v.specular);
+  text += define("HIGHLIGHT_EXACT", 0) + define("HIGHLIGHT_POW", 1);
+  text += define("HIGHLIGHT", int(v.highlight));
+  text += define("BLINN", v.program == Shading::blinnPhong || v.program == Shading::environment);
+  text += define("CONSTANT_VIEW", v.constantView);
+  text += define("UNEVEN_SCALE", v.unevenScale);
+  text += define("PIXEL_POSITION", v.pixelPosition);
+  text += define("VANISHING_NORMAL", v.vanishingNormal);
+  text += define("TWO_SIDED", v.twoSided);
+  text +=
+      std::string("#define CARRIED ") + (v.program == Shading::flat ? "flat" : "VARYING") + "\n";
+  // What environment sees through a surface is refracted, not blended.
+  text += define("OPAQUE_OUTPUT", v.program == Shading::environment);
+  if (v.program == Shading::environment) {
+    text += environmentDefines(v.environment);
+    text +=
+        define("FRESNEL_EXACT", 0) + define("FRESNEL_TEXTBOOK", 1) + define("FRESNEL_SCHLICK", 2);
+    text += define("FRESNEL", int(v.fresnel));
+    text += define("DIELECTRIC", v.dielectric);
+    text += define("METAL", v.metal);
+    text += define("REFRACTION", v.refraction);
+  }
+  return text;
+}
+
+std::string join(const std::string& head, const std::vector<std::string>& files,
+                 const GlslSources& sources, bool fileNames) {
+  std::string text = head;
+  int number = 0;
+  for (const std::string& file : files) {
+    text += "#line 1 " + (fileNames ? "\"" + file + "\"" : std::to_string(++number)) + "\n";
+    text += sources.text(file);
+  }
+  return text;
+}
+
+}  // namespace
+
+ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileNames) {
+  const std::string name(v.unlit ? "unlit" : shadingName(v.program));
+  std::vector<std::string> files{"blocks.glsl"};
+  if (!v.unlit) {
+    const bool environment = v.program == Shading::environment;
+    const bool perVertex = v.program == Shading::flat || v.program == Shading::gouraud;
+    files.insert(files.begin(), {"vector.glsl", "lobe.glsl"});
+    if (environment) files.insert(files.end(), {"fresnel.glsl", "environment_map.glsl"});
+    files.insert(files.end(), {"sum.glsl", perVertex ? "per_vertex.glsl" : "per_pixel.glsl"});
+    files.push_back(name + ".glsl");
+  }
+  const std::string head = header(fileNames);
+  const std::string features = defines(v);
+  std::vector<std::string> vertex = files, fragment = files;
+  vertex.emplace_back("vertex.glsl");
+  fragment.emplace_back("fragment.glsl");
+  return {name, join(head + stageDefines(true) + features, vertex, sources, fileNames),
+          join(head + stageDefines(false) + features, fragment, sources, fileNames)};
+}
+
+ComposedProgram composeBackground(Environment environment, const GlslSources& sources,
+                                  bool fileNames) {
+  const std::vector<std::string> files{"vector.glsl", "environment_map.glsl", "blocks.glsl",
+                                       "background.glsl"};
+  const std::string head = header(fileNames), map = environmentDefines(environment);
+  const std::string features = define("LIGHTS", 0) + map;
+  return {"background", join(head + stageDefines(true) + features, files, sources, fileNames),
+          join(head + stageDefines(false) + features, files, sources, fileNames)};
+}
+
+}  // namespace glint

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "glint/render/glsl_sources.h"
+#include "glint/render/variant.h"
+
+namespace glint {
+
+/// The full texts of a program's two stages.
+struct ComposedProgram {
+  std::string name;  ///< for messages: the program's, such as "phong"
+  std::string vertex, fragment;
+};
+
+/// The GLSL of a variant: #version, one #define for each feature, then the files it needs. A pure
+/// function of its arguments. With `fileNames`, #line directives name the files (needs the
+/// extension that fileNamesInLines() asks for), otherwise they number them in the order of
+/// composition.
+ComposedProgram compose(const Variant&, const GlslSources&, bool fileNames);
+
+/// The program that draws the environment behind the model.
+ComposedProgram composeBackground(Environment, const GlslSources&, bool fileNames);
+
+}  // namespace glint

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "glint/render/blocks.h"
+#include "glint/render/variant.h"
+#include "glint/scene/camera.h"
+
+namespace glint {
+
+enum class FaceSide { front, back, both };
+
+/// One draw call to be.
+struct DrawItem {
+  int mesh = 0, material = 0, instance = 0;  ///< indices into the scene's
+  Variant variant;
+  DrawBlock draw;
+  MaterialBlock materialBlock;
+  bool mirrored = false;  ///< the transform turns counter-clockwise into clockwise
+  FaceSide faces = FaceSide::front;
+  bool blended = false;  ///< drawn after the others, from back to front, without writing depth
+  double depth = 0.0;    ///< of the centre of its bounding box along the view; eye space units
+};
+
+/// All that a picture takes, decided without GL.
+struct DrawList {
+  Camera camera;
+  FrameBlock frame;  ///< but for projection and rays, which depend on the tile
+  /// In the order of blocks.glsl. `constant` holds L + V; with Blinn-Phong, H.
+  std::vector<LightEntry> lights;
+  std::vector<DrawItem> items;  ///< in drawing order
+};
+
+/// `bounds` are those of the scene. Throws InputError for a camera or a material that the scene
+/// does not have.
+DrawList makeDrawList(const Scene&, const Bounds& bounds, const Look&);
+
+/// Images (indices into Scene::images) that the variants of this look read: the only ones that
+/// need decoding. In ascending order.
+std::vector<int> imagesRead(const Scene&, const Look&);
+
+}  // namespace glint

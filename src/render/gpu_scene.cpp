@@ -1,0 +1,173 @@
+#include "glint/render/gpu_scene.h"
+
+#include <future>
+#include <span>
+
+#include "glint/image/error.h"
+#include "glint/render/face_mesh.h"
+
+namespace glint {
+namespace {
+
+// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at it.
+class VertexLayout {
+ public:
+  template <typename Vector>
+  void add(GLuint location, std::span<const Vector> values) {
+    if (values.empty()) return;
+    const auto* bytes = reinterpret_cast<const char*>(values.data());
+    attributes_.push_back({location, Vector::length(), bytes, values.size_bytes(), size_});
+    size_ += values.size_bytes();
+  }
+  // With `source`, vertex i is a copy of source[i].
+  template <typename Vector>
+  void add(GLuint location, std::span<const Vector> values, std::span<const std::uint32_t> source) {
+    if (values.empty() || source.empty()) return add(location, values);
+    std::vector<char>& copy = copies_.emplace_back(source.size() * sizeof(Vector));
+    auto* to = reinterpret_cast<Vector*>(copy.data());
+    for (std::size_t i = 0; i < source.size(); ++i) to[i] = values[source[i]];
+    add(location, std::span<const Vector>(to, source.size()));
+  }
+  void upload() const {
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(size_), nullptr, GL_STATIC_DRAW);
+    for (const Attribute& a : attributes_) {
+      glBufferSubData(GL_ARRAY_BUFFER, GLintptr(a.offset), GLsizeiptr(a.size), a.bytes);
+      glVertexAttribPointer(a.location, a.components, GL_FLOAT, GL_FALSE, 0,
+                            reinterpret_cast<const void*>(a.offset));
+      glEnableVertexAttribArray(a.location);
+    }
+  }
+
+ private:
+  struct Attribute {
+    GLuint location;
+    GLint components;
+    const char* bytes;
+    std::size_t size, offset;
+  };
+  std::vector<Attribute> attributes_;
+  std::vector<std::vector<char>> copies_;
+  std::size_t size_ = 0;
+};
+
+std::span<const glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
+  if (!texture || std::size_t(texture->texcoord) >= mesh.texcoords.size()) return {};
+  return mesh.texcoords[std::size_t(texture->texcoord)];
+}
+
+GLenum modeOf(Topology topology) {
+  return topology == Topology::points  ? GL_POINTS
+         : topology == Topology::lines ? GL_LINES
+                                       : GL_TRIANGLES;
+}
+
+GLint minifyFilter(const Sampler& s) {
+  const bool linear = s.minify == Filter::linear;
+  if (s.mip == MipFilter::none) return linear ? GL_LINEAR : GL_NEAREST;
+  if (s.mip == MipFilter::nearest) return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+  return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+}
+
+GLint wrapMode(Wrap wrap) {
+  return wrap == Wrap::repeat        ? GL_REPEAT
+         : wrap == Wrap::clampToEdge ? GL_CLAMP_TO_EDGE
+                                     : GL_MIRRORED_REPEAT;
+}
+
+TextureHandle uploadTexture(const ByteImage& image, const std::string& name) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (image.width > limit || image.height > limit)
+    throw InputError(name + ": " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                     " pixels are more than this driver's " + std::to_string(limit) +
+                     ": make the texture smaller");
+  TextureHandle texture = TextureHandle::make();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, image.values.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  return texture;
+}
+
+}  // namespace
+
+DecodedImages decodeImages(Scene& scene, const Look& look) {
+  std::vector<std::pair<int, std::future<ByteImage>>> tasks;
+  for (int i : imagesRead(scene, look))
+    tasks.emplace_back(i, std::async(std::launch::async, [&image = scene.images[std::size_t(i)]] {
+                         return decodeTexture(image.bytes, image.name);
+                       }));
+  DecodedImages images;
+  for (auto& [i, task] : tasks) {
+    try {
+      images[i] = task.get();
+    } catch (const InputError& error) {
+      scene.warnings.push_back(std::string(error.what()) + " (drawn without it)");
+      for (Material& material : scene.materials) {
+        if (material.colorTexture && material.colorTexture->image == i) material.colorTexture.reset();
+        if (material.emissionTexture && material.emissionTexture->image == i)
+          material.emissionTexture.reset();
+      }
+    }
+  }
+  return images;
+}
+
+GpuScene::GpuScene(const Scene& scene, DecodedImages images)
+    : scene_(&scene), images_(std::move(images)) {}
+
+const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
+  const Mesh& mesh = scene_->meshes[std::size_t(index)];
+  faces = faces && mesh.topology == Topology::triangles;
+  const auto [place, isNew] = geometries_.try_emplace({index, faces});
+  Geometry& g = place->second;
+  if (!isNew) return g;
+
+  g.array = VertexArray::make();
+  g.vertices = Buffer::make();
+  g.indices = Buffer::make();
+  glBindVertexArray(g.array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, g.vertices.id());
+  const FaceMesh faceMesh = faces ? makeFaceMesh(mesh) : FaceMesh{};
+  const std::span<const std::uint32_t> source = faceMesh.source;
+  const Material& material = scene_->materials[std::size_t(mesh.material)];
+  VertexLayout layout;
+  layout.add(0, std::span(mesh.positions), source);
+  layout.add(1, faces ? std::span(faceMesh.normals) : std::span(mesh.normals));
+  layout.add(2, std::span(mesh.colors), source);
+  layout.add(3, texcoordsOf(mesh, material.colorTexture), source);
+  layout.add(4, texcoordsOf(mesh, material.emissionTexture), source);
+  if (faces) layout.add(5, std::span(faceMesh.centers));
+  layout.upload();
+  const auto& indices = faces ? faceMesh.indices : mesh.indices;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof indices[0]),
+               indices.data(), GL_STATIC_DRAW);
+  g.mode = modeOf(mesh.topology);
+  g.count = GLsizei(indices.size());
+  return g;
+}
+
+void GpuScene::bindTexture(const Texture& use, GLuint unit) {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  TextureHandle& texture = textures_[use.image];
+  if (!texture) {
+    texture = uploadTexture(images_.at(use.image), scene_->images[std::size_t(use.image)].name);
+    images_.erase(use.image);
+  }
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  const Sampler& s = use.sampler;
+  SamplerHandle& sampler = samplers_[{s.magnify, s.minify, s.mip, s.wrapS, s.wrapT}];
+  if (!sampler) {
+    sampler = SamplerHandle::make();
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER,
+                        s.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST);
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, minifyFilter(s));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_S, wrapMode(s.wrapS));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_T, wrapMode(s.wrapT));
+  }
+  glBindSampler(unit, sampler.id());
+}
+
+}  // namespace glint

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "glint/gl/handles.h"
+#include "glint/image/texture.h"
+#include "glint/render/draw_list.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// Decoded pictures by their index in Scene::images.
+using DecodedImages = std::map<int, ByteImage>;
+
+/// Decodes the images that the look reads, in parallel. A broken one becomes a warning of the scene
+/// and its materials lose the texture.
+DecodedImages decodeImages(Scene&, const Look&);
+
+/// A scene's meshes and textures in the driver's memory, each put there when first needed. Lives
+/// and dies in one context; the scene must outlive it.
+class GpuScene {
+ public:
+  GpuScene(const Scene& scene, DecodedImages images);
+
+  struct Geometry {
+    VertexArray array;
+    Buffer vertices, indices;
+    GLenum mode = 0;
+    GLsizei count = 0;
+  };
+
+  /// The mesh, or for the program `flat` its faces.
+  const Geometry& geometry(int mesh, bool faces);
+
+  /// Binds the texture and its sampler to a unit.
+  void bindTexture(const Texture&, GLuint unit);
+
+  const Scene& scene() const { return *scene_; }
+
+ private:
+  using SamplerKey = std::tuple<Filter, Filter, MipFilter, Wrap, Wrap>;
+  const Scene* scene_;
+  DecodedImages images_;
+  std::map<std::pair<int, bool>, Geometry> geometries_;
+  std::map<int, TextureHandle> textures_;
+  std::map<SamplerKey, SamplerHandle> samplers_;
+};
+
+}  // namespace glint

@@ -1,0 +1,203 @@
+#include "glint/render/variant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+bool perPixel(Shading shading) {
+  return shading == Shading::phong || shading == Shading::blinnPhong ||
+         shading == Shading::environment;
+}
+
+double transparencyOf(const Material& material, Shading shading) {
+  return shading == Shading::environment ? material.transmission : 0.0;
+}
+
+}  // namespace
+
+bool isSimilarity(const glm::dmat3& m) {
+  const double scale = std::max({std::abs(m[0].x), std::abs(m[0].y), std::abs(m[0].z),
+                                 std::abs(m[1].x), std::abs(m[1].y), std::abs(m[1].z),
+                                 std::abs(m[2].x), std::abs(m[2].y), std::abs(m[2].z)});
+  if (!(scale > 0)) return false;
+  const glm::dmat3 n = m * (1 / scale);
+  const glm::dmat3 gram = glm::transpose(n) * n;
+  const double square = gram[0][0];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(gram[i][j] - (i == j ? square : 0.0)) > 1e-6 * square) return false;
+  return true;
+}
+
+std::vector<Light> lightsOf(const Look& look) {
+  if (look.noLights) return {};
+  if (look.light) return *look.light;
+  Light light;  // the default: from above and the left of the viewer, in eye space
+  light.type = Light::Type::camera;
+  light.direction = {-0.5, 0.7, 1.0};
+  return {light};
+}
+
+Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4& world,
+                   const Look& look, bool orthographic) {
+  Variant v;
+  v.program = look.shading;
+  v.unlit = material.unlit || mesh.topology != Topology::triangles;
+  v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
+  v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
+  v.vertexColors = !mesh.colors.empty();
+  v.colorTexture = material.colorTexture.has_value();
+  v.alphaMask = material.alphaMode == AlphaMode::mask;
+  v.alphaBlend = material.alphaMode == AlphaMode::blend;
+  if (v.unlit) {
+    v.program = Shading::phong;  // any: the unlit ones are all the same
+    return v;
+  }
+  v.emission = material.emission != glm::dvec3(0.0);
+  v.emissionTexture = v.emission && material.emissionTexture.has_value();
+
+  const bool pixels = perPixel(look.shading);
+  const ShadingParameters& s = material.shading;
+  const bool wantsLight = s.diffuse > 0 || s.specular > 0;
+  for (const Light& light : lightsOf(look)) {
+    if (!wantsLight || light.intensity == glm::dvec3(0.0)) continue;
+    switch (light.type) {
+      case Light::Type::directional:
+      case Light::Type::camera:
+        ++v.directionalLights;
+        break;
+      case Light::Type::point:
+        ++v.pointLights;
+        break;
+      case Light::Type::spot:
+        ++v.spotLights;
+        break;
+    }
+  }
+  const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
+  v.diffuse = lit && s.diffuse > 0;
+  v.specular = lit && s.specular > 0;
+  if (v.specular) v.highlight = look.highlight;
+  const bool environment = look.shading == Shading::environment;
+  v.constantView = orthographic || look.viewer == Viewer::infinite;
+  v.unevenScale = !isSimilarity(glm::dmat3(world));
+  if (environment) {
+    v.environment = look.environment;
+    v.dielectric = s.metalness < 1;
+    v.metal = s.metalness > 0;
+    if (v.dielectric) v.fresnel = look.fresnel;
+    v.refraction = transparencyOf(material, look.shading) > 0 || v.alphaBlend;
+  }
+  if (pixels) {
+    v.vanishingNormal = mesh.normalsMayCancel;
+    v.pixelPosition = v.pointLights + v.spotLights > 0 || v.vanishingNormal ||
+                      ((v.specular || environment) && !v.constantView);
+  }
+  // Nothing of the surface's side is left where there is neither light nor environment.
+  if (!lit && !environment)
+    v.twoSided = v.vanishingNormal = v.pixelPosition = v.unevenScale = false;
+  return v;
+}
+
+std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const Material& material,
+                                      const Look& look, bool orthographic) {
+  std::vector<FeatureReason> reasons;
+  const auto add = [&](std::string feature, bool present, std::string yes, std::string no) {
+    reasons.push_back({std::move(feature), present, present ? std::move(yes) : std::move(no)});
+  };
+  add("unlit", v.unlit,
+      mesh.topology == Topology::triangles ? "the material is unlit" : "points and lines are unlit",
+      "a lit material of triangles");
+  add("color-texture", v.colorTexture, "the material has a colour texture",
+      "the material has none");
+  add("vertex-colors", v.vertexColors, "the mesh has them", "the mesh has none");
+  add("alpha-mask", v.alphaMask, "alphaMode is MASK", "alphaMode is not MASK");
+  add("alpha-blend", v.alphaBlend, "alphaMode is BLEND", "alphaMode is not BLEND");
+  if (v.unlit) return reasons;
+  const ShadingParameters& s = material.shading;
+  const int lights = v.directionalLights + v.pointLights + v.spotLights;
+  const char* const none = look.noLights                ? "--no-lights"
+                           : lightsOf(look).empty()     ? "no light is given"
+                           : s.diffuse + s.specular > 0 ? "every light has intensity 0"
+                                                        : "diffuse and specular are 0";
+  const auto count = [&](const char* name, int n) {
+    add(name, n > 0, std::to_string(n) + " of them", lights ? "no such light" : none);
+  };
+  count("directional-lights", v.directionalLights);
+  count("point-lights", v.pointLights);
+  count("spot-lights", v.spotLights);
+  add("diffuse", v.diffuse, "diffuse > 0", lights ? "diffuse is 0" : none);
+  add("specular", v.specular, "specular > 0", lights ? "specular is 0" : none);
+  add("constant-view", v.constantView,
+      orthographic ? "the camera is orthographic: V, L + V and H once per draw"
+                   : "--viewer infinite: V, L + V and H once per draw",
+      "perspective and a local viewer: V per point");
+  add("renormalized-vertex-normals", v.unevenScale, "the transform scales unevenly",
+      "the transform is a rotation with one scale");
+  add("two-sided", v.twoSided, look.twoSided ? "--two-sided" : "the material is doubleSided",
+      material.doubleSided || look.twoSided ? "nothing depends on the side"
+                                            : "back faces are not drawn");
+  add("emission", v.emission, "the material emits", "the material does not emit");
+  if (v.emission)
+    add("emission-texture", v.emissionTexture, "the material has one", "the material has none");
+  if (perPixel(v.program)) {
+    add("pixel-position", v.pixelPosition,
+        "the direction to viewer or lights changes over the surface",
+        "no direction changes over the surface");
+    add("vanishing-normals", v.vanishingNormal,
+        "some triangle's normals may cancel: the face's stands in",
+        "no triangle's normals can cancel");
+  }
+  if (v.program == Shading::environment) {
+    add("fresnel", v.dielectric, "metalness < 1", "metalness is 1: no dielectric part");
+    add("metal", v.metal, "metalness > 0", "metalness is 0");
+    add("refraction", v.refraction,
+        v.alphaBlend ? "blended: transparency is 1 - alpha" : "transmission > 0", "opaque");
+  }
+  return reasons;
+}
+
+std::vector<std::string> featureNames(const Variant& v) {
+  std::vector<std::string> names;
+  const auto add = [&](bool has, const char* name) {
+    if (has) names.emplace_back(name);
+  };
+  const auto count = [&](int n, const char* name) {
+    if (n > 0) names.push_back(std::string(name) + ":" + std::to_string(n));
+  };
+  add(v.unlit, "unlit");
+  count(v.directionalLights, "directional-lights");
+  count(v.pointLights, "point-lights");
+  count(v.spotLights, "spot-lights");
+  add(v.diffuse, "diffuse");
+  add(v.specular, v.highlight == Highlight::exact ? "specular:exact" : "specular:pow");
+  add(v.constantView && !v.unlit, "constant-view");
+  add(v.unevenScale, "renormalized-vertex-normals");
+  add(v.pixelPosition, "pixel-position");
+  add(v.vanishingNormal, "vanishing-normals");
+  add(v.twoSided, "two-sided");
+  add(v.vertexColors, "vertex-colors");
+  add(v.colorTexture, "color-texture");
+  add(v.emission, "emission");
+  add(v.emissionTexture, "emission-texture");
+  add(v.alphaMask, "alpha-mask");
+  add(v.alphaBlend, "alpha-blend");
+  if (v.program == Shading::environment && !v.unlit) {
+    constexpr const char* maps[] = {"environment:studio", "environment:sky", "environment:white"};
+    constexpr const char* forms[] = {"fresnel:exact", "fresnel:textbook", "fresnel:schlick"};
+    add(true, maps[int(v.environment)]);
+    add(v.dielectric, forms[int(v.fresnel)]);
+    add(v.metal, "metal");
+    add(v.refraction, "refraction");
+  }
+  return names;
+}
+
+std::string_view shadingName(Shading shading) {
+  constexpr std::string_view names[] = {"flat", "gouraud", "phong", "blinn-phong", "environment"};
+  return names[std::size_t(shading)];
+}
+
+}  // namespace glint

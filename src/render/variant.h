@@ -1,0 +1,66 @@
+#pragma once
+
+#include <compare>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// What a shader holds: the program and only the features that the scene needs of it. Equal
+/// variants are one GLSL program. A pure function of scene and look; needs no GL.
+struct Variant {
+  Shading program = Shading::phong;
+  bool unlit = false;  ///< colour alone: points, lines and unlit materials; all below it is off
+  int directionalLights = 0, pointLights = 0, spotLights = 0;
+  bool diffuse = false;                    ///< some light and m_d > 0
+  bool specular = false;                   ///< some light and m_s > 0
+  Highlight highlight = Highlight::exact;  ///< `exact` unless specular
+  bool constantView = false;     ///< one direction to the viewer: H, V and L + V once per draw
+  bool unevenScale = false;      ///< normals need renormalising per vertex
+  bool pixelPosition = false;    ///< per-pixel programs read the interpolated position
+  bool vanishingNormal = false;  ///< interpolated normals may cancel
+  bool twoSided = false;         ///< back faces are drawn, lit from their side
+  bool vertexColors = false, colorTexture = false;
+  bool emission = false, emissionTexture = false;
+  bool alphaMask = false, alphaBlend = false;
+  // The program environment alone:
+  Environment environment = Environment::studio;
+  Fresnel fresnel = Fresnel::exact;
+  bool dielectric = false, metal = false, refraction = false;
+  bool centroid = false;  ///< multisampled: varyings stay within the triangle
+
+  auto operator<=>(const Variant&) const = default;
+};
+
+/// A feature that a variant has or does without, and why.
+struct FeatureReason {
+  std::string feature;
+  bool present = false;
+  std::string reason;
+};
+
+/// The variant of one mesh under one world transform, with `material` as the look has edited it.
+/// `orthographic` is that of the camera in use.
+Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
+                   bool orthographic);
+
+/// Why a variant is as it is, in the order of its members.
+std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Material&, const Look&,
+                                      bool orthographic);
+
+/// The names of the features that a variant has.
+std::vector<std::string> featureNames(const Variant&);
+
+/// The lights of a look: those given, or the default one, or none.
+std::vector<Light> lightsOf(const Look&);
+
+/// Whether a 3x3 transform is a rotation (with or without mirror) and one scale, to 1e-6.
+bool isSimilarity(const glm::dmat3&);
+
+std::string_view shadingName(Shading);
+
+}  // namespace glint

@@ -1,0 +1,205 @@
+#include "glint/scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "glint/image/error.h"
+
+namespace glint {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+template <typename Visit>
+void forEachVertex(const Scene& scene, Visit visit) {
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const glm::dmat3 linear(instance.world);
+    const glm::dvec3 offset = linear * mesh.origin + glm::dvec3(instance.world[3]);
+    for (std::uint32_t i : mesh.indices) visit(linear * glm::dvec3(mesh.positions[i]) + offset);
+  }
+}
+
+glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise) {
+  const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(size > 0) || !std::isfinite(size)) return otherwise;
+  v /= size;
+  return v / std::sqrt(glm::dot(v, v));
+}
+
+// Orthonormal axes for looking along `view` with `up` upwards.
+glm::dmat3 axesFor(glm::dvec3 view, glm::dvec3 up) {
+  const glm::dvec3 back = -view;
+  up = unitOr(up, {0, 1, 0});
+  glm::dvec3 right = glm::cross(up, back);
+  if (glm::dot(right, right) < 1e-24)  // along the way up: -Z takes the place of up, or +X
+    right = glm::cross(std::abs(back.z) < 0.9 ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0), back);
+  right = unitOr(right, {1, 0, 0});
+  return {right, glm::cross(back, right), back};
+}
+
+glm::dvec3 rotate(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1 - c));
+}
+
+// Where the camera stands and what it looks at, before azimuth and elevation.
+struct View {
+  glm::dvec3 position, focalPoint, up;
+  double angle;  // radians, vertical
+  bool orthographic;
+  double orthographicHalfHeight;  // of a file's camera, or 0
+};
+
+View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double aspect) {
+  View view{{}, bounds.center, {0, 1, 0}, 30 * radians, look.cameraOrthographic, 0};
+  const double radius = bounds.radius > 0 ? bounds.radius : 1;
+  glm::dvec3 direction{-std::sin(30 * radians) * std::cos(20 * radians), -std::sin(20 * radians),
+                       -std::cos(30 * radians) * std::cos(20 * radians)};
+  bool placed = false;
+  if (look.cameraIndex) {
+    const std::size_t index = std::size_t(*look.cameraIndex);
+    if (index >= scene.cameras.size())
+      throw InputError("--camera-index " + std::to_string(index) + ": " + scene.name + " has " +
+                       (scene.cameras.empty()
+                            ? "no camera: leave the option out"
+                            : std::to_string(scene.cameras.size()) + " cameras: give 0 to " +
+                                  std::to_string(scene.cameras.size() - 1)));
+    const FileCamera& camera = scene.cameras[index];
+    view.position = glm::dvec3(camera.world[3]);
+    direction = unitOr(-glm::dvec3(camera.world[2]), {0, 0, -1});
+    view.up = unitOr(glm::dvec3(camera.world[1]), {0, 1, 0});
+    // Azimuth and elevation turn about the point of the view nearest to the model's centre.
+    const double ahead = glm::dot(bounds.center - view.position, direction);
+    view.focalPoint = view.position + direction * (ahead > radius * 1e-3 ? ahead : radius);
+    view.orthographic = camera.orthographic || look.cameraOrthographic;
+    view.orthographicHalfHeight = camera.orthographic ? camera.halfHeight : 0;
+    if (!camera.orthographic) view.angle = camera.viewAngle;
+    placed = true;
+  }
+  if (look.cameraViewUp) view.up = *look.cameraViewUp;
+  if (look.cameraViewAngle) {
+    view.angle = *look.cameraViewAngle * radians;
+    view.orthographicHalfHeight = 0;
+  }
+  if (look.cameraDirection) direction = unitOr(*look.cameraDirection, direction);
+  if (look.cameraFocalPoint) view.focalPoint = *look.cameraFocalPoint;
+  if (look.cameraPosition) {
+    view.position = *look.cameraPosition;
+    if (look.cameraDirection && !look.cameraFocalPoint) {
+      const double distance = glm::length(bounds.center - view.position);
+      view.focalPoint = view.position + direction * (distance > 0 ? distance : radius);
+    }
+    placed = true;
+  }
+  if (!placed) {
+    const double smaller =
+        aspect >= 1 ? view.angle / 2 : std::atan(std::tan(view.angle / 2) * aspect);
+    view.position =
+        view.focalPoint - direction * (radius / (look.cameraZoomFactor * std::sin(smaller)));
+  }
+  return view;
+}
+
+}  // namespace
+
+Bounds boundsOf(const Scene& scene) {
+  const double inf = std::numeric_limits<double>::infinity();
+  glm::dvec3 low(inf), high(-inf);
+  forEachVertex(scene, [&](const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  });
+  if (!(low.x <= high.x)) return {};
+  Bounds bounds{low + (high - low) * 0.5, 0};
+  const double scale = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  if (!(scale > 0)) return bounds;
+  double square = 0;  // in units of scale: huge and tiny models neither over- nor underflow
+  forEachVertex(scene, [&](const glm::dvec3& p) {
+    const glm::dvec3 d = (p - bounds.center) / scale;
+    square = std::max(square, glm::dot(d, d));
+  });
+  bounds.radius = scale * std::sqrt(square);
+  return bounds;
+}
+
+Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
+  Camera camera;
+  camera.aspect = double(look.resolution.x) / look.resolution.y;
+  View view = viewFor(scene, look, bounds, camera.aspect);
+
+  glm::dvec3 away = view.position - view.focalPoint;
+  double distance = glm::length(away);
+  if (!(distance > 0) || !std::isfinite(distance)) {  // eye at the focal point
+    distance = bounds.radius > 0 ? bounds.radius : 1;
+    away = glm::dvec3(0, 0, distance);
+  }
+  away /= distance;
+  glm::dmat3 axes = axesFor(-away, view.up);
+  if (look.cameraAzimuthAngle != 0 || look.cameraElevationAngle != 0) {
+    const glm::dvec3 up = unitOr(view.up, {0, 1, 0});
+    const double azimuth = look.cameraAzimuthAngle * radians;
+    away = rotate(away, up, azimuth);
+    const glm::dvec3 right = rotate(axes[0], up, azimuth);
+    const double elevation = -look.cameraElevationAngle * radians;
+    away = rotate(away, right, elevation);
+    axes = axesFor(-away, rotate(rotate(axes[1], up, azimuth), right, elevation));
+    view.position = view.focalPoint + away * distance;
+  }
+  camera.eye = view.position;
+  camera.axes = axes;
+  camera.orthographic = view.orthographic;
+  camera.halfHeight = std::tan(view.angle / 2);
+  if (camera.orthographic)
+    camera.halfHeight = view.orthographicHalfHeight > 0 ? view.orthographicHalfHeight
+                                                        : camera.halfHeight * distance;
+
+  const double center = glm::dot(camera.eye - bounds.center, camera.axes[2]);
+  const double reach = std::max(glm::length(camera.eye - bounds.center), bounds.radius);
+  camera.unit = reach > 0 ? std::exp2(std::round(std::log2(reach))) : 1;
+  if (look.clippingRange) {
+    camera.near = look.clippingRange->x;
+    camera.far = look.clippingRange->y;
+  } else {
+    const double margin = bounds.radius * 1e-3 + reach * 1e-6;
+    camera.far = center + bounds.radius + margin;
+    if (!(camera.far > 0)) camera.far = reach > 0 ? reach : 1;  // nothing is in front of the eye
+    // With the eye inside the sphere, near things show up to 1e-5 of the far distance.
+    camera.near = std::max(center - bounds.radius - margin, camera.far * 1e-5);
+    camera.near = std::min(camera.near, camera.far * 0.999);
+  }
+  return camera;
+}
+
+glm::dmat3 eyeRotation(const Camera& camera) {
+  return glm::transpose(camera.axes) * (1 / camera.unit);
+}
+
+glm::dmat4 projection(const Camera& camera, glm::dvec2 lower, glm::dvec2 upper, bool reversed) {
+  const double near = camera.near / camera.unit, far = camera.far / camera.unit;
+  const double height = camera.orthographic ? camera.halfHeight / camera.unit : camera.halfHeight;
+  glm::dmat4 m(0.0);
+  m[0][0] = 1 / (height * camera.aspect);
+  m[1][1] = 1 / height;
+  if (camera.orthographic) {
+    m[2][2] = reversed ? 1 / (far - near) : -2 / (far - near);
+    m[3][2] = reversed ? far / (far - near) : -(far + near) / (far - near);
+    m[3][3] = 1;
+  } else {
+    m[2][2] = reversed ? near / (far - near) : -(far + near) / (far - near);
+    m[3][2] = reversed ? far * near / (far - near) : -2 * far * near / (far - near);
+    m[2][3] = -1;
+  }
+  // The part of the picture becomes the whole of clip space.
+  const glm::dvec2 scale = 1.0 / (upper - lower), offset = (1.0 - lower - upper) * scale;
+  glm::dmat4 part(1.0);
+  part[0][0] = scale.x;
+  part[1][1] = scale.y;
+  part[3][0] = offset.x;
+  part[3][1] = offset.y;
+  return part * m;
+}
+
+}  // namespace glint

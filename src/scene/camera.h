@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// Bounding sphere of what a scene draws, world space.
+struct Bounds {
+  glm::dvec3 center{0.0};
+  double radius = 0.0;  ///< 0 if there is nothing, or nothing but one point
+};
+
+/// The centre is that of the axis-aligned box around all vertices that are drawn, the radius the
+/// distance of the farthest of them.
+Bounds boundsOf(const Scene&);
+
+/// A camera made definite: where it is, how it looks, what it sees.
+struct Camera {
+  glm::dvec3 eye{0.0};
+  glm::dmat3 axes{
+      1.0};  ///< columns: right, up, back (towards the viewer); orthonormal, world space
+  bool orthographic = false;
+  double halfHeight =
+      1.0;              ///< of the picture at distance 1 (perspective), or anywhere (orthographic)
+  double aspect = 1.0;  ///< width / height
+  double near = 1.0, far = 2.0;  ///< along the view, world units; 0 < near < far
+  /// Eye space is measured in units of `unit` world units, a power of two near the distance of what
+  /// is looked at: a scene scaled by any factor then gives the same floats.
+  double unit = 1.0;
+};
+
+/// The camera of a look at a scene. Throws InputError for a camera index the file does not have.
+/// Every other input gives a finite camera: where the eye is at the focal point, or the view is
+/// along the way up, another axis takes the place of the undefined one.
+Camera cameraFor(const Scene&, const Bounds&, const Look&);
+
+/// From world space to eye space (units of camera.unit, looking along -Z), without translation.
+glm::dmat3 eyeRotation(const Camera&);
+
+/// From eye space to clip space for the part of the picture whose corners are given as shares of
+/// its width and height from the lower left, [0, 1]. With `reversed`, depth is 1 at near, 0 at far,
+/// for clip space z in [0, w]; otherwise -1 to 1 as GL has it.
+glm::dmat4 projection(const Camera&, glm::dvec2 lower, glm::dvec2 upper, bool reversed);
+
+}  // namespace glint

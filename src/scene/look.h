@@ -1,0 +1,81 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+enum class Shading { flat, gouraud, phong, blinnPhong, environment };
+enum class Highlight { exact, pow };
+enum class Fresnel { exact, textbook, schlick };
+enum class Viewer { local, infinite };
+enum class Environment { studio, sky, white };
+
+/// A light as `--light` gives it. Intensities are linear; nothing falls off with distance.
+struct Light {
+  enum class Type { directional, point, spot, camera };
+  Type type = Type::directional;
+  glm::dvec3 position{0.0};   ///< world; point and spot
+  glm::dvec3 direction{0.0};  ///< directional: TO the light (the notes' L), world; camera: likewise, eye space; spot: along it
+  double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
+  double outerAngle = 45.0;   ///< degrees from the spot's axis: none outside
+  glm::dvec3 intensity{1.0};  ///< I_m, linear RGB, components [0, 1e6]
+  bool operator==(const Light&) const = default;
+};
+
+struct AntiAliasing {
+  enum class Mode { none, msaa, ssaa };
+  Mode mode = Mode::msaa;
+  int count = 4;  ///< msaa: samples a pixel; ssaa: count x count samples a pixel
+  bool operator==(const AntiAliasing&) const = default;
+};
+
+/// What `--material` sets of a material; what is empty stays as the model has it.
+struct MaterialEdit {
+  std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
+  std::optional<glm::dvec3> color;  ///< linear
+  bool operator==(const MaterialEdit&) const = default;
+};
+
+/// How a scene is looked at: every option that shapes a picture, as a value. The table of
+/// parameters.h says of each its name, unit, range, default and help.
+struct Look {
+  Shading shading = Shading::phong;
+  Highlight highlight = Highlight::exact;
+  Fresnel fresnel = Fresnel::exact;
+  double blinnFactor = 4.0;
+  double schlickExponent = 5.0;
+  std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material
+
+  glm::dvec3 ambientLight{0.1};
+  std::optional<std::vector<Light>> light;  ///< empty: the default light
+  bool noLights = false;
+  Viewer viewer = Viewer::local;
+  double mediumIor = 1.0;
+  Environment environment = Environment::studio;
+  double environmentRotation = 0.0;  ///< degrees about +Y
+  bool environmentBackground = false;
+  bool twoSided = false;
+
+  std::optional<glm::dvec3> cameraPosition, cameraFocalPoint, cameraDirection;
+  std::optional<glm::dvec3> cameraViewUp;
+  std::optional<double> cameraViewAngle;                        ///< degrees, vertical
+  double cameraAzimuthAngle = 0.0, cameraElevationAngle = 0.0;  ///< degrees
+  double cameraZoomFactor = 0.9;
+  bool cameraOrthographic = false;
+  std::optional<int> cameraIndex;
+  std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
+
+  glm::ivec2 resolution{1024, 1024};
+  AntiAliasing antiAliasing;
+  glm::dvec3 backgroundColor{0.033104766570885055};  ///< linear; #333333
+  bool noBackground = false;
+  double exposure = 0.0;  ///< EV: the picture is multiplied by 2^exposure before encoding
+
+  bool operator==(const Look&) const = default;
+};
+
+}  // namespace glint

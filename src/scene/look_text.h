@@ -1,0 +1,38 @@
+#pragma once
+
+// The texts that options and look files give values by. Every function throws InputError with a
+// line that begins with `what`.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "glint/scene/look.h"
+
+namespace glint {
+
+/// More lights than this are refused by name; a uniform block of GL's least size holds them.
+inline constexpr std::size_t maxLights = 128;
+
+double parseNumber(const std::string& text, double min, double max, const std::string& what);
+std::int64_t parseInteger(const std::string& text, std::int64_t min, std::int64_t max,
+                          const std::string& what);
+std::size_t parseChoice(const std::string& text, std::span<const std::string_view> names,
+                        const std::string& what);
+glm::dvec3 parseVector(const std::string& text, double min, double max, const std::string& what);
+glm::dvec2 parseRange(const std::string& text);
+glm::ivec2 parseResolution(const std::string& text);
+AntiAliasing parseAntiAliasing(const std::string& text);
+std::string antiAliasingText(const AntiAliasing&);
+Light parseLight(const std::string& text);
+std::string lightText(const Light&);
+void parseMaterialEdit(Look&, const std::string& text);
+/// Sets one parameter of the material `name`; `text` is a number, or a colour for "color".
+void setMaterialEdit(Look&, const std::string& name, const std::string& key,
+                     const std::string& text);
+
+/// The shortest text that reads back as the same double.
+std::string numberText(double);
+
+}  // namespace glint

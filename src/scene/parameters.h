@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// One parameter of a look. This table is the only place that knows a parameter's name, unit,
+/// range, default and help: command line, look files, help and panel are made from it.
+struct Parameter {
+  std::string name;     ///< of the option and of the key in a look file
+  std::string section;  ///< heading in help and panel
+  std::string value;    ///< what stands for the value in help, such as "x,y,z"; empty for a flag
+  std::string help;
+  bool repeatable = false;
+  double min = 0.0, max = 0.0;  ///< of numbers and of each component; both 0 if it has none
+  /// Reads the option's text into a look; throws InputError saying what is expected. Of a
+  /// repeatable parameter each call adds one.
+  std::function<void(Look&, const std::string& text)> read;
+  /// The value for a look file; null where the look leaves it open.
+  std::function<nlohmann::ordered_json(const Look&)> save;
+};
+
+/// All parameters of a look, in the order of help.
+std::span<const Parameter> lookParameters();
+
+/// One number of a material: extras.glint, --material and the panel go by this table.
+struct MaterialParameter {
+  std::string_view name, help;
+  double min, max;
+  double ShadingParameters::*value;
+  std::optional<double> MaterialEdit::*edit;
+};
+
+/// Ambient, diffuse, specular, exponent, metalness and ior; `color` stands beside them.
+std::span<const MaterialParameter> materialParameters();
+
+/// What a look makes of a scene's material: its own values with those of the edits for every
+/// material and for the material's name, in this order.
+Material editedMaterial(const Material&, const Look&);
+
+/// Throws InputError if an edit names a material that the scene does not have.
+void checkMaterialNames(const Scene&, const Look&);
+
+/// A linear colour from "r,g,b" (linear, components from 0 to 1e6) or "#rrggbb" (sRGB).
+/// `what` begins the message of the InputError.
+glm::dvec3 parseColor(const std::string& text, const std::string& what);
+
+/// Sets in `look` what a look file's text holds. Unknown keys and wrong types are InputErrors that
+/// name `source`.
+void readLook(Look& look, const std::string& json, const std::string& source);
+
+/// The text of a look file that gives the same look again.
+std::string saveLook(const Look&);
+
+}  // namespace glint
