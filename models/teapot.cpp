@@ -1,7 +1,5 @@
 #include <array>
 #include <cassert>
-#include <cmath>
-#include <optional>
 
 #include "mesh.h"
 #include "teapot_patches.h"
