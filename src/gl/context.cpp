@@ -1,1 +1,152 @@
+#include "glint/gl/context.h"
+
 #include <glad/gl.h>
+
+#include <cstdlib>
+#include <mutex>
+
+#include "glint/gl/backends.h"
+
+namespace glint {
+
+namespace {
+
+struct Name {
+  Backend backend;
+  const char* name;
+};
+constexpr Name names[] = {{Backend::automatic, "auto"},
+                          {Backend::egl, "egl"},
+                          {Backend::eglSoftware, "egl-software"},
+                          {Backend::osmesa, "osmesa"}};
+
+std::unique_ptr<Context> openSystemEgl(bool software) {
+  const char* const sonames[] = {"libEGL.so.1"};
+  return backends::openEgl(sonames, software);
+}
+
+std::unique_ptr<Context> openSystemOsmesa() {
+  // Mesa has called it .so.8 since 2011; older builds and Debian's compatibility link are .so.6.
+  const char* const sonames[] = {"libOSMesa.so.8", "libOSMesa.so.6"};
+  return backends::openOsmesa(sonames);
+}
+
+constexpr backends::Opener egl{"egl", [] { return openSystemEgl(false); }};
+constexpr backends::Opener eglSoftware{"egl-software", [] { return openSystemEgl(true); }};
+constexpr backends::Opener osmesa{"osmesa", openSystemOsmesa};
+
+/// Sets the environment variables that Mesa reads when a backend is opened; a user's own values
+/// stand. Mesa's warnings go to stderr otherwise, among them one for every driver it passes over.
+void prepareEnvironment(Backend backend) {
+  static std::mutex mutex;
+  static bool softwareIsOurs = false;
+  const std::lock_guard lock(mutex);
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
+  if (backend == Backend::eglSoftware && !std::getenv("LIBGL_ALWAYS_SOFTWARE")) {
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    softwareIsOurs = true;
+  } else if (backend != Backend::eglSoftware && softwareIsOurs) {
+    unsetenv("LIBGL_ALWAYS_SOFTWARE");
+    softwareIsOurs = false;
+  }
+}
+
+std::unique_ptr<Context> openPrepared(Backend backend) {
+  const backends::Opener automatic[] = {egl, osmesa};
+  switch (backend) {
+    case Backend::egl:
+      return backends::openFirst({&egl, 1});
+    case Backend::eglSoftware:
+      return backends::openFirst({&eglSoftware, 1});
+    case Backend::osmesa:
+      return backends::openFirst({&osmesa, 1});
+    case Backend::automatic:
+      break;
+  }
+  return backends::openFirst(automatic);
+}
+
+std::string text(GLenum name) {
+  const GLubyte* value = glGetString(name);
+  return value ? reinterpret_cast<const char*>(value) : "";
+}
+
+}  // namespace
+
+std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers) {
+  std::string reasons, remark;
+  for (const Opener& opener : openers) try {
+      std::unique_ptr<Context> context = opener.open();
+      context->addRemark(remark);
+      return context;
+    } catch (const ContextError& error) {
+      const std::string reason = std::string(opener.name) + ": " + error.what();
+      reasons += (reasons.empty() ? "" : "\n  ") + reason;
+      remark += (remark.empty() ? "" : "; ") + reason;
+    }
+  throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context:\n  " + reasons);
+}
+
+const char* backendName(Backend backend) {
+  for (const Name& entry : names)
+    if (entry.backend == backend) return entry.name;
+  return "";
+}
+
+Backend backendFromName(std::string_view name) {
+  std::string all;
+  for (const Name& entry : names) {
+    if (entry.name == name) return entry.backend;
+    all += (all.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw InputError("no rendering backend is called \"" + std::string(name) + "\": there are " +
+                   all);
+}
+
+void Context::makeCurrent() {
+  bind();
+  const int version = gladLoadGL(loader());
+  if (version < GLAD_MAKE_VERSION(3, 3)) {
+    const std::string got = version ? text(GL_VERSION) : "no OpenGL";
+    release();
+    throw ContextError(description_ + ": OpenGL 3.3 is needed, the driver gives " + got);
+  }
+}
+
+void Context::addRemark(const std::string& line) {
+  if (!line.empty()) remark_ += (remark_.empty() ? "" : "; ") + line;
+}
+
+std::unique_ptr<Context> openContext(Backend backend) {
+  prepareEnvironment(backend);
+  return openPrepared(backend);
+}
+
+std::future<std::unique_ptr<Context>> openContextAsync(Backend backend) {
+  prepareEnvironment(backend);
+  return std::async(std::launch::async, openPrepared, backend);
+}
+
+GlStrings glStrings() { return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)}; }
+
+std::vector<BackendReport> probeBackends() {
+  std::vector<BackendReport> reports;
+  for (Backend backend : {Backend::egl, Backend::eglSoftware, Backend::osmesa}) {
+    BackendReport report{backend, false, {}};
+    try {
+      const std::unique_ptr<Context> context = openContext(backend);
+      context->makeCurrent();
+      const GlStrings gl = glStrings();
+      report.works = true;
+      report.detail =
+          context->description() + "; " + gl.vendor + "; " + gl.renderer + "; OpenGL " + gl.version;
+      if (!context->remark().empty()) report.detail += "; passed over: " + context->remark();
+    } catch (const ContextError& error) {
+      report.detail = error.what();
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+}  // namespace glint

@@ -1,0 +1,39 @@
+#pragma once
+
+// Internal to src/gl and its tests: the backends with their libraries to be chosen by the caller.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "glint/gl/context.h"
+
+namespace glint::backends {
+
+/// A function that a library must have, and where its address goes.
+struct Symbol {
+  const char* name;
+  void** address;
+};
+
+/// Opens the first of the libraries that can be opened and has all symbols; it is never closed
+/// (drivers leave threads and exit handlers behind). Throws ContextError: what is missing, and the
+/// remedy
+/// ("install ...").
+void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> symbols,
+                 const char* remedy);
+
+std::unique_ptr<Context> openOsmesa(std::span<const char* const> sonames);
+
+/// software: only Mesa's software renderer will do.
+std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software);
+
+/// Calls openers in turn until one gives a context. The reasons of those that failed become the
+/// context's remark or, if none works, the lines of a ContextError.
+struct Opener {
+  const char* name;
+  std::unique_ptr<Context> (*open)();
+};
+std::unique_ptr<Context> openFirst(std::span<const Opener> openers);
+
+}  // namespace glint::backends

@@ -1,0 +1,145 @@
+#include "glint/gl/framebuffer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "glint/gl/check.h"
+#include "glint/image/error.h"
+
+namespace glint {
+
+namespace {
+
+const char* statusWords(GLenum status) {
+  switch (status) {
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "float colour and float depth are not supported";
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "an attachment could not be made";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "this count of samples is not supported";
+    default:
+      return "no reason given";
+  }
+}
+
+/// One buffer of a framebuffer; 0 samples is no multisampling. Returns the samples that came.
+int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height, int samples) {
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+  GLint given = 0;
+  glGetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &given);
+  return given;
+}
+
+void attach(GLenum point, const Renderbuffer& buffer) {
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.id());
+}
+
+/// The samples that a tiny target comes with, or 0 if the driver cannot make it.
+int trySamples(int samples) {
+  const Renderbuffer color = Renderbuffer::make(), depth = Renderbuffer::make();
+  const Framebuffer framebuffer = Framebuffer::make();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  const int given = makeStorage(color, GL_RGBA32F, 1, 1, samples);
+  makeStorage(depth, GL_DEPTH_COMPONENT32F, 1, 1, samples);
+  attach(GL_COLOR_ATTACHMENT0, color);
+  attach(GL_DEPTH_ATTACHMENT, depth);
+  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  const bool valid = glGetError() == GL_NO_ERROR;
+  return complete && valid ? given : 0;
+}
+
+void checkComplete() {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(std::string("the driver cannot make the framebuffer: ") + statusWords(status));
+}
+
+void checkSize(int width, int height) {
+  GLint buffer = 0, viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &buffer);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  const int most = std::min({buffer, viewport[0], viewport[1]});
+  if (width < 1 || height < 1 || width > most || height > most)
+    throw InputError("resolution " + std::to_string(width) + "," + std::to_string(height) +
+                     ": this driver draws from 1 to " + std::to_string(most) + " pixels a side");
+}
+
+void checkSamples(int samples) {
+  if (samples < 1)
+    throw InputError("anti-aliasing msaa:" + std::to_string(samples) +
+                     ": the number of samples begins with 1");
+  if (samples == 1) return;
+  const int most = maxSamples();
+  if (samples <= most) return;
+  const int side = int(std::ceil(std::sqrt(double(samples))));
+  throw InputError(
+      "anti-aliasing msaa:" + std::to_string(samples) + ": this driver has " +
+      (most > 1 ? "at most " + std::to_string(most) + " samples" : "no multisampling") +
+      ": use --anti-aliasing ssaa:" + std::to_string(side));
+}
+
+}  // namespace
+
+int maxSamples() {
+  GLint announced = 0, drawn = 0, read = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &announced);
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
+  int samples = 0;
+  for (int wanted = announced; wanted > 1 && !samples; wanted /= 2) samples = trySamples(wanted);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawn));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read));
+  return std::max(samples, 1);
+}
+
+RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), height_(height) {
+  checkSize(width, height);
+  checkSamples(samples);
+  checkGl("before making a framebuffer");
+  const int multi = samples > 1 ? samples : 0;
+  color_ = Renderbuffer::make();
+  depth_ = Renderbuffer::make();
+  drawn_ = Framebuffer::make();
+  if (multi) {
+    singleColor_ = Renderbuffer::make();
+    single_ = Framebuffer::make();
+    makeStorage(singleColor_, GL_RGBA32F, width, height, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, single_.id());
+    attach(GL_COLOR_ATTACHMENT0, singleColor_);
+    checkGl("making a framebuffer");
+    checkComplete();
+  }
+  samples_ = std::max(makeStorage(color_, GL_RGBA32F, width, height, multi), 1);
+  makeStorage(depth_, GL_DEPTH_COMPONENT32F, width, height, multi);
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
+  attach(GL_COLOR_ATTACHMENT0, color_);
+  attach(GL_DEPTH_ATTACHMENT, depth_);
+  checkGl("making a framebuffer");
+  checkComplete();
+  bind();
+}
+
+void RenderTarget::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
+  glViewport(0, 0, width_, height_);
+}
+
+void RenderTarget::resolve() const {
+  if (samples_ <= 1) return;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.id());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void RenderTarget::readRows(float* rgba, int first, int rows) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glReadPixels(0, first, width_, rows, GL_RGBA, GL_FLOAT, rgba);
+}
+
+}  // namespace glint

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "glint/gl/handles.h"
+
+namespace glint {
+
+/// The most samples a pixel that the driver gives a picture with float colour and float depth: 1
+/// if it has no multisampling. It is tried, not believed: drivers announce counts whose
+/// framebuffers are incomplete. llvmpipe has 4 and no other (2 and 3 give 4).
+int maxSamples();
+
+/// A picture in the driver's memory: RGBA32F colour and DEPTH_COMPONENT32F, with more than one
+/// sample multisampled and beside it the colour with one sample.
+class RenderTarget {
+ public:
+  /// Width and height in pixels, samples a pixel as asked for; the driver may give more
+  /// (samples()). Throws InputError if the driver has no such size or not as many samples, with
+  /// what to use instead; Error if it cannot make it. Leaves the target bound.
+  RenderTarget(int width, int height, int samples);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// The samples a pixel that the driver gave, 1 without multisampling.
+  int samples() const { return samples_; }
+
+  /// Makes it what is drawn into and sets the viewport to the whole of it.
+  void bind() const;
+
+  /// Averages the samples of each pixel, in linear light. Call it after drawing and before
+  /// readRows or blitting; does nothing if there is one sample. Leaves other framebuffers bound:
+  /// bind() before drawing more.
+  void resolve() const;
+
+  /// Copies `rows` rows beginning with `first` (row 0 is the bottom one, as in GL; a picture file
+  /// begins with the top) to rgba: 4 * width * rows floats, linear, as drawn. Waits until drawing
+  /// is done. Leaves the resolved picture bound for reading.
+  void readRows(float* rgba, int first, int rows) const;
+  /// The whole picture, bottom row first.
+  void readRows(float* rgba) const { readRows(rgba, 0, height_); }
+
+  /// The framebuffer with the resolved picture, to be blitted from.
+  GLuint resolved() const { return samples_ > 1 ? single_.id() : drawn_.id(); }
+
+ private:
+  int width_, height_, samples_ = 1;
+  Renderbuffer color_, depth_, singleColor_;
+  Framebuffer drawn_, single_;  // after the renderbuffers: deleted before them
+};
+
+}  // namespace glint

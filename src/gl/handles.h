@@ -1,0 +1,73 @@
+#pragma once
+
+#include <glad/gl.h>
+
+#include <utility>
+
+namespace glint {
+
+/// Owns the name of a GL object. Move-only; 0 is empty. It must die while the context that it was
+/// made in is current; an empty one may die at any time. glDelete* is called in this file only.
+/// Kind has static GLuint make(...) and static void destroy(GLuint).
+template <class Kind>
+class Handle {
+ public:
+  Handle() = default;
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    Handle old(std::move(*this));
+    id_ = std::exchange(other.id_, 0);
+    return *this;
+  }
+  ~Handle() {
+    if (id_) Kind::destroy(id_);
+  }
+
+  /// A new GL object; a shader takes its stage.
+  template <class... Arguments>
+  static Handle make(Arguments... arguments) {
+    Handle handle;
+    handle.id_ = Kind::make(arguments...);
+    return handle;
+  }
+
+  GLuint id() const { return id_; }
+  explicit operator bool() const { return id_ != 0; }
+
+ private:
+  GLuint id_ = 0;
+};
+
+/// Objects that are made and deleted in arrays. The functions are pointers that change with the
+/// context, hence their addresses.
+template <auto* generate, auto* remove>
+struct ArrayKind {
+  static GLuint make() {
+    GLuint id = 0;
+    (*generate)(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { (*remove)(1, &id); }
+};
+
+struct ShaderKind {
+  static GLuint make(GLenum stage) { return glCreateShader(stage); }
+  static void destroy(GLuint id) { glDeleteShader(id); }
+};
+
+struct ProgramKind {
+  static GLuint make() { return glCreateProgram(); }
+  static void destroy(GLuint id) { glDeleteProgram(id); }
+};
+
+using Buffer = Handle<ArrayKind<&glGenBuffers, &glDeleteBuffers>>;
+using VertexArray = Handle<ArrayKind<&glGenVertexArrays, &glDeleteVertexArrays>>;
+using Texture = Handle<ArrayKind<&glGenTextures, &glDeleteTextures>>;
+using Framebuffer = Handle<ArrayKind<&glGenFramebuffers, &glDeleteFramebuffers>>;
+using Renderbuffer = Handle<ArrayKind<&glGenRenderbuffers, &glDeleteRenderbuffers>>;
+using Query = Handle<ArrayKind<&glGenQueries, &glDeleteQueries>>;
+using Sampler = Handle<ArrayKind<&glGenSamplers, &glDeleteSamplers>>;
+using ShaderHandle = Handle<ShaderKind>;
+using ProgramHandle = Handle<ProgramKind>;
+
+}  // namespace glint
