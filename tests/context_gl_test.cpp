@@ -52,7 +52,7 @@ std::vector<float> drawTriangle(int samples) {
   EXPECT_FALSE(program.bindSampler("nothing", 2));
   EXPECT_EQ(program.uniform("nothing"), -1);
 
-  const glint::Texture texture = glint::Texture::make();
+  const glint::TextureHandle texture = glint::TextureHandle::make();
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, texture.id());
   const float half = 0.5f;

@@ -62,11 +62,11 @@ struct ProgramKind {
 
 using Buffer = Handle<ArrayKind<&glGenBuffers, &glDeleteBuffers>>;
 using VertexArray = Handle<ArrayKind<&glGenVertexArrays, &glDeleteVertexArrays>>;
-using Texture = Handle<ArrayKind<&glGenTextures, &glDeleteTextures>>;
+using TextureHandle = Handle<ArrayKind<&glGenTextures, &glDeleteTextures>>;
 using Framebuffer = Handle<ArrayKind<&glGenFramebuffers, &glDeleteFramebuffers>>;
 using Renderbuffer = Handle<ArrayKind<&glGenRenderbuffers, &glDeleteRenderbuffers>>;
 using Query = Handle<ArrayKind<&glGenQueries, &glDeleteQueries>>;
-using Sampler = Handle<ArrayKind<&glGenSamplers, &glDeleteSamplers>>;
+using SamplerHandle = Handle<ArrayKind<&glGenSamplers, &glDeleteSamplers>>;
 using ShaderHandle = Handle<ShaderKind>;
 using ProgramHandle = Handle<ProgramKind>;
 

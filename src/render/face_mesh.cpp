@@ -18,11 +18,13 @@ FaceMesh makeFaceMesh(const Mesh& mesh) {
 
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     std::array<std::uint32_t, 3> t{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-    for (int turn = 0; turn < 2 && taken[t[2]]; ++turn) std::rotate(t.begin(), t.begin() + 1, t.end());
+    for (int turn = 0; turn < 2 && taken[t[2]]; ++turn)
+      std::rotate(t.begin(), t.begin() + 1, t.end());
     const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double size = std::max({std::abs(cross.x), std::abs(cross.y), std::abs(cross.z)});
-    const glm::vec3 normal = size > 0 ? glm::vec3(glm::normalize(cross / size)) : mesh.normals[t[2]];
+    const glm::vec3 normal =
+        size > 0 ? glm::vec3(glm::normalize(cross / size)) : mesh.normals[t[2]];
     const glm::vec3 center((a + b + c) / 3.0);
     if (taken[t[2]]) {  // all three are: a copy carries this face
       faces.source.push_back(t[2]);

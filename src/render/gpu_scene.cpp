@@ -9,7 +9,8 @@
 namespace glint {
 namespace {
 
-// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at it.
+// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at
+// it.
 class VertexLayout {
  public:
   template <typename Vector>
@@ -64,7 +65,8 @@ GLenum modeOf(Topology topology) {
 GLint minifyFilter(const Sampler& s) {
   const bool linear = s.minify == Filter::linear;
   if (s.mip == MipFilter::none) return linear ? GL_LINEAR : GL_NEAREST;
-  if (s.mip == MipFilter::nearest) return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+  if (s.mip == MipFilter::nearest)
+    return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
   return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
@@ -78,9 +80,9 @@ TextureHandle uploadTexture(const ByteImage& image, const std::string& name) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (image.width > limit || image.height > limit)
-    throw InputError(name + ": " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                     " pixels are more than this driver's " + std::to_string(limit) +
-                     ": make the texture smaller");
+    throw InputError(name + ": " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + " pixels are more than this driver's " +
+                     std::to_string(limit) + ": make the texture smaller");
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -105,7 +107,8 @@ DecodedImages decodeImages(Scene& scene, const Look& look) {
     } catch (const InputError& error) {
       scene.warnings.push_back(std::string(error.what()) + " (drawn without it)");
       for (Material& material : scene.materials) {
-        if (material.colorTexture && material.colorTexture->image == i) material.colorTexture.reset();
+        if (material.colorTexture && material.colorTexture->image == i)
+          material.colorTexture.reset();
         if (material.emissionTexture && material.emissionTexture->image == i)
           material.emissionTexture.reset();
       }

@@ -1,1 +1,264 @@
-#include "glint/scene/scene.h"
+#include "glint/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "glint/gl/check.h"
+#include "glint/render/composition.h"
+
+namespace glint {
+namespace {
+
+enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding };
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& milliseconds) : sum_(milliseconds) {}
+  ~Stopwatch() {
+    using namespace std::chrono;
+    sum_ += duration<double, std::milli>(steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void connect(const Program& program) {
+  program.bindBlock("FrameBlock", frameBinding);
+  program.bindBlock("LightBlock", lightBinding);
+  program.bindBlock("DrawBlock", drawBinding);
+  program.bindBlock("MaterialBlock", materialBinding);
+  program.bindSampler("colorTexture", 0);
+  program.bindSampler("emissionTexture", 1);
+}
+
+Program build(const ComposedProgram& text) {
+  const ShaderSource sources[] = {{GL_VERTEX_SHADER, text.vertex},
+                                  {GL_FRAGMENT_SHADER, text.fragment}};
+  Program program(text.name, sources);
+  connect(program);
+  return program;
+}
+
+// One uniform buffer with a block for each item at the alignment that the driver asks for; returns
+// the distance from one to the next.
+template <typename Block, typename Get>
+GLsizeiptr uploadBlocks(const Buffer& buffer, const std::vector<DrawItem>& items, Get get) {
+  GLint alignment = 256;
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  const std::size_t step = std::size_t(std::max(alignment, 1));
+  const std::size_t stride = (sizeof(Block) + step - 1) / step * step;
+  std::vector<char> bytes(stride * items.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
+    std::memcpy(bytes.data() + stride * i, &get(items[i]), sizeof(Block));
+  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
+  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes.size()), bytes.data(), GL_STREAM_DRAW);
+  return GLsizeiptr(stride);
+}
+
+void setState(const DrawItem& item) {
+  glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+  if (item.faces == FaceSide::both) {
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+    glCullFace(item.faces == FaceSide::front ? GL_BACK : GL_FRONT);
+  }
+  if (item.blended) {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    glDisable(GL_BLEND);
+  }
+  glDepthMask(item.blended ? GL_FALSE : GL_TRUE);
+}
+
+// The mean of each scale x scale block. Rows of `from`, fromWidth pixels wide, count from the bottom;
+// those of the band `to` from the top.
+void copyRows(const float* from, int fromWidth, int scale, const Tile& tile, Image& to) {
+  const std::size_t across = std::size_t(4) * fromWidth;
+  const int last = tile.height * scale - 1;
+  for (int y = 0; y < tile.height; ++y) {
+    float* out = to.row(y) + std::size_t(4) * tile.x;
+    if (scale == 1) {
+      std::memcpy(out, from + across * std::size_t(last - y), sizeof(float) * 4 * std::size_t(tile.width));
+      continue;
+    }
+    const double share = 1.0 / (double(scale) * scale);
+    for (int x = 0; x < tile.width; ++x) {
+      double sum[4] = {0, 0, 0, 0};
+      for (int sy = 0; sy < scale; ++sy) {
+        const float* in =
+            from + across * std::size_t(last - y * scale - sy) + std::size_t(4) * x * scale;
+        for (int i = 0; i < 4 * scale; ++i) sum[i % 4] += double(in[i]);
+      }
+      for (int c = 0; c < 4; ++c) out[4 * x + c] = float(sum[c] * share);
+    }
+  }
+}
+
+}  // namespace
+
+Renderer::Renderer(GlslSources sources)
+    : sources_(std::move(sources)),
+      fileNames_(fileNamesInLines()),
+      clipControl_(GLAD_GL_ARB_clip_control != 0),
+      noVertices_(VertexArray::make()),
+      frame_(Buffer::make()) {}
+
+const Program& Renderer::programFor(const Variant& variant) {
+  const auto found = programs_.find(variant);
+  if (found != programs_.end()) return found->second;
+  return programs_.emplace(variant, build(compose(variant, sources_, fileNames_))).first->second;
+}
+
+const Program& Renderer::backgroundFor(Environment environment) {
+  const auto found = backgrounds_.find(environment);
+  if (found != backgrounds_.end()) return found->second;
+  return backgrounds_
+      .emplace(environment, build(composeBackground(environment, sources_, fileNames_)))
+      .first->second;
+}
+
+RenderTarget& Renderer::targetFor(int width, int height, int samples) {
+  if (!target_ || target_->width() < width || target_->height() < height ||
+      askedSamples_ != samples) {
+    target_.reset();  // first: both at once would double the memory
+    target_ = std::make_unique<RenderTarget>(width, height, samples);
+    askedSamples_ = samples;
+  }
+  return *target_;
+}
+
+Renderer::Picture Renderer::begin(GpuScene& scene, DrawList list, const Look& look) {
+  return {*this, scene, std::move(list), look};
+}
+
+Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look)
+    : renderer_(renderer),
+      scene_(scene),
+      list_(std::move(list)),
+      look_(look),
+      layout_(tilesFor(look.resolution, look.antiAliasing)),
+      lights_(Buffer::make()),
+      draws_(Buffer::make()),
+      materials_(Buffer::make()) {
+  {
+    const Stopwatch time(times_.compile);
+    for (const DrawItem& item : list_.items)
+      programs_.push_back(&renderer.programFor(item.variant));
+    if (look_.environmentBackground) renderer.backgroundFor(look_.environment);
+  }
+  const Stopwatch time(times_.draw);
+  renderer.targetFor(layout_.tileWidth * layout_.scale, layout_.bandHeight * layout_.scale,
+                     layout_.samples);
+  glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
+  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
+               list_.lights.data(), GL_STREAM_DRAW);
+  drawStride_ = uploadBlocks<DrawBlock>(
+      draws_, list_.items, [](const DrawItem& i) -> const DrawBlock& { return i.draw; });
+  materialStride_ = uploadBlocks<MaterialBlock>(
+      materials_, list_.items,
+      [](const DrawItem& i) -> const MaterialBlock& { return i.materialBlock; });
+  for (const DrawItem& item : list_.items)
+    scene.geometry(item.mesh, item.variant.program == Shading::flat);
+  checkGl("upload");
+}
+
+int Renderer::Picture::samples() const { return renderer_.target_->samples(); }
+
+void Renderer::Picture::drawBand(Image& rows) {
+  const auto& band = layout_.bands.at(nextBand_++);
+  rows.width = look_.resolution.x;
+  rows.height = band.front().height;
+  rows.values.resize(std::size_t(4) * rows.width * rows.height);
+  for (const Tile& tile : band) drawTile(tile, rows);
+}
+
+void Renderer::Picture::drawTile(const Tile& tile, Image& rows) {
+  RenderTarget& target = *renderer_.target_;
+  const int width = tile.width * layout_.scale, height = tile.height * layout_.scale;
+  {
+    const Stopwatch time(times_.draw);
+    // The tile's corners as shares of the picture, from the lower left.
+    const glm::dvec2 whole(look_.resolution);
+    const glm::dvec2 lower = glm::dvec2(tile.x, look_.resolution.y - tile.y - tile.height) / whole;
+    const glm::dvec2 upper = glm::dvec2(tile.x + tile.width, look_.resolution.y - tile.y) / whole;
+    FrameBlock frame = list_.frame;
+    frame.projection = glm::mat4(projection(list_.camera, lower, upper, renderer_.clipControl_));
+    if (!list_.camera.orthographic) {
+      const glm::dvec2 reach =
+          glm::dvec2(list_.camera.halfHeight * list_.camera.aspect, list_.camera.halfHeight);
+      frame.rays =
+          glm::vec4(glm::vec2((upper - lower) * reach), glm::vec2((upper + lower - 1.0) * reach));
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
+    if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
+
+    target.bind();
+    glViewport(0, 0, width, height);
+    if (renderer_.clipControl_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(renderer_.clipControl_ ? GL_GREATER : GL_LESS);
+    glDepthMask(GL_TRUE);
+    glClearDepth(renderer_.clipControl_ ? 0.0 : 1.0);
+    const glm::vec3 background(look_.backgroundColor);
+    if (look_.noBackground)
+      glClearColor(0, 0, 0, 0);
+    else
+      glClearColor(background.r, background.g, background.b, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+    if (look_.environmentBackground && !look_.noBackground) {
+      glDisable(GL_DEPTH_TEST);
+      glDisable(GL_BLEND);
+      glDisable(GL_CULL_FACE);
+      renderer_.backgroundFor(look_.environment).use();
+      glBindVertexArray(renderer_.noVertices_.id());
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+      glEnable(GL_DEPTH_TEST);
+    }
+    const Program* used = nullptr;
+    for (std::size_t i = 0; i < list_.items.size(); ++i) {
+      const DrawItem& item = list_.items[i];
+      if (programs_[i] != used) (used = programs_[i])->use();
+      setState(item);
+      glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawStride_ * GLsizeiptr(i),
+                        sizeof(DrawBlock));
+      glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(),
+                        materialStride_ * GLsizeiptr(i), sizeof(MaterialBlock));
+      const Material& material = scene_.scene().materials[std::size_t(item.material)];
+      if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
+      if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);
+      const GpuScene::Geometry& g =
+          scene_.geometry(item.mesh, item.variant.program == Shading::flat);
+      glBindVertexArray(g.array.id());
+      glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
+    }
+    target.resolve();
+    checkGl("draw");
+  }
+  const Stopwatch time(times_.read);
+  scratch_.resize(std::size_t(4) * target.width() * height);
+  target.readRows(scratch_.data(), 0, height);
+  copyRows(scratch_.data(), target.width(), layout_.scale, tile, rows);
+  checkGl("read");
+}
+
+Image Renderer::draw(GpuScene& scene, const Bounds& bounds, const Look& look) {
+  Picture picture = begin(scene, makeDrawList(scene.scene(), bounds, look), look);
+  Image image{look.resolution.x, look.resolution.y, {}};
+  image.values.reserve(std::size_t(4) * image.width * image.height);
+  Image band;
+  for (int i = 0; i < picture.bandCount(); ++i) {
+    picture.drawBand(band);
+    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
+  }
+  return image;
+}
+
+}  // namespace glint

@@ -12,9 +12,10 @@ struct Tile {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The parts in which a picture is drawn, through one buffer of the size of the first. Interpolation
-/// rounds differently from part to part, so the layout belongs to the definition of the picture: it
-/// depends on nothing but resolution and anti-aliasing, the same on every machine and in the window.
+/// The parts in which a picture is drawn, through one buffer of the size of the first.
+/// Interpolation rounds differently from part to part, so the layout belongs to the definition of
+/// the picture: it depends on nothing but resolution and anti-aliasing, the same on every machine
+/// and in the window.
 struct TileLayout {
   int bandHeight = 0;  ///< rows of a band; the last one may have fewer
   int tileWidth = 0;

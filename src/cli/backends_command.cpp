@@ -1,0 +1,31 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "glint/gl/context.h"
+
+namespace glint {
+
+Command addBackends(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("backends", "list which GL backends work here, and why not");
+  auto json = std::make_shared<std::string>();
+  command->add_option("--json", *json, "write the list as JSON; - is stdout")->type_name("FILE");
+  return [json] {
+    bool any = false;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const BackendReport& report : probeBackends()) {
+      any = any || report.works;
+      const std::string name = backendName(report.backend);
+      list.push_back({{"name", name}, {"works", report.works}, {"detail", report.detail}});
+      if (*json != "-")
+        std::cout << name << std::string(14 - name.size(), ' ')
+                  << (report.works ? "works  " : "no     ") << report.detail << "\n";
+    }
+    if (!json->empty()) writeText(*json, list.dump(2) + "\n");
+    return any ? done : noContext;
+  };
+}
+
+}  // namespace glint

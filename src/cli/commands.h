@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "glint/scene/look.h"
+
+namespace glint {
+
+/// Status codes of the program, for scripts.
+enum ExitStatus : int { done = 0, differs = 1, unusable = 2, noContext = 3, noBaseline = 4 };
+
+/// Each adds a subcommand to the program; the returned function runs it after parsing and gives the
+/// exit status. Errors are exceptions.
+using Command = std::function<int()>;
+Command addRender(CLI::App&);
+Command addInfo(CLI::App&);
+Command addBackends(CLI::App&);
+
+/// Adds the options of the look, from its table, with --look and --save-look. The returned function
+/// gives, after parsing, the look they add up to (options over look file over defaults) and writes
+/// the file of --save-look.
+std::function<Look()> addLookOptions(CLI::App&);
+
+/// Writes text to a file, or to stdout for "-".
+void writeText(const std::string& path, const std::string& text);
+
+/// "glint: warning: TEXT" on stderr, one line.
+void printWarning(const std::string& text);
+
+}  // namespace glint

@@ -1,0 +1,124 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "commands.h"
+#include "glint/render/draw_list.h"
+#include "glint/scene/gltf.h"
+#include "glint/scene/parameters.h"
+#include "report.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vectorJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json materialJson(const Material& m, const std::set<int>& read) {
+  Json json{{"name", m.name}};
+  for (const MaterialParameter& p : materialParameters())
+    json[std::string(p.name)] = m.shading.*p.value;
+  json["color"] = vectorJson(m.shading.color);
+  json["alpha"] = m.alpha;
+  constexpr const char* modes[] = {"opaque", "mask", "blend"};
+  json["alphaMode"] = modes[int(m.alphaMode)];
+  json["doubleSided"] = m.doubleSided;
+  json["unlit"] = m.unlit;
+  json["transmission"] = m.transmission;
+  json["emission"] = vectorJson(m.emission);
+  const auto texture = [&](const char* key, const std::optional<Texture>& t) {
+    if (t) json[key] = {{"image", t->image}, {"read", read.contains(t->image)}};
+  };
+  texture("colorTexture", m.colorTexture);
+  texture("emissionTexture", m.emissionTexture);
+  return json;
+}
+
+Json infoJson(const Scene& scene, const Look& look) {
+  const Bounds bounds = boundsOf(scene);
+  const DrawList list = makeDrawList(scene, bounds, look);
+  const std::vector<int> images = imagesRead(scene, look);
+  const std::set<int> read(images.begin(), images.end());
+  Json json{{"model", scene.name},
+            {"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"triangles", triangleCount(scene, list)},
+            {"center", vectorJson(bounds.center)},
+            {"radius", bounds.radius}};
+  json["materials"] = Json::array();
+  for (const Material& m : scene.materials)
+    json["materials"].push_back(materialJson(editedMaterial(m, look), read));
+  json["images"] = Json::array();
+  for (std::size_t i = 0; i < scene.images.size(); ++i)
+    json["images"].push_back({{"name", scene.images[i].name},
+                              {"bytes", scene.images[i].bytes.size()},
+                              {"read", read.contains(int(i))}});
+  json["cameras"] = Json::array();
+  for (const FileCamera& c : scene.cameras)
+    json["cameras"].push_back(
+        {{"name", c.name}, {"type", c.orthographic ? "orthographic" : "perspective"}});
+  json["variants"] = variantsJson(scene, list, look);
+  json["warnings"] = scene.warnings;
+  return json;
+}
+
+std::string oneLine(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void print(const Json& json) {
+  std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
+            << json["meshes"] << " meshes in " << json["instances"] << " places, radius "
+            << json["radius"] << " about " << json["center"].dump() << "\n";
+  std::cout << "\nMaterials\n";
+  for (const Json& m : json["materials"]) {
+    const std::string name = m["name"];
+    std::cout << "  " << (name.empty() ? "(no name)" : name) << "\n   ";
+    for (const auto& [key, value] : m.items())
+      if (key != "name") std::cout << " " << key << "=" << oneLine(value);
+    std::cout << "\n";
+  }
+  if (!json["images"].empty()) std::cout << "\nImages\n";
+  for (const Json& image : json["images"])
+    std::cout << "  " << oneLine(image["name"]) << ": " << image["bytes"] << " bytes, "
+              << (image["read"] ? "read" : "not read by this look") << "\n";
+  if (!json["cameras"].empty()) std::cout << "\nCameras\n";
+  for (std::size_t i = 0; i < json["cameras"].size(); ++i)
+    std::cout << "  " << i << ": " << oneLine(json["cameras"][i]["type"]) << " "
+              << oneLine(json["cameras"][i]["name"]) << "\n";
+  std::cout << "\nShader variants\n";
+  for (const Json& v : json["variants"]) {
+    std::cout << "  " << oneLine(v["program"]) << " for";
+    for (const Json& m : v["materials"])
+      std::cout << " " << (m == "" ? std::string("(no name)") : oneLine(m));
+    std::cout << "\n    holds";
+    for (const Json& f : v["features"]) std::cout << " " << oneLine(f);
+    std::cout << "\n";
+    for (const auto& [feature, reason] : v["reasons"].items())
+      std::cout << "      " << feature << ": " << oneLine(reason) << "\n";
+  }
+}
+
+}  // namespace
+
+Command addInfo(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("info", "say what is in a model, which shader variants it needs, and why");
+  auto model = std::make_shared<std::string>(), jsonFile = std::make_shared<std::string>();
+  command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb")->required();
+  command->add_option("--json", *jsonFile, "write it as JSON; - is stdout")->type_name("FILE");
+  auto makeLook = addLookOptions(*command);
+  return [=] {
+    const Look look = makeLook();
+    const Scene scene = loadGltf(*model);
+    const Json json = infoJson(scene, look);
+    for (const std::string& warning : scene.warnings) printWarning(warning);
+    if (*jsonFile != "-") print(json);
+    if (!jsonFile->empty()) writeText(*jsonFile, json.dump(2) + "\n");
+    return done;
+  };
+}
+
+}  // namespace glint

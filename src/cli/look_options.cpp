@@ -1,0 +1,99 @@
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/scene/parameters.h"
+
+namespace glint {
+namespace {
+
+// Options beat the look file also where the file speaks of one material and the option of all.
+void mergeMaterials(Look& look, const Look& options) {
+  const auto all = options.material.find("");
+  if (all != options.material.end()) {
+    for (auto& [name, edit] : look.material) {
+      for (const auto& p : materialParameters())
+        if (all->second.*p.edit) (edit.*p.edit).reset();
+      if (all->second.color) edit.color.reset();
+    }
+  }
+  for (const auto& [name, from] : options.material) {
+    MaterialEdit& to = look.material[name];
+    for (const auto& p : materialParameters())
+      if (from.*p.edit) to.*p.edit = from.*p.edit;
+    if (from.color) to.color = from.color;
+  }
+  std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
+}
+
+std::string defaultText(const Parameter& p) {
+  const auto value = p.save(Look{});
+  if (value.is_null() || value == false) return {};
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  if (p.name == "background-color") text = "#333333";
+  return " [default: " + text + "]";
+}
+
+struct LookOptions {
+  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::string lookFile, saveFile;
+};
+
+}  // namespace
+
+std::function<Look()> addLookOptions(CLI::App& app) {
+  auto state = std::make_shared<LookOptions>();
+  for (const Parameter& p : lookParameters()) {
+    CLI::Option* option = nullptr;
+    if (p.value.empty()) {
+      option = app.add_flag("--" + p.name, p.help);
+    } else {
+      option = app.add_option("--" + p.name, p.help + defaultText(p))->type_name(p.value);
+      option->expected(1)->allow_extra_args(false);
+      if (p.repeatable)
+        option->take_all();
+      else
+        option->take_last();
+    }
+    option->group(p.section);
+    state->options.emplace_back(&p, option);
+  }
+  app.add_option("--look", state->lookFile, "begin with the look in this file (JSON)")
+      ->type_name("FILE")
+      ->group("Looks");
+  app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")
+      ->type_name("FILE")
+      ->group("Looks");
+
+  return [state] {
+    Look look;
+    if (!state->lookFile.empty()) {
+      const auto bytes = readFile(state->lookFile);
+      readLook(look, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+               state->lookFile);
+    }
+    Look materials;
+    for (const auto& [p, option] : state->options) {
+      if (option->count() == 0) continue;
+      if (p->name == "light") look.light.reset();
+      Look& target = p->name == "material" ? materials : look;
+      for (const std::string& text : option->results()) p->read(target, text);
+    }
+    mergeMaterials(look, materials);
+    if (!state->saveFile.empty()) writeText(state->saveFile, saveLook(look));
+    return look;
+  };
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
+void printWarning(const std::string& text) { std::cerr << "glint: warning: " << text << "\n"; }
+
+}  // namespace glint

@@ -1,0 +1,189 @@
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "glint/gl/context.h"
+#include "glint/image/error.h"
+#include "glint/image/picture_writer.h"
+#include "glint/render/renderer.h"
+#include "glint/scene/gltf.h"
+#include "output_names.h"
+#include "report.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct RenderOptions {
+  std::vector<std::string> models;
+  std::string output, backend = "auto", json, glsl;
+  int bitDepth = 8;
+};
+
+/// A model read and decoded, or why it could not be.
+struct Loaded {
+  Scene scene;
+  Bounds bounds;
+  DecodedImages images;
+  std::string error;
+  double loadTime = 0, decodeTime = 0;
+};
+
+Loaded load(const std::string& path, const Look& look) {
+  Loaded loaded;
+  try {
+    const auto start = Clock::now();
+    loaded.scene = loadGltf(path);
+    loaded.bounds = boundsOf(loaded.scene);
+    loaded.loadTime = since(start);
+    checkMaterialNames(loaded.scene, look);
+    const auto decode = Clock::now();
+    loaded.images = decodeImages(loaded.scene, look);
+    loaded.decodeTime = since(decode);
+  } catch (const InputError& error) {
+    loaded.error = error.what();
+  } catch (const std::bad_alloc&) {
+    loaded.error = path + ": out of memory: the model is too large for this machine";
+  }
+  return loaded;
+}
+
+/// Draws one loaded model into its file; fills its entry of the report.
+void drawPicture(Renderer& renderer, Loaded& loaded, const Look& look, const RenderOptions& options,
+                 const std::string& output, Json& entry) {
+  const auto opened = Clock::now();
+  GpuScene scene(loaded.scene, std::move(loaded.images));
+  auto picture = renderer.begin(scene, makeDrawList(loaded.scene, loaded.bounds, look), look);
+  PictureOptions file;
+  file.bitDepth = options.bitDepth;
+  file.alpha = look.noBackground;
+  file.exposureScale = float(std::exp2(look.exposure));
+  const auto writer = openPictureWriter(output, look.resolution.x, look.resolution.y, file);
+  double encode = 0;
+  Image rows;
+  for (int band = 0; band < picture.bandCount(); ++band) {
+    picture.drawBand(rows);
+    const auto start = Clock::now();
+    writer->write(rows);
+    encode += since(start);
+  }
+  const auto start = Clock::now();
+  writer->finish();
+  encode += since(start);
+  if (writer->nanPixels() > 0)
+    loaded.scene.warnings.push_back(output + ": " + std::to_string(writer->nanPixels()) +
+                                    " pixels are not numbers and are shown black: please report "
+                                    "this model");
+  const RenderTimes& times = picture.times();
+  entry["triangles"] = triangleCount(loaded.scene, picture.list());
+  entry["draws"] = picture.list().items.size();
+  entry["samples"] =
+      picture.samples() * look.antiAliasing.count *
+      (look.antiAliasing.mode == AntiAliasing::Mode::ssaa ? look.antiAliasing.count : 1);
+  if (look.antiAliasing.mode == AntiAliasing::Mode::msaa) entry["samples"] = picture.samples();
+  entry["variants"] = variantsJson(loaded.scene, picture.list(), look);
+  entry["ms"] = {
+      {"load", loaded.loadTime}, {"decode", loaded.decodeTime},
+      {"context", 0.0},          {"compile", times.compile},
+      {"draw", times.draw},      {"read", times.read},
+      {"encode", encode},        {"total", since(opened) + loaded.loadTime + loaded.decodeTime}};
+}
+
+int render(const RenderOptions& options, const std::function<Look()>& makeLook) {
+  const auto started = Clock::now();
+  if (options.output == "-" && options.json == "-")
+    throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
+  const Backend backend = backendFromName(options.backend);
+  const std::vector<std::string> outputs = outputNames(options.output, options.models);
+  for (const std::string& output : outputs) checkPictureName(output, options.bitDepth);
+  const Look look = makeLook();
+  GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
+
+  // Loading the driver and reading the first model take about as long: side by side.
+  auto opening = openContextAsync(backend);
+  auto next = std::async(std::launch::async, load, options.models[0], std::cref(look));
+  next.wait();
+  const auto waited = Clock::now();
+  const auto context = opening.get();
+  context->makeCurrent();
+  const double contextTime = since(waited);
+  if (!context->remark().empty()) printWarning(context->remark());
+
+  const GlStrings gl = glStrings();
+  Json report{{"glint", GLINT_VERSION},
+              {"backend", backendName(context->backend())},
+              {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
+              {"pictures", Json::array()}};
+  Renderer renderer(std::move(sources));
+  int status = done;
+  for (std::size_t i = 0; i < options.models.size(); ++i) {
+    Loaded loaded = next.get();
+    if (i + 1 < options.models.size())
+      next = std::async(std::launch::async, load, options.models[i + 1], std::cref(look));
+    Json entry{{"model", options.models[i]}, {"output", outputs[i]}, {"status", int(done)}};
+    if (loaded.error.empty()) {
+      try {
+        drawPicture(renderer, loaded, look, options, outputs[i], entry);
+      } catch (const InputError& error) {
+        loaded.error = error.what();
+      }
+    }
+    if (i == 0 && entry.contains("ms")) {
+      entry["ms"]["context"] = contextTime;
+      entry["ms"]["total"] = since(started);
+    }
+    for (const std::string& warning : loaded.scene.warnings) printWarning(warning);
+    entry["warnings"] = loaded.scene.warnings;
+    if (!loaded.error.empty()) {
+      std::cerr << "glint: " << loaded.error << "\n";
+      entry["status"] = int(unusable);
+      entry["error"] = loaded.error;
+      status = unusable;
+    }
+    report["pictures"].push_back(entry);
+  }
+  if (!options.json.empty()) writeText(options.json, report.dump(2) + "\n");
+  return status;
+}
+
+}  // namespace
+
+Command addRender(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("render", "draw pictures of models, offscreen");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("MODEL", options->models, "glTF 2.0 models, .gltf or .glb")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "the picture: .png (8 bit sRGB, or 16), .pfm (linear float), - (PNG to stdout); "
+                   "{model} and {n} stand for the model's name and number")
+      ->type_name("OUT")
+      ->required()
+      ->take_last();
+  command->add_option("--bit-depth", options->bitDepth, "of PNG: 8 or 16 [default: 8]")
+      ->type_name("BITS");
+  command
+      ->add_option("--rendering-backend", options->backend,
+                   "what to draw with; auto tries egl, then osmesa [default: auto]")
+      ->type_name("auto|egl|egl-software|osmesa")
+      ->take_last();
+  command->add_option("--json", options->json, "write a report of the run; - is stdout")
+      ->type_name("FILE");
+  command
+      ->add_option("--glsl", options->glsl, "take shader files from this folder where it has them")
+      ->type_name("DIR");
+  auto look = addLookOptions(*command);
+  return [options, look] { return render(*options, look); };
+}
+
+}  // namespace glint

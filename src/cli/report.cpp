@@ -1,0 +1,46 @@
+#include "report.h"
+
+#include <algorithm>
+#include <map>
+
+#include "glint/scene/parameters.h"
+
+namespace glint {
+
+using Json = nlohmann::ordered_json;
+
+Json variantsJson(const Scene& scene, const DrawList& list, const Look& look) {
+  std::map<Variant, const DrawItem*> firsts;
+  std::map<Variant, std::vector<std::string>> materials;
+  for (const DrawItem& item : list.items) {
+    firsts.emplace(item.variant, &item);
+    auto& names = materials[item.variant];
+    const std::string& name = scene.materials[std::size_t(item.material)].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  Json all = Json::array();
+  for (const auto& [variant, item] : firsts) {
+    const Material material = editedMaterial(scene.materials[std::size_t(item->material)], look);
+    Json reasons = Json::object();
+    for (const FeatureReason& r : reasonsFor(variant, scene.meshes[std::size_t(item->mesh)],
+                                             material, look, list.camera.orthographic))
+      reasons[r.feature] = r.reason;
+    all.push_back({{"program", variant.unlit ? "unlit" : shadingName(variant.program)},
+                   {"features", featureNames(variant)},
+                   {"reasons", reasons},
+                   {"materials", materials[variant]}});
+  }
+  return all;
+}
+
+std::size_t triangleCount(const Scene& scene, const DrawList& list) {
+  std::size_t count = 0;
+  for (const DrawItem& item : list.items) {
+    const Mesh& mesh = scene.meshes[std::size_t(item.mesh)];
+    if (mesh.topology == Topology::triangles && item.faces != FaceSide::back)
+      count += mesh.indices.size() / 3;
+  }
+  return count;
+}
+
+}  // namespace glint

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "glint/render/draw_list.h"
+
+namespace glint {
+
+/// The variants of a picture with their features, reasons and materials, as `render --json` and
+/// `info` report them.
+nlohmann::ordered_json variantsJson(const Scene&, const DrawList&, const Look&);
+
+/// Triangles drawn, each instance counted.
+std::size_t triangleCount(const Scene&, const DrawList&);
+
+}  // namespace glint

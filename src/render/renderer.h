@@ -1,0 +1,82 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "glint/gl/framebuffer.h"
+#include "glint/gl/handles.h"
+#include "glint/gl/program.h"
+#include "glint/image/image.h"
+#include "glint/render/draw_list.h"
+#include "glint/render/glsl_sources.h"
+#include "glint/render/gpu_scene.h"
+#include "glint/render/tiles.h"
+
+namespace glint {
+
+/// Milliseconds that parts of a picture took.
+struct RenderTimes {
+  double compile = 0, draw = 0, read = 0;
+};
+
+/// Draws scenes into pictures of linear light. Keeps its programs from picture to picture; lives
+/// and dies in one current context.
+class Renderer {
+ public:
+  explicit Renderer(GlslSources sources = {});
+
+  /// A picture being drawn, band by band from the top.
+  class Picture {
+   public:
+    int bandCount() const { return int(layout_.bands.size()); }
+    /// The next band's rows: linear, premultiplied by alpha over the background, before exposure.
+    /// The image is reused if it has room.
+    void drawBand(Image& rows);
+    const DrawList& list() const { return list_; }
+    /// Samples a pixel that the driver gave.
+    int samples() const;
+    const RenderTimes& times() const { return times_; }
+
+   private:
+    friend class Renderer;
+    Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
+    void drawTile(const Tile& tile, Image& rows);
+
+    Renderer& renderer_;
+    GpuScene& scene_;
+    DrawList list_;
+    Look look_;
+    TileLayout layout_;
+    std::size_t nextBand_ = 0;
+    Buffer lights_, draws_, materials_;
+    GLsizeiptr drawStride_ = 0, materialStride_ = 0;
+    std::vector<const Program*> programs_;  ///< of each item
+    std::vector<float> scratch_;
+    RenderTimes times_;
+  };
+
+  /// Prepares a picture: compiles what is missing, uploads what is new. Throws InputError for more
+  /// samples or pixels than the driver has, Error for shaders that do not compile. The scene must
+  /// outlive the picture.
+  Picture begin(GpuScene&, DrawList, const Look&);
+
+  /// Draws a whole picture at once.
+  Image draw(GpuScene&, const Bounds&, const Look&);
+
+ private:
+  const Program& programFor(const Variant&);
+  const Program& backgroundFor(Environment);
+  RenderTarget& targetFor(int width, int height, int samples);
+
+  GlslSources sources_;
+  bool fileNames_;
+  bool clipControl_;
+  std::map<Variant, Program> programs_;
+  std::map<Environment, Program> backgrounds_;
+  std::unique_ptr<RenderTarget> target_;
+  int askedSamples_ = 0;
+  VertexArray noVertices_;
+  Buffer frame_;
+};
+
+}  // namespace glint
