@@ -1,7 +1,7 @@
 #include <cstdio>
-// jpeglib.h needs size_t and FILE declared before it.
+// jpeglib.h needs FILE declared before it, jerror.h needs jpeglib.h.
 #include <jpeglib.h>
-// clang-format keeps jerror.h after it.
+
 #include <jerror.h>
 
 #include <algorithm>
@@ -61,7 +61,6 @@ void onOutput(j_common_ptr) {}
 
 void onProgress(j_common_ptr info) {
   if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > scanLimit) {
-    info->err->msg_code = JERR_NOT_COMPILED;
     std::snprintf(readerOf(info).message, JMSG_LENGTH_MAX, "more than %d scans", scanLimit);
     std::longjmp(readerOf(info).failed, 1);
   }

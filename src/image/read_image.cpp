@@ -1,6 +1,8 @@
 #include "glint/image/read_image.h"
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
