@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/texture.h"
+
+struct spng_ctx;
+
+namespace glint::detail {
+
+constexpr int maxSide = 16384;  ///< pixels
+
+bool isPng(std::span<const std::byte> bytes);
+bool isJpeg(std::span<const std::byte> bytes);
+
+ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
+
+/// A PNG whose header has been read and whose size is allowed. `bytes` must outlive it.
+class PngReader {
+ public:
+  PngReader(std::span<const std::byte> bytes, const std::string& name);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int bitDepth() const { return bitDepth_; }  ///< of the file: 1, 2, 4, 8 or 16
+
+  /// Straight RGBA, rows from the top: 4 * width * height values each.
+  void decode(std::vector<std::uint8_t>& rgba);
+  void decode(std::vector<std::uint16_t>& rgba);
+
+ private:
+  void decodeTo(void* out, std::size_t size, int format);
+  void check(int status) const;
+
+  std::string name_;
+  std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png_;
+  int width_ = 0;
+  int height_ = 0;
+  int bitDepth_ = 0;
+};
+
+/// A line for data that no decoder can make sense of.
+inline InputError damaged(const std::string& name, const std::string& what) {
+  return InputError(printablePath(name) + ": " + what + ": save the picture again");
+}
+
+/// Throws InputError if a side is longer than maxSide.
+void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height);
+
+}  // namespace glint::detail

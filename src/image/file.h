@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glint {
+
+/// A path as error messages show it: control characters become '?', so that a message stays one
+/// line.
+std::string printablePath(std::string_view path);
+
+/// The bytes of a regular file (symbolic links are followed).
+/// Throws InputError "PATH: what: what to do" for a missing or unreadable file and for a folder, a
+/// FIFO, a socket or a device, which are refused without waiting for them.
+std::vector<std::byte> readFile(const std::string& path);
+
+/// A file that appears whole or not at all: what is written stays invisible until commit(), and
+/// without commit() nothing is left and an older file of that name stays as it was.
+///
+/// The path "-" is standard output, and a path that exists and is not a regular file (/dev/null, a
+/// FIFO) is written directly; there what was written before an error cannot be taken back. A
+/// symbolic link stays, and the file it points to is replaced. New files have the permissions
+/// 0666 less the umask.
+///
+/// All members throw InputError: missing folder, no permission, disk full.
+class OutputFile {
+ public:
+  enum class Staging {
+    unnamed,  ///< an unnamed file (O_TMPFILE) where the file system has them, else as `named`
+    named,    ///< a file ".NAME.XXXXXX" beside the target; a killed process leaves it behind
+  };
+
+  explicit OutputFile(const std::string& path, Staging staging = Staging::unnamed);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Appends. Small pieces are collected, so an error may be reported by a later call.
+  void write(std::span<const std::byte> bytes);
+
+  /// Writes at an offset in bytes from the beginning, which may lie beyond the end so far (the gap
+  /// reads as zeros). Not for standard output, FIFOs and sockets. Not to be mixed with write().
+  void writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
+
+  /// Puts the file in its place. Nothing may be written afterwards.
+  void commit();
+
+ private:
+  void openStaged(Staging staging);
+  void flush();
+  void writeAll(std::span<const std::byte> bytes, std::int64_t offset);
+  void link();
+  [[noreturn]] void fail(int error) const;
+
+  std::string path_;       ///< as the user gave it, for messages
+  std::string target_;     ///< with links followed; empty when written directly
+  std::string temporary_;  ///< the named file that must go if there is no commit
+  int file_ = -1;
+  std::vector<std::byte> pending_;
+};
+
+}  // namespace glint

@@ -1,1 +1,0 @@
-#include "glint/image/image.h"

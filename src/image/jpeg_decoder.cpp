@@ -1,0 +1,156 @@
+#include <cstdio>
+// jpeglib.h needs FILE declared before it, jerror.h needs jpeglib.h.
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include <algorithm>
+#include <csetjmp>
+
+#include "glint/image/decoders.h"
+
+// libjpeg reports errors through a function that must not return. It jumps back into one of the
+// small functions below that have no object with a destructor, so that the jump skips none.
+
+namespace glint::detail {
+namespace {
+
+// Enough for the coefficients of a progressive picture of the largest size, 4:2:0.
+constexpr long memoryLimit = 1L << 30;
+// A hostile progressive file repeats empty scans, each of which visits the whole picture; real
+// ones have about ten.
+constexpr int scanLimit = 100;
+constexpr int blockRows = 64;
+
+struct JpegReader {
+  jpeg_decompress_struct info{};
+  jpeg_error_mgr errors{};
+  jpeg_progress_mgr progress{};
+  std::jmp_buf failed{};
+  char message[JMSG_LENGTH_MAX] = "";
+
+  JpegReader() = default;
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&info); }
+};
+
+JpegReader& readerOf(j_common_ptr info) { return *static_cast<JpegReader*>(info->client_data); }
+
+[[noreturn]] void onError(j_common_ptr info) {
+  info->err->format_message(info, readerOf(info).message);
+  std::longjmp(readerOf(info).failed, 1);
+}
+
+/// libjpeg goes on after damage and fills in grey; here damage to the pixels is an error.
+void onMessage(j_common_ptr info, int level) {
+  if (level >= 0) return;
+  switch (info->err->msg_code) {
+    case JWRN_HIT_MARKER:
+    case JWRN_HUFF_BAD_CODE:
+    case JWRN_JPEG_EOF:
+    case JWRN_MUST_RESYNC:
+    case JWRN_ARITH_BAD_CODE:
+      onError(info);
+    default:
+      return;
+  }
+}
+
+void onOutput(j_common_ptr) {}
+
+void onProgress(j_common_ptr info) {
+  if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > scanLimit) {
+    std::snprintf(readerOf(info).message, JMSG_LENGTH_MAX, "more than %d scans", scanLimit);
+    std::longjmp(readerOf(info).failed, 1);
+  }
+}
+
+/// False, and a message, on an error; so below.
+bool readHeader(JpegReader& reader, const unsigned char* bytes, unsigned long size) {
+  if (setjmp(reader.failed) != 0) return false;
+  reader.info.err = jpeg_std_error(&reader.errors);
+  reader.errors.error_exit = onError;
+  reader.errors.emit_message = onMessage;
+  reader.errors.output_message = onOutput;
+  reader.info.client_data = &reader;
+  jpeg_create_decompress(&reader.info);
+  reader.info.mem->max_memory_to_use = memoryLimit;
+  reader.progress.progress_monitor = onProgress;
+  reader.info.progress = &reader.progress;
+  jpeg_mem_src(&reader.info, bytes, size);
+  jpeg_read_header(&reader.info, TRUE);
+  return true;
+}
+
+bool startDecoding(JpegReader& reader) {
+  if (setjmp(reader.failed) != 0) return false;
+  const bool cmyk = reader.info.num_components == 4;
+  reader.info.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
+  jpeg_start_decompress(&reader.info);
+  return true;
+}
+
+/// `count` rows of 4 bytes a pixel.
+bool readRows(JpegReader& reader, unsigned char* rows, int count) {
+  if (setjmp(reader.failed) != 0) return false;
+  const JDIMENSION end = reader.info.output_scanline + static_cast<JDIMENSION>(count);
+  const JDIMENSION begin = reader.info.output_scanline;
+  while (reader.info.output_scanline < end) {
+    JSAMPROW row =
+        rows + std::size_t(4) * reader.info.output_width * (reader.info.output_scanline - begin);
+    jpeg_read_scanlines(&reader.info, &row, 1);
+  }
+  return true;
+}
+
+unsigned char product(unsigned a, unsigned b) {
+  return static_cast<unsigned char>((a * b + 127) / 255);
+}
+
+/// Without a profile CMYK says little about colour; this is what most viewers do. Adobe's files,
+/// nearly all there are, hold the complements.
+void convertCmyk(std::vector<unsigned char>& pixels, bool complements) {
+  const unsigned flip = complements ? 0 : 255;
+  for (std::size_t i = 0; i < pixels.size(); i += 4) {
+    const unsigned black = pixels[i + 3] ^ flip;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      pixels[i + channel] = product(pixels[i + channel] ^ flip, black);
+    }
+    pixels[i + 3] = 255;
+  }
+}
+
+}  // namespace
+
+bool isJpeg(std::span<const std::byte> bytes) {
+  return bytes.size() >= 3 && bytes[0] == std::byte(0xff) && bytes[1] == std::byte(0xd8) &&
+         bytes[2] == std::byte(0xff);
+}
+
+ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name) {
+  JpegReader reader;
+  const auto check = [&](bool good) {
+    if (!good) throw damaged(name, std::string("the JPEG is damaged (") + reader.message + ")");
+  };
+  check(readHeader(reader, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  checkSides(name, reader.info.image_width, reader.info.image_height);
+  check(startDecoding(reader));
+  ByteImage image;
+  image.width = static_cast<int>(reader.info.output_width);
+  image.height = static_cast<int>(reader.info.output_height);
+  const std::size_t rowBytes = std::size_t(4) * image.width;
+  image.values.reserve(rowBytes * image.height);
+  // Grown as rows arrive: a small file that claims to be a giant touches little memory.
+  for (int y = 0; y < image.height; y += blockRows) {
+    const int count = std::min(blockRows, image.height - y);
+    image.values.resize(rowBytes * (y + count));
+    check(readRows(reader, image.values.data() + rowBytes * y, count));
+  }
+  if (reader.info.out_color_space == JCS_CMYK) {
+    convertCmyk(image.values, reader.info.saw_Adobe_marker != 0);
+  }
+  return image;
+}
+
+}  // namespace glint::detail

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glint/image/image.h"
+
+namespace glint {
+
+struct PictureOptions {
+  int bitDepth = 8;         ///< of PNG: 8 or 16
+  bool alpha = false;       ///< PNG with straight alpha; without it the picture over black
+  float exposureScale = 1;  ///< times the colours before encoding to sRGB (PNG); finite, positive
+  /// Text chunks of a PNG: keyword (1 to 79 characters of Latin-1) and text (UTF-8).
+  std::vector<std::pair<std::string, std::string>> text;
+};
+
+/// A picture file written in pieces, from the top. It appears when finish() has returned; destroyed
+/// before that, it leaves nothing.
+class PictureWriter {
+ public:
+  virtual ~PictureWriter() = default;
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  /// The next rows, as many as `rows` has, as wide as the picture; copied or written on return.
+  /// Throws InputError if the file cannot be written (perhaps only at a later call), Error if the
+  /// rows do not fit the picture.
+  void write(const Image& rows);
+
+  /// Ends the file and puts it in its place, all rows having been written.
+  void finish();
+
+  /// The number of pixels written so far with a NaN in a colour (in PNG with alpha: or in alpha).
+  std::size_t nanPixels() const { return nanPixels_; }
+
+ protected:
+  PictureWriter(std::string path, int width, int height);
+  virtual void writeRows(const Image& rows) = 0;
+  virtual void finishFile() = 0;
+
+  const std::string path_;
+  const int width_;
+  const int height_;
+  int rowsWritten_ = 0;  ///< before the current write()
+  std::size_t nanPixels_ = 0;
+};
+
+/// Opens a picture of width x height pixels; the format is that of the path's ending:
+///
+///     .png  sRGB (perceptual), 8 or 16 bits, RGB or RGBA
+///     .pfm  "PF", 32-bit float, little-endian, linear, without exposure and alpha (the picture
+///     over
+///           black), bottom row first; needs a regular file
+///     "-"   PNG to standard output
+///
+/// Throws InputError for another ending, for sizes below 1 and for a file that cannot be made.
+std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int width, int height,
+                                                 const PictureOptions& options = {});
+
+}  // namespace glint

@@ -1,0 +1,85 @@
+#include <spng.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include "glint/image/decoders.h"
+
+namespace glint::detail {
+namespace {
+
+// Colour profiles and texts are of no use here; more of them than this is not a picture.
+constexpr std::size_t chunkLimit = std::size_t(32) << 20;
+
+/// Samples per pixel as they lie in the file.
+std::uint64_t samplesOf(int colourType) {
+  switch (colourType) {
+    case SPNG_COLOR_TYPE_TRUECOLOR:
+      return 3;
+    case SPNG_COLOR_TYPE_GRAYSCALE_ALPHA:
+      return 2;
+    case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+bool isPng(std::span<const std::byte> bytes) {
+  constexpr std::array<unsigned char, 8> signature{137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+  return bytes.size() >= signature.size() &&
+         std::equal(signature.begin(), signature.end(), bytes.begin(),
+                    [](unsigned char a, std::byte b) { return std::byte(a) == b; });
+}
+
+void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height) {
+  if (width <= maxSide && height <= maxSide) return;
+  throw InputError(printablePath(name) + ": " + std::to_string(width) + " x " +
+                   std::to_string(height) + " pixels are too many: at most " +
+                   std::to_string(maxSide) + " a side");
+}
+
+PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
+    : name_(name), png_(spng_ctx_new(0), spng_ctx_free) {
+  if (!png_) throw std::bad_alloc();
+  check(spng_set_crc_action(png_.get(), SPNG_CRC_ERROR, SPNG_CRC_DISCARD));
+  check(spng_set_chunk_limits(png_.get(), chunkLimit, chunkLimit));
+  check(spng_set_png_buffer(png_.get(), bytes.data(), bytes.size()));
+  spng_ihdr header{};
+  check(spng_get_ihdr(png_.get(), &header));
+  checkSides(name, header.width, header.height);
+  // Deflate makes no more than 1032 bytes of one. This refuses a small file that claims to be a
+  // giant before memory is spent on it.
+  const std::uint64_t bits = samplesOf(header.color_type) * header.bit_depth * header.width;
+  if ((bits + 7) / 8 * header.height > bytes.size() * 1032)
+    throw damaged(name, "the PNG is cut short");
+  width_ = static_cast<int>(header.width);
+  height_ = static_cast<int>(header.height);
+  bitDepth_ = header.bit_depth;
+}
+
+void PngReader::decode(std::vector<std::uint8_t>& rgba) {
+  rgba.resize(std::size_t(4) * width_ * height_);
+  decodeTo(rgba.data(), rgba.size(), SPNG_FMT_RGBA8);
+}
+
+void PngReader::decode(std::vector<std::uint16_t>& rgba) {
+  rgba.resize(std::size_t(4) * width_ * height_);
+  decodeTo(rgba.data(), rgba.size() * sizeof rgba[0], SPNG_FMT_RGBA16);
+}
+
+void PngReader::decodeTo(void* out, std::size_t size, int format) {
+  check(spng_decode_image(png_.get(), out, size, format, SPNG_DECODE_TRNS));
+  check(spng_decode_chunks(png_.get()));  // to the end, so that a cut file is noticed
+}
+
+void PngReader::check(int status) const {
+  if (status == 0) return;
+  if (status == SPNG_EMEM) throw std::bad_alloc();
+  throw damaged(name_, std::string("the PNG is damaged (") + spng_strerror(status) + ")");
+}
+
+}  // namespace glint::detail

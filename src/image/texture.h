@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+/// Pixels as a file has them: rows from the top, RGBA interleaved, straight alpha, encoded as in
+/// the file (sRGB for colours), nothing premultiplied.
+struct ByteImage {
+  int width = 0;
+  int height = 0;
+  int channels = 4;
+  std::vector<std::uint8_t> values;  ///< 4 * width * height
+};
+
+/// Decodes a PNG (all colour types and depths; 16 bits lose the lower 8) or a JPEG (grey, YCbCr,
+/// RGB, CMYK and YCCK by the usual naive conversion); the format is told by the first bytes. `name`
+/// stands in the messages. Nothing is printed.
+///
+/// Throws InputError "NAME: what: what to do" for other formats, for data that are damaged or cut
+/// short, and for more than 16384 pixels a side.
+ByteImage decodeTexture(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace glint

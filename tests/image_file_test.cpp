@@ -1,0 +1,202 @@
+#include "glint/image/file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "glint/image/error.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using glint::OutputFile;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::span<const std::byte> bytesOf(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+std::string textOf(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const glint::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A folder of its own for each test and each way of staging.
+class File : public ::testing::TestWithParam<OutputFile::Staging> {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "glint-file-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string in(const std::string& name) const { return folder_ / name; }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(in(name)) << text;
+  }
+
+  fs::path folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Staging, File,
+                         ::testing::Values(OutputFile::Staging::unnamed,
+                                           OutputFile::Staging::named));
+
+TEST_P(File, AppearsOnlyWhenCommitted) {
+  const std::string large(300000, 'x');
+  OutputFile file(in("a"), GetParam());
+  file.write(bytesOf("begin "));
+  file.write(bytesOf(large));
+  file.write(bytesOf(" end"));
+  EXPECT_FALSE(fs::exists(in("a")));
+  file.commit();
+  EXPECT_EQ(textOf(glint::readFile(in("a"))), "begin " + large + " end");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_P(File, WithoutCommitNothingIsLeft) {
+  put("old", "old");
+  {
+    OutputFile fresh(in("new"), GetParam());
+    fresh.write(bytesOf("new"));
+    OutputFile replacement(in("old"), GetParam());
+    replacement.write(bytesOf("new"));
+  }
+  EXPECT_EQ(textOf(glint::readFile(in("old"))), "old");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_P(File, ReplacesAnOlderFile) {
+  put("a", "an older and longer text");
+  OutputFile file(in("a"), GetParam());
+  file.write(bytesOf("new"));
+  file.commit();
+  EXPECT_EQ(textOf(glint::readFile(in("a"))), "new");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_P(File, WritesAtOffsetsInAnyOrder) {
+  OutputFile file(in("a"), GetParam());
+  file.writeAt(4, bytesOf("cd"));
+  file.writeAt(0, bytesOf("ab"));
+  file.commit();
+  EXPECT_EQ(textOf(glint::readFile(in("a"))), std::string("ab\0\0cd", 6));
+}
+
+TEST_P(File, FollowsLinksAndLeavesThem) {
+  fs::create_directory(in("sub"));
+  put("sub/target", "old");
+  fs::create_symlink("sub/target", in("link"));
+  fs::create_symlink("link", in("chain"));
+  fs::create_symlink("sub/none", in("dangling"));
+  for (const char* name : {"chain", "dangling"}) {
+    OutputFile file(in(name), GetParam());
+    file.write(bytesOf("new"));
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(in(name)));
+  }
+  EXPECT_TRUE(fs::is_symlink(in("link")));
+  EXPECT_EQ(textOf(glint::readFile(in("sub/target"))), "new");
+  EXPECT_EQ(textOf(glint::readFile(in("sub/none"))), "new");
+}
+
+TEST_P(File, HasThePermissionsThatTheUmaskLeaves) {
+  const mode_t old = ::umask(027);
+  OutputFile file(in("a"), GetParam());
+  file.commit();
+  ::umask(old);
+  struct stat status {};
+  ASSERT_EQ(::stat(in("a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST_P(File, NamesWithoutAFolderAreOfTheCurrentOne) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  OutputFile file("plain", GetParam());
+  file.write(bytesOf("x"));
+  file.commit();
+  fs::current_path(before);
+  EXPECT_EQ(textOf(glint::readFile(in("plain"))), "x");
+}
+
+TEST_P(File, MissingFolderAndFolderAreRefused) {
+  EXPECT_EQ(messageOf([&] { OutputFile file(in("none/a"), GetParam()); }),
+            in("none/a") + ": No such file or directory: make its folder first");
+  EXPECT_EQ(messageOf([&] { OutputFile file(folder_, GetParam()); }),
+            folder_.string() + ": Is a directory: give the name of a file");
+  EXPECT_THAT(messageOf([&] { OutputFile file("", GetParam()); }), HasSubstr("No such file"));
+}
+
+TEST_P(File, ProtectedFileAndFolderAreRefused) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  put("a", "kept");
+  fs::permissions(in("a"), fs::perms::owner_read);
+  EXPECT_THAT(messageOf([&] { OutputFile file(in("a"), GetParam()); }),
+              HasSubstr("Permission denied"));
+  fs::create_directory(in("sub"));
+  fs::permissions(in("sub"), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THAT(messageOf([&] { OutputFile file(in("sub/a"), GetParam()); }),
+              HasSubstr("Permission denied"));
+}
+
+TEST_P(File, FullDiskIsReportedOnWritingOrCommitting) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  const auto fill = [&](std::size_t size) {
+    OutputFile file("/dev/full", GetParam());
+    file.write(bytesOf(std::string(size, 'x')));
+    file.commit();
+  };
+  const std::string line = "/dev/full: No space left on device: free some space or write elsewhere";
+  EXPECT_EQ(messageOf([&] { fill(3); }), line);
+  EXPECT_EQ(messageOf([&] { fill(1 << 20); }), line);
+}
+
+TEST_P(File, DevicesAreWrittenDirectly) {
+  OutputFile file("/dev/null", GetParam());
+  file.write(bytesOf("x"));
+  file.commit();
+  EXPECT_FALSE(fs::is_regular_file("/dev/null"));
+}
+
+TEST_P(File, ReadingRefusesWhatIsNotARegularFile) {
+  ASSERT_EQ(::mkfifo(in("fifo").c_str(), 0600), 0);
+  EXPECT_EQ(messageOf([&] { glint::readFile(in("fifo")); }),
+            in("fifo") + ": not a regular file: save it to a file first");
+  EXPECT_THAT(messageOf([&] { glint::readFile("/dev/zero"); }), HasSubstr("not a regular file"));
+  EXPECT_THAT(messageOf([&] { glint::readFile(folder_); }), HasSubstr("Is a directory"));
+  EXPECT_EQ(messageOf([&] { glint::readFile(in("none")); }),
+            in("none") + ": No such file or directory: check the path");
+}
+
+TEST_P(File, ReadsEmptyFilesAndFilesOfUnknownLength) {
+  put("empty", "");
+  EXPECT_TRUE(glint::readFile(in("empty")).empty());
+  EXPECT_THAT(textOf(glint::readFile("/proc/self/status")), HasSubstr("Name:"));
+}
+
+TEST_P(File, MessagesStayOneLine) {
+  EXPECT_THAT(messageOf([&] { glint::readFile(in("a\nb\x1b[1m")); }),
+              ::testing::AllOf(HasSubstr("a?b?[1m"), Not(HasSubstr("\n"))));
+}
+
+}  // namespace
