@@ -52,7 +52,7 @@ double lyonCross(double lambda, double alpha, int gamma);
 /// Pade approximant of (1 - lambda)^beta, raised to gamma: 0.112 / gamma^2.
 double pade(double lambda, double alpha, int gamma);
 
-/// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.127 / alpha. Not 0 past 90 degrees.
+/// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.134 / alpha. Not 0 past 90 degrees.
 double gaussian(double lambda, double alpha);
 
 /// The forms by name: `--highlight`.
