@@ -1,0 +1,54 @@
+#pragma once
+
+namespace glint {
+
+// glTF's physically based material, as the notes' material. Base colour becomes C and is left to
+// the caller; so are transmission, alpha and emission.
+
+/// What a glTF material says, with glTF's defaults. Values out of range are clamped.
+struct PbrParameters {
+  double metallic = 1.0;        ///< [0, 1]
+  double roughness = 1.0;       ///< [0, 1], perceptual: GGX's alpha is its square
+  double ior = 1.5;             ///< KHR_materials_ior, >= 1; 0 stands for an infinite index
+  double specularFactor = 1.0;  ///< KHR_materials_specular, [0, 1]
+};
+
+/// The same in the notes' parameters.
+struct ConvertedParameters {
+  double ambient = 1.0;    ///< m_a
+  double diffuse = 1.0;    ///< m_d
+  double specular = 0.0;   ///< m_s
+  double exponent = 20.0;  ///< m_sp, Phong's alpha
+  double metalness = 0.0;  ///< m_sm
+  double ior = 1.5;        ///< n, [1, 1e3]
+};
+
+/// The smallest roughness that has an exponent of its own; less counts as this.
+inline constexpr double smallestRoughness = 0.1;
+
+/// Phong's alpha = alpha' / 4 with Blinn's alpha' = 2 / r^4 - 2, for which the Blinn-Phong
+/// distribution of normals has the width of Beckmann's with m = r^2 (Walter et al. 2007,
+/// alpha' = 2 / m^2 - 2). r is clamped to [0.1, 1]: alpha in [0, 4999.5].
+double exponentFromRoughness(double roughness);
+
+/// The inverse: (2 / (4 alpha + 2))^(1/4), clamped to [0.1, 1].
+double roughnessFromExponent(double exponent);
+
+/// How much light of normal incidence a material of reflectance F0 and Phong exponent alpha sends
+/// into the peak of its highlight, the m_s of the conversion, in [0, 1).
+///
+/// The energy-normalised Blinn-Phong lobe F0 (alpha' + 8) / (8 pi) (N.H)^alpha', in units in which
+/// a white diffuse surface sends 1, peaks at F0 (alpha' + 8) / 8 (Akenine-Moeller et al., Real-Time
+/// Rendering). Of this, F0 is the peak of the uniform lobe alpha' = 0, which is diffuse light and
+/// would show as a disc cut off at 90 degrees; the highlight is what stands above it,
+/// x = F0 alpha' / 8. A picture ends at 1, so x is bent over: x / (1 + x), the same for a weak
+/// highlight and never above what white paper sends.
+double highlightPeak(double f0, double exponent);
+
+/// The conversion. F0 = ((n-1)/(n+1))^2 specularFactor for dielectrics and 1 for metals, whose
+/// colour the highlight gets by m_sm = metallic; m_s = highlightPeak, m_d = 1 for dielectrics and
+/// 0.6 for metals, so that they keep their colour where there is no environment to reflect; both
+/// interpolated by `metallic`. m_a = 1.
+ConvertedParameters convertPbr(const PbrParameters& pbr);
+
+}  // namespace glint

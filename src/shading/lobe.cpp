@@ -1,0 +1,117 @@
+#include "glint/shading/lobe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "glint/shading/safe.h"
+
+namespace glint {
+namespace {
+
+constexpr int largestGamma = 64;
+
+/// x^gamma by squaring.
+double powerOfTwo(double x, int gamma) {
+  for (int g = std::min(gamma, largestGamma); g > 1; g /= 2) x *= x;
+  return x;
+}
+
+/// The power of two that powerOfTwo raises to.
+int validGamma(int gamma) {
+  int valid = 1;
+  while (2 * valid <= std::min(gamma, largestGamma)) valid *= 2;
+  return valid;
+}
+
+/// The policies that all forms share, and the form itself for what is left: lambda in [0, 2],
+/// alpha > 0.
+template <class Form>
+double lobeWith(double lambda, double alpha, Form form) {
+  if (!(lambda < noLobe)) return 0.0;
+  if (!(alpha > 0.0)) return lambda < 1.0 ? 1.0 : 0.0;
+  return form(clampTo(lambda, 0.0, 2.0), std::min(alpha, 1e12));
+}
+
+}  // namespace
+
+double phongLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V) {
+  const glm::dvec3 D = (L + V) - (2.0 * glm::dot(N, L)) * N;
+  return 0.5 * glm::dot(D, D);
+}
+
+double blinnLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V) {
+  const glm::dvec3 sum = L + V;
+  const double squared = glm::dot(sum, sum);
+  if (!(squared > opposedLimit)) return noLobe;
+  const glm::dvec3 D = N - sum / std::sqrt(squared);
+  return 0.5 * glm::dot(D, D);
+}
+
+double lobeExact(double lambda, double alpha) {
+  return lobeWith(lambda, alpha,
+                  [](double x, double a) { return x < 1.0 ? std::exp(a * std::log1p(-x)) : 0.0; });
+}
+
+double lobePow(double dot, double alpha) {
+  if (!(dot > 0.0)) return 0.0;
+  return alpha > 0.0 ? std::pow(std::min(dot, 1.0), alpha) : 1.0;
+}
+
+double lyon(double lambda, double alpha, int gamma) {
+  gamma = validGamma(gamma);
+  return lobeWith(lambda, alpha, [gamma](double x, double a) {
+    return powerOfTwo(std::max(1.0 - a / gamma * x, 0.0), gamma);
+  });
+}
+
+double lyonTuned(double lambda, double alpha, int gamma) {
+  gamma = validGamma(gamma);
+  return lobeWith(lambda, alpha, [gamma](double x, double a) {
+    const double beta = (a * (1.0 - 0.65 / gamma) + 0.65) / gamma;
+    return powerOfTwo(std::max(1.0 - beta * x, 0.0), gamma);
+  });
+}
+
+double lyonCross(double lambda, double alpha, int gamma) {
+  gamma = validGamma(gamma);
+  return lobeWith(lambda, alpha, [gamma](double x, double a) {
+    if (x >= 1.0) return 0.0;
+    const double crossLambda = 0.5 * x * (2.0 - x);
+    return powerOfTwo(std::max(1.0 - a / gamma * crossLambda, 0.0), gamma);
+  });
+}
+
+double pade(double lambda, double alpha, int gamma) {
+  gamma = validGamma(gamma);
+  return lobeWith(lambda, alpha, [gamma](double x, double a) {
+    const double beta = a / gamma;
+    const double top = std::max(2.0 - (1.0 + beta) * x, 0.0);
+    return top > 0.0 ? powerOfTwo(std::min(top / (2.0 + (beta - 1.0) * x), 1.0), gamma) : 0.0;
+  });
+}
+
+double gaussian(double lambda, double alpha) {
+  return lobeWith(lambda, alpha, [](double x, double a) { return std::exp(-(a + 0.69) * x); });
+}
+
+double lobe(Highlight form, int gamma, double lambda, double alpha) {
+  switch (form) {
+    case Highlight::exact:
+      return lobeExact(lambda, alpha);
+    case Highlight::pow:
+      return lobePow(1.0 - lambda, alpha);
+    case Highlight::lyon:
+      return lyon(lambda, alpha, gamma);
+    case Highlight::lyonTuned:
+      return lyonTuned(lambda, alpha, gamma);
+    case Highlight::lyonCross:
+      return lyonCross(lambda, alpha, gamma);
+    case Highlight::pade:
+      return pade(lambda, alpha, gamma);
+    case Highlight::gaussian:
+      return gaussian(lambda, alpha);
+  }
+  return 0.0;
+}
+
+}  // namespace glint

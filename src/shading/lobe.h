@@ -1,0 +1,64 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace glint {
+
+// The specular lobe max(x, 0)^alpha, x the cosine between R and V (Phong) or N and H (Blinn-Phong).
+//
+// Every form takes lambda = 1 - x as half the squared length of a difference vector (Lyon 1993),
+// never 1 - dot: the dot product of nearly equal unit vectors has lost the digits that a large
+// exponent needs. The rounding error of the lobe then grows like sqrt(alpha) 2^-53, not like alpha.
+//
+// Throughout: lambda in [0, 2]; below 0 it is clamped, above 2 it is too, `noLobe` and NaN give 0.
+// alpha >= 0; below, and NaN, it counts as 0, for which every form is 1 where x > 0 and 0
+// elsewhere. The value lies in [0, 1] for every input.
+
+/// The lambda of a geometry in which there is no highlight at all.
+inline constexpr double noLobe = std::numeric_limits<double>::infinity();
+
+/// Where |L + V|^2 is at most this, the half vector is noise in single precision and counts as
+/// undefined.
+inline constexpr double opposedLimit = 1e-12;
+
+/// |D|^2 / 2 with D = L + V - 2 (N.L) N = V - R; equals 1 - R.V for unit vectors.
+double phongLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V);
+
+/// |N - H|^2 / 2 with H = (L + V) / |L + V|; equals 1 - N.H. noLobe where L = -V.
+double blinnLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V);
+
+/// max(1 - lambda, 0)^alpha as exp(alpha log1p(-lambda)): 4 * 2^-53 off at most for this lambda.
+double lobeExact(double lambda, double alpha);
+
+/// The textbook's max(dot, 0)^alpha from the cosine itself, clamped to 1.
+double lobePow(double dot, double alpha);
+
+// Approximations. gamma is a power of two in [1, 64]; others are rounded down to one. The maximum
+// errors are those over all angles for alpha much larger than gamma. Where alpha < gamma, lyon,
+// lyonTuned and pade leak past 90 degrees: choose gamma <= alpha.
+
+/// max(1 - beta lambda, 0)^gamma, beta = alpha / gamma (Lyon 1993): 0.271 (1/gamma - 1/alpha).
+double lyon(double lambda, double alpha, int gamma);
+
+/// lyon with beta = (alpha/gamma)(1 - 0.65 (1/gamma - 1/alpha)), near the best: 0.13 / gamma.
+double lyonTuned(double lambda, double alpha, int gamma);
+
+/// Lyon's form on the cross product, lambda replaced by |R x V|^2 / 2 = lambda (2 - lambda) / 2,
+/// and 0 unless R.V > 0 (without that gate it is 1 again at V = -R).
+double lyonCross(double lambda, double alpha, int gamma);
+
+/// (max(2 - (1 + beta) lambda, 0) / (2 + (beta - 1) lambda))^gamma, beta = alpha / gamma: the [1/1]
+/// Pade approximant of (1 - lambda)^beta, raised to gamma: 0.112 / gamma^2.
+double pade(double lambda, double alpha, int gamma);
+
+/// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.134 / alpha. Not 0 past 90 degrees.
+double gaussian(double lambda, double alpha);
+
+/// The forms by name: `--highlight`.
+enum class Highlight { exact, pow, lyon, lyonTuned, lyonCross, pade, gaussian };
+
+/// The lobe in one of its forms; gamma is read by the forms that have one.
+double lobe(Highlight form, int gamma, double lambda, double alpha);
+
+}  // namespace glint

@@ -1,0 +1,109 @@
+#include "glint/shading/conversion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+constexpr double u = 0x1p-53;
+
+glint::ConvertedParameters convert(double metallic, double roughness) {
+  return glint::convertPbr({.metallic = metallic, .roughness = roughness});
+}
+
+TEST(Conversion, ExponentFollowsRoughness) {
+  EXPECT_EQ(glint::exponentFromRoughness(1.0), 0.0);
+  EXPECT_NEAR(glint::exponentFromRoughness(0.5), 7.5, 16 * u);
+  EXPECT_NEAR(glint::exponentFromRoughness(0.2), 312.0, 1024 * u);
+  EXPECT_NEAR(glint::exponentFromRoughness(0.1), 4999.5, 1e-11);
+  EXPECT_EQ(glint::exponentFromRoughness(0.0), glint::exponentFromRoughness(0.1));
+  EXPECT_EQ(glint::exponentFromRoughness(2.0), 0.0);
+  for (double r = 0.1; r <= 1.0; r += 0.01) {
+    // r^4 has four roundings and the root a quarter of what they make of alpha
+    EXPECT_NEAR(glint::roughnessFromExponent(glint::exponentFromRoughness(r)), r, 8 * u) << r;
+  }
+  EXPECT_EQ(glint::roughnessFromExponent(1e6), 0.1);
+  EXPECT_EQ(glint::roughnessFromExponent(-1.0), 1.0);
+}
+
+// The lobe of which highlightPeak is the peak, (a + 8) / (8 pi) cos^a, reflects about as much as
+// comes: here with L = N, where N.H = cos(theta / 2), by the midpoint rule.
+TEST(Conversion, TheNormalisedLobeReflectsWhatComes) {
+  for (const double a : {0.0, 30.0, 1248.0}) {
+    const int steps = 20000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      const double theta = std::acos(0.0) * (i + 0.5) / steps;
+      sum += std::pow(std::cos(theta / 2.0), a) * std::cos(theta) * std::sin(theta);
+    }
+    const double integral = 2.0 * std::acos(-1.0) * sum * std::acos(0.0) / steps;
+    const double reflected = (a + 8.0) / (8.0 * std::acos(-1.0)) * integral;
+    EXPECT_NEAR(reflected, 1.0, 0.05) << a;  // a + 8 is a fit: 4.8 % high at 30
+  }
+}
+
+TEST(Conversion, HighlightPeak) {
+  // a weak one is the normalised lobe less its uniform part: 0.04 (1 + 30/8) - 0.04 at r = 0.5
+  EXPECT_NEAR(glint::highlightPeak(1e-6, 7.5), 1e-6 * (30.0 + 8.0) / 8.0 - 1e-6, 1e-10);
+  EXPECT_NEAR(glint::highlightPeak(0.04, 7.5), 0.15 / 1.15, 4 * u);
+  for (const double f0 : {0.0, 0.02, 0.04, 0.5, 1.0}) {
+    double last = -1.0;
+    for (double r = 1.0; r > 0.1; r -= 0.01) {
+      const double peak = glint::highlightPeak(f0, glint::exponentFromRoughness(r));
+      EXPECT_TRUE(peak >= last && peak < 1.0) << f0 << ' ' << r;
+      last = peak;
+    }
+  }
+}
+
+TEST(Conversion, RoughIsDullAndSmoothIsBright) {
+  for (const double metallic : {0.0, 1.0}) {
+    EXPECT_EQ(convert(metallic, 1.0).specular, 0.0);
+  }
+  EXPECT_NEAR(convert(0, 0.5).specular, 0.13, 0.01);
+  EXPECT_NEAR(convert(1, 0.5).specular, 0.79, 0.01);
+  EXPECT_GT(convert(0, 0.2).specular, 0.8);
+  EXPECT_GT(convert(1, 0.2).specular, 0.99);
+}
+
+TEST(Conversion, MetalsAndDielectrics) {
+  const auto plastic = convert(0, 0.3), metal = convert(1, 0.3), half = convert(0.5, 0.3);
+  EXPECT_EQ(plastic.ambient, 1.0);
+  EXPECT_EQ(plastic.diffuse, 1.0);
+  EXPECT_EQ(plastic.metalness, 0.0);
+  EXPECT_EQ(plastic.ior, 1.5);
+  EXPECT_NEAR(metal.diffuse, 0.6, u);
+  EXPECT_EQ(metal.metalness, 1.0);
+  EXPECT_NEAR(half.specular, 0.5 * (plastic.specular + metal.specular), 4 * u);
+  EXPECT_NEAR(half.diffuse, 0.8, 4 * u);
+  EXPECT_EQ(half.metalness, 0.5);
+  // KHR_materials_specular and _ior
+  EXPECT_EQ(glint::convertPbr({.metallic = 0, .roughness = 0.3, .specularFactor = 0}).specular,
+            0.0);
+  const auto diamond = glint::convertPbr({.metallic = 0, .roughness = 0.5, .ior = 2.4});
+  EXPECT_NEAR(diamond.specular, 0.16955017 * 3.75 / (1 + 0.16955017 * 3.75), 1e-8);
+  EXPECT_EQ(diamond.ior, 2.4);
+  EXPECT_EQ(glint::convertPbr({.metallic = 0, .ior = 0}).ior, 1e3);
+  EXPECT_EQ(glint::convertPbr({.metallic = 0, .ior = 0.5}).ior, 1.0);
+}
+
+TEST(Conversion, IsTotal) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double odd[] = {
+      0.0, -1.0, 0.5, 1e308, infinity, -infinity, std::numeric_limits<double>::quiet_NaN()};
+  for (const double a : odd) {
+    for (const double b : odd) {
+      const auto out = glint::convertPbr({a, b, b, a});
+      EXPECT_TRUE(out.specular >= 0.0 && out.specular <= 1.0);
+      EXPECT_TRUE(out.diffuse >= 0.6 && out.diffuse <= 1.0);
+      EXPECT_TRUE(out.exponent >= 0.0 && out.exponent <= 4999.6);
+      EXPECT_TRUE(out.ior >= 1.0 && out.ior <= 1e3);
+      EXPECT_TRUE(out.metalness >= 0.0 && out.metalness <= 1.0);
+      EXPECT_TRUE(std::isfinite(glint::highlightPeak(a, b)));
+    }
+  }
+}
+
+}  // namespace
