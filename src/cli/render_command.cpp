@@ -106,7 +106,7 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
     throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
   const Backend backend = backendFromName(options.backend);
   const std::vector<std::string> outputs = outputNames(options.output, options.models);
-  for (const std::string& output : outputs) checkPictureName(output, options.bitDepth);
+  for (const std::string& output : outputs) checkPictureName(output, {options.bitDepth});
   const Look look = makeLook();
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 

@@ -42,24 +42,28 @@ void PictureWriter::finish() {
   finishFile();
 }
 
-std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int width, int height,
-                                                 const PictureOptions& options) {
-  const std::string name = printablePath(path);
-  if (width < 1 || height < 1) {
-    throw InputError(name + ": a picture of " + std::to_string(width) + " x " +
-                     std::to_string(height) + " pixels: give a width and a height of at least 1");
-  }
+void checkPictureName(const std::string& path, const PictureOptions& options) {
+  const std::string name = printablePath(path), ending = endingOf(path);
   if (options.bitDepth != 8 && options.bitDepth != 16) {
     throw InputError(name + ": " + std::to_string(options.bitDepth) +
                      " bits per channel: give 8 or 16");
   }
-  const std::string ending = endingOf(path);
-  if (path == "-" || ending == ".png") return detail::openPng(path, width, height, options);
-  if (ending == ".pfm") return detail::openPfm(path, width, height);
+  if (path == "-" || ending == ".png" || ending == ".pfm") return;
   if (ending == ".exr") {
     throw InputError(name + ": .exr is not supported by this version: use .pfm for linear floats");
   }
   throw InputError(name + ": the ending tells no known format: use .png or .pfm");
+}
+
+std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int width, int height,
+                                                 const PictureOptions& options) {
+  checkPictureName(path, options);
+  if (width < 1 || height < 1) {
+    throw InputError(printablePath(path) + ": a picture of " + std::to_string(width) + " x " +
+                     std::to_string(height) + " pixels: give a width and a height of at least 1");
+  }
+  if (endingOf(path) == ".pfm") return detail::openPfm(path, width, height);
+  return detail::openPng(path, width, height, options);
 }
 
 }  // namespace glint

@@ -49,6 +49,9 @@ class PictureWriter {
   std::size_t nanPixels_ = 0;
 };
 
+/// Throws the InputErrors of openPictureWriter that need no file: wrong ending, wrong bit depth.
+void checkPictureName(const std::string& path, const PictureOptions& options);
+
 /// Opens a picture of width x height pixels; the format is that of the path's ending:
 ///
 ///     .png  sRGB (perceptual), 8 or 16 bits, RGB or RGBA

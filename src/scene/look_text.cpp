@@ -91,8 +91,8 @@ glm::dvec3 parseColor(const std::string& text, const std::string& what) {
     std::uint32_t code = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, code, 16);
     if (error == std::errc() && end == text.data() + 7)
-      return {srgbToLinear((code >> 16) / 255.0), srgbToLinear((code >> 8 & 255) / 255.0),
-              srgbToLinear((code & 255) / 255.0)};
+      return {decodeSrgb8(std::uint8_t(code >> 16)), decodeSrgb8(std::uint8_t(code >> 8)),
+              decodeSrgb8(std::uint8_t(code))};
   }
   const auto parts = split(text, ',');
   glm::dvec3 v;

@@ -1,15 +1,16 @@
-#include "glint/shading/conversion.h"
+#include "glint/scene/pbr_conversion.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "glint/shading/fresnel.h"
-#include "glint/shading/safe.h"
 
 namespace glint {
 namespace {
 
 constexpr double metalDiffuse = 0.6;
 constexpr double largestIor = 1e3;
+
+// NaN gives the lower bound.
+double clampTo(double x, double low, double high) { return x > low ? std::min(x, high) : low; }
 
 double interpolate(double a, double b, double t) { return a + (b - a) * t; }
 
@@ -36,7 +37,8 @@ ConvertedParameters convertPbr(const PbrParameters& pbr) {
   out.ior = pbr.ior == 0.0 ? largestIor : clampTo(pbr.ior, 1.0, largestIor);
   out.exponent = exponentFromRoughness(pbr.roughness);
   out.metalness = metallic;
-  const double f0 = fresnelConstants(1.0, out.ior).r0 * clampTo(pbr.specularFactor, 0.0, 1.0);
+  const double amplitude = (out.ior - 1.0) / (out.ior + 1.0);
+  const double f0 = amplitude * amplitude * clampTo(pbr.specularFactor, 0.0, 1.0);
   out.specular =
       interpolate(highlightPeak(f0, out.exponent), highlightPeak(1.0, out.exponent), metallic);
   out.diffuse = interpolate(1.0, metalDiffuse, metallic);

@@ -1,4 +1,4 @@
-#include "glint/shading/conversion.h"
+#include "glint/scene/pbr_conversion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,146 @@
+#include "glint/scene/gltf_accessor.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace glint::gltf {
+namespace {
+
+int bytesOf(int componentType) {
+  return tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
+}
+
+/// Calls `use` with a value of the C++ type of a glTF component type.
+template <typename Use>
+void withComponent(int componentType, const Use& use) {
+  switch (componentType) {
+    case 5120:
+      return use(std::int8_t());
+    case 5121:
+      return use(std::uint8_t());
+    case 5122:
+      return use(std::int16_t());
+    case 5123:
+      return use(std::uint16_t());
+    case 5125:
+      return use(std::uint32_t());
+    default:
+      return use(float());
+  }
+}
+
+template <typename Component>
+Component load(const unsigned char* from) {
+  Component value;
+  std::memcpy(&value, from, sizeof value);  // elements need not be aligned
+  return value;
+}
+
+}  // namespace
+
+AccessorView openAccessor(const Document& document, int index, const std::string& label,
+                          Budget& budget, const Messages& messages) {
+  const tinygltf::Model& model = document.model;
+  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+  AccessorView view;
+  view.count = accessor.count;
+  view.componentType = accessor.componentType;
+  view.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  view.normalized = accessor.normalized;
+  const auto bytes = static_cast<std::size_t>(bytesOf(view.componentType) * view.components);
+  view.stride = bytes;
+
+  const auto dataOf = [&](int viewIndex, std::size_t offset) {
+    const auto& bufferView = model.bufferViews[static_cast<std::size_t>(viewIndex)];
+    return model.buffers[static_cast<std::size_t>(bufferView.buffer)].data.data() +
+           bufferView.byteOffset + offset;
+  };
+  if (accessor.bufferView >= 0) {
+    view.data = dataOf(accessor.bufferView, accessor.byteOffset);
+    const auto& bufferView = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    if (bufferView.byteStride) view.stride = bufferView.byteStride;
+  }
+  if (view.data && !accessor.sparse.isSparse) return view;
+
+  budget.read(view.count * bytes / 4);
+  view.owned.resize(view.count * bytes);
+  for (std::size_t i = 0; view.data && i < view.count; ++i) {
+    std::memcpy(&view.owned[i * bytes], view.data + i * view.stride, bytes);
+  }
+  view.data = view.owned.data();
+  view.stride = bytes;
+  if (!accessor.sparse.isSparse) return view;
+
+  const auto& sparse = accessor.sparse;
+  const unsigned char* indices =
+      dataOf(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
+  const unsigned char* values =
+      dataOf(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
+  withComponent(sparse.indices.componentType, [&](auto type) {
+    using Index = decltype(type);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
+      const auto target = static_cast<std::size_t>(load<Index>(indices + i * sizeof(Index)));
+      if (target >= view.count) {
+        messages.fail(label + ", accessors[" + std::to_string(index) + "].sparse has the index " +
+                      std::to_string(target) + " of " + std::to_string(view.count));
+      }
+      std::memcpy(&view.owned[target * bytes], values + i * bytes, bytes);
+    }
+  });
+  return view;
+}
+
+template <typename Vector>
+std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices, bool normalize,
+                           const Vector& fallback) {
+  using Real = typename Vector::value_type;
+  std::vector<Vector> result(vertices.count, fallback);
+  const int length = std::min<int>(Vector::length(), view.components);
+  withComponent(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    double scale = 1;
+    if constexpr (!std::is_floating_point_v<Component>) {
+      // -128 and -127 both stand for -1.
+      if (normalize || view.normalized) scale = 1.0 / std::numeric_limits<Component>::max();
+    }
+    const double least = scale != 1 ? -1.0 : std::numeric_limits<double>::lowest();
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+      const unsigned char* from = view.data + vertices[i] * view.stride;
+      for (int k = 0; k < length; ++k) {
+        const auto value = load<Component>(from + static_cast<std::size_t>(k) * sizeof(Component));
+        if constexpr (std::is_floating_point_v<Component>) {
+          result[i][k] = value;
+        } else {
+          result[i][k] = static_cast<Real>(std::max(value * scale, least));
+        }
+      }
+    }
+  });
+  return result;
+}
+
+template std::vector<glm::vec2> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec2&);
+template std::vector<glm::vec3> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec3&);
+template std::vector<glm::vec4> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec4&);
+template std::vector<glm::dvec3> gather(const AccessorView&, const VertexList&, bool,
+                                        const glm::dvec3&);
+template std::vector<glm::dvec4> gather(const AccessorView&, const VertexList&, bool,
+                                        const glm::dvec4&);
+
+std::vector<std::uint32_t> readIndices(const AccessorView& view) {
+  std::vector<std::uint32_t> indices(view.count);
+  withComponent(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      indices[i] = static_cast<std::uint32_t>(load<Component>(view.data + i * view.stride));
+    }
+  });
+  return indices;
+}
+
+}  // namespace glint::gltf

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/scene/gltf_messages.h"
+
+namespace glint::gltf {
+
+/// A file open for reading. Opens regular files only and never waits: a FIFO, a device or a folder
+/// that a model names must not hang or flood the viewer.
+class RegularFile {
+ public:
+  /// Where `error` is filled, the file is not open and `error` says why: "does not exist".
+  RegularFile(const std::filesystem::path& path, std::string& error);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  std::uint64_t size() const { return size_; }
+  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  bool read(void* to, std::uint64_t offset, std::size_t count) const;
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// A model file taken apart: its JSON text and, in a GLB file, the binary chunk.
+struct Container {
+  std::string json;
+  std::optional<std::vector<unsigned char>> binary;
+};
+
+/// Reads a `.gltf` or `.glb` file, told apart by the first four bytes. Checks the GLB header, the
+/// chunks' lengths and types; tolerates chunks not aligned to four bytes, chunks of unknown type
+/// and bytes behind the end that the header tells.
+Container readContainer(const std::filesystem::path& path, const Messages& messages);
+
+/// What a URI stands for: the payload of a `data:` URI or the file named relative to `folder`,
+/// percent-decoded. Reads at most `limit` bytes. Where it cannot, `error` says why, without the
+/// URI. Byte is unsigned char or std::byte.
+template <typename Byte>
+std::vector<Byte> readUri(const std::string& uri, const std::filesystem::path& folder,
+                          std::uint64_t limit, std::string& error);
+
+/// The URI as it may stand in a message: data URIs are cut behind their media type.
+std::string printableUri(std::string_view uri);
+
+}  // namespace glint::gltf

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glint/scene/gltf_document.h"
+#include "glint/scene/scene.h"
+
+namespace glint::gltf {
+
+/// Collects the images that textures refer to, each once, as they stand in the file.
+class TextureReader {
+ public:
+  TextureReader(Document& document, Messages& messages);
+
+  /// Reads a textureInfo object (`baseColorTexture` and the like). Nothing where there is none, or,
+  /// with a warning, where the image is missing or neither PNG nor JPEG.
+  std::optional<Texture> read(Cursor info);
+
+  std::vector<EncodedImage> takeImages() { return std::move(images_); }
+
+ private:
+  int imageSlot(std::size_t image);
+  std::vector<std::byte> load(Cursor image, std::string& name, std::string& error);
+  Sampler sampler(Cursor texture);
+
+  Document& document_;
+  Messages& messages_;
+  Cursor root_;
+  std::vector<EncodedImage> images_;
+  std::map<std::size_t, int> slots_;          ///< by image; -1 is not usable
+  std::map<std::string, int> slotsBySource_;  ///< several images may name one file or view
+};
+
+}  // namespace glint::gltf

@@ -1,1 +1,0 @@
-#include "glint/scene/scene.h"
