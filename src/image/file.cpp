@@ -81,7 +81,7 @@ std::string followLinks(std::string path) {
     const ssize_t length = ::readlink(path.c_str(), to, sizeof to);
     if (length < 0) break;  // not a link, or nothing there
     const std::string next(to, static_cast<std::size_t>(length));
-    path = next.starts_with('/') ? next : folderOf(path) + "/" + next;
+    path = next.starts_with('/') ? next : folderOf(path).append("/").append(next);
   }
   return path;
 }

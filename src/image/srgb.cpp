@@ -68,10 +68,10 @@ double clampToUnit(double value) { return value > 0 ? std::min(value, 1.0) : 0; 
 
 /// Rounded to nearest; the products are exact in double.
 std::uint8_t alpha8(float alpha) {
-  return static_cast<std::uint8_t>(clampToUnit(alpha) * 255 + 0.5);
+  return static_cast<std::uint8_t>(std::lround(clampToUnit(alpha) * 255));
 }
 std::uint16_t alpha16(float alpha) {
-  return static_cast<std::uint16_t>(clampToUnit(alpha) * 65535 + 0.5);
+  return static_cast<std::uint16_t>(std::lround(clampToUnit(alpha) * 65535));
 }
 
 bool hasNanColour(const float* rgba) {
@@ -135,7 +135,7 @@ std::uint16_t encodeSrgb16(float linear) {
     const double root = cubeRoot(linear);  // x^(1/2.4) = x^(1/3) (x^(1/3))^(1/4)
     encoded = 1.055 * (root * std::sqrt(std::sqrt(root))) - 0.055;
   }
-  return static_cast<std::uint16_t>(65535 * encoded + 0.5);
+  return static_cast<std::uint16_t>(std::lround(65535 * encoded));
 }
 
 float decodeSrgb16(std::uint16_t code) {
