@@ -75,7 +75,8 @@ std::string text(GLenum name) {
 
 std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers) {
   std::string reasons, remark;
-  for (const Opener& opener : openers) try {
+  for (const Opener& opener : openers) {
+    try {
       std::unique_ptr<Context> context = opener.open();
       context->addRemark(remark);
       return context;
@@ -84,6 +85,7 @@ std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers) {
       reasons += (reasons.empty() ? "" : "\n  ") + reason;
       remark += (remark.empty() ? "" : "; ") + reason;
     }
+  }
   throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context:\n  " + reasons);
 }
 
@@ -129,24 +131,25 @@ std::future<std::unique_ptr<Context>> openContextAsync(Backend backend) {
 
 GlStrings glStrings() { return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)}; }
 
-std::vector<BackendReport> probeBackends() {
-  std::vector<BackendReport> reports;
-  for (Backend backend : {Backend::egl, Backend::eglSoftware, Backend::osmesa}) {
-    BackendReport report{backend, false, {}};
-    try {
-      const std::unique_ptr<Context> context = openContext(backend);
-      context->makeCurrent();
-      const GlStrings gl = glStrings();
-      report.works = true;
-      report.detail =
-          context->description() + "; " + gl.vendor + "; " + gl.renderer + "; OpenGL " + gl.version;
-      if (!context->remark().empty()) report.detail += "; passed over: " + context->remark();
-    } catch (const ContextError& error) {
-      report.detail = error.what();
-    }
-    reports.push_back(std::move(report));
+BackendReport probeBackend(Backend backend) {
+  BackendReport report{backend, false, {}};
+  try {
+    const std::unique_ptr<Context> context = openContext(backend);
+    context->makeCurrent();
+    const GlStrings gl = glStrings();
+    report.works = true;
+    report.detail =
+        context->description() + "; " + gl.vendor + "; " + gl.renderer + "; OpenGL " + gl.version;
+    if (!context->remark().empty()) report.detail += "; passed over: " + context->remark();
+  } catch (const ContextError& error) {
+    report.detail = error.what();
   }
-  return reports;
+  return report;
+}
+
+std::vector<BackendReport> probeBackends() {
+  return {probeBackend(Backend::egl), probeBackend(Backend::eglSoftware),
+          probeBackend(Backend::osmesa)};
 }
 
 }  // namespace glint

@@ -101,8 +101,10 @@ struct BackendReport {
   std::string detail;  ///< what was opened and the GL strings, or one line with the reason why not
 };
 
-/// Tries egl, egl-software and osmesa one after the other, for `glint backends`. No context may be
-/// current on the calling thread; none is afterwards.
+/// Tries one backend. No context may be current on the calling thread; none is afterwards.
+BackendReport probeBackend(Backend backend);
+
+/// Tries egl, egl-software and osmesa one after the other, for `glint backends`.
 std::vector<BackendReport> probeBackends();
 
 }  // namespace glint

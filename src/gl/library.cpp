@@ -45,7 +45,7 @@ void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> s
       reason = "cannot load " + std::string(soname) + " (" + reason + ")";
     } else if (const char* missing = resolve(library, symbols)) {
       reason = std::string(soname) + " lacks the symbol " + missing +
-               ": it is too old or not the library it is named after";
+               " (too old, or another library of that name)";
     } else {
       return;
     }

@@ -35,7 +35,7 @@ enum : int {
   glVersionName = 0x1F02,
 };
 
-/// The whole of GL that is asked for without a loader: what an old driver says it is.
+/// GL_VERSION of the context that a driver without OpenGL 3.3 gives, empty if there is none.
 std::string versionWithoutAttributes(const OsmesaFunctions& osmesa) {
   const int plain[] = {osmesaFormat, rgba, 0};
   const OsmesaHandle context = osmesa.createContextAttribs(plain, nullptr);
@@ -109,9 +109,11 @@ std::unique_ptr<Context> openOsmesa(std::span<const char* const> sonames) {
   const OsmesaHandle context = osmesa.createContextAttribs(attributes, nullptr);
   if (!context) {
     const std::string version = versionWithoutAttributes(osmesa);
-    throw ContextError(version.empty()
-                           ? "OSMesaCreateContextAttribs gives no context, of no OpenGL version"
-                           : "the driver has no OpenGL 3.3 core context, only " + version);
+    throw ContextError(
+        version.empty()
+            ? "OSMesaCreateContextAttribs gives no context of any OpenGL version: reinstall the "
+              "Debian package libosmesa6 or use another --rendering-backend"
+            : "the driver has no OpenGL 3.3 core context, only " + version);
   }
   return std::make_unique<OsmesaContext>(osmesa, context, "osmesa: Mesa's off-screen library");
 }
