@@ -1,3 +1,4 @@
+#include <deque>
 #include <iostream>
 #include <memory>
 
@@ -39,6 +40,7 @@ std::string defaultText(const Parameter& p) {
 
 struct LookOptions {
   std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
   std::string lookFile, saveFile;
 };
 
@@ -51,7 +53,8 @@ std::function<Look()> addLookOptions(CLI::App& app) {
     if (p.value.empty()) {
       option = app.add_flag("--" + p.name, p.help);
     } else {
-      option = app.add_option("--" + p.name, p.help + defaultText(p))->type_name(p.value);
+      option = app.add_option("--" + p.name, state->texts.emplace_back(), p.help + defaultText(p));
+      option->type_name(p.value);
       option->expected(1)->allow_extra_args(false);
       if (p.repeatable)
         option->take_all();

@@ -12,6 +12,7 @@
 #include "glint/image/picture_writer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/gltf.h"
+#include "glint/scene/parameters.h"
 #include "output_names.h"
 #include "report.h"
 
@@ -105,8 +106,10 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
   if (options.output == "-" && options.json == "-")
     throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
   const Backend backend = backendFromName(options.backend);
+  PictureOptions file;
+  file.bitDepth = options.bitDepth;
   const std::vector<std::string> outputs = outputNames(options.output, options.models);
-  for (const std::string& output : outputs) checkPictureName(output, {options.bitDepth});
+  for (const std::string& output : outputs) checkPictureName(output, file);
   const Look look = makeLook();
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 
