@@ -1,5 +1,6 @@
 #include "glint/render/composition.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace glint {
@@ -87,7 +88,9 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
     files.insert(files.begin(), {"vector.glsl", "lobe.glsl"});
     if (environment) files.insert(files.end(), {"fresnel.glsl", "environment_map.glsl"});
     files.insert(files.end(), {"sum.glsl", perVertex ? "per_vertex.glsl" : "per_pixel.glsl"});
-    files.push_back(name + ".glsl");
+    std::string file = name + ".glsl";  // Mesa's #line takes no '-' in names
+    std::replace(file.begin(), file.end(), '-', '_');
+    files.push_back(file);
   }
   const std::string head = header(fileNames);
   const std::string features = defines(v);
