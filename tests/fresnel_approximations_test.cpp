@@ -115,6 +115,19 @@ TEST(FresnelApproximations, TheOthersErrAsTabulated) {  // SCIENCE 4.5
   }
 }
 
+TEST(FresnelApproximations, RationalIsTheBestOfItsFamilyBeyondTheTable) {
+  for (const double n : {1.0003, 1.01, 6.0, 10.0}) {
+    const auto constants = glint::fresnelConstants(1.0, n);
+    const auto error = [&](double k) {
+      return errorsOf([&](double c) { return glint::schlickRational(c, constants, k); }, 1.0, n)
+          .max;
+    };
+    const double k = glint::rationalMinimax(1.0, n);
+    EXPECT_LT(error(k), error(1.02 * k)) << n;
+    EXPECT_LT(error(k), error(0.98 * k)) << n;
+  }
+}
+
 TEST(FresnelApproximations, TheMinimaxExponentsErrAsTabulated) {
   const double table[][3] = {{1.1, 8.83, 0.0182}, {1.33, 5.66, 0.0228}, {1.5, 5.20, 0.0253},
                              {1.8, 5.11, 0.0290}, {2.4, 5.95, 0.0323},  {4, 12.35, 0.0109}};

@@ -28,9 +28,10 @@ TEST(Conversion, ExponentFollowsRoughness) {
   EXPECT_EQ(glint::roughnessFromExponent(-1.0), 1.0);
 }
 
-// The lobe of which highlightPeak is the peak, (a + 8) / (8 pi) cos^a, reflects about as much as
-// comes: here with L = N, where N.H = cos(theta / 2), by the midpoint rule.
-TEST(Conversion, TheNormalisedLobeReflectsWhatComes) {
+// What a weak highlight peaks at, and the uniform part that it leaves out, make the lobe
+// (1 + peak / share / F0) / pi cos^a, which reflects about as much as comes: here with L = N, where
+// N.H = cos(theta / 2), by the midpoint rule.
+TEST(Conversion, TheLobeReflectsWhatComes) {
   for (const double a : {0.0, 30.0, 1248.0}) {
     const int steps = 20000;
     double sum = 0.0;
@@ -39,15 +40,18 @@ TEST(Conversion, TheNormalisedLobeReflectsWhatComes) {
       sum += std::pow(std::cos(theta / 2.0), a) * std::cos(theta) * std::sin(theta);
     }
     const double integral = 2.0 * std::acos(-1.0) * sum * std::acos(0.0) / steps;
-    const double reflected = (a + 8.0) / (8.0 * std::acos(-1.0)) * integral;
-    EXPECT_NEAR(reflected, 1.0, 0.05) << a;  // a + 8 is a fit: 4.8 % high at 30
+    const double share = a > 0.0 ? a / (a + 8.0) : 1.0;
+    const double peak = 1.0 + glint::highlightPeak(1e-9, a / 4.0) / 1e-9 / share;
+    // the usual a + 8 is a fit: 4.8 % high at a = 30
+    EXPECT_NEAR(peak / std::acos(-1.0) * integral, 1.0, 0.05) << a;
   }
 }
 
 TEST(Conversion, HighlightPeak) {
-  // a weak one is the normalised lobe less its uniform part: 0.04 (1 + 30/8) - 0.04 at r = 0.5
-  EXPECT_NEAR(glint::highlightPeak(1e-6, 7.5), 1e-6 * (30.0 + 8.0) / 8.0 - 1e-6, 1e-10);
-  EXPECT_NEAR(glint::highlightPeak(0.04, 7.5), 0.15 / 1.15, 4 * u);
+  // alpha' = 30 at r = 0.5: x = F0 (30/8)(30/38)
+  EXPECT_NEAR(glint::highlightPeak(1e-6, 7.5), 1e-6 * 112.5 / 38.0, 1e-10);
+  const double x = 0.04 * 112.5 / 38.0;
+  EXPECT_NEAR(glint::highlightPeak(0.04, 7.5), x / (1.0 + x), 4 * u);
   for (const double f0 : {0.0, 0.02, 0.04, 0.5, 1.0}) {
     double last = -1.0;
     for (double r = 1.0; r > 0.1; r -= 0.01) {
@@ -61,9 +65,10 @@ TEST(Conversion, HighlightPeak) {
 TEST(Conversion, RoughIsDullAndSmoothIsBright) {
   for (const double metallic : {0.0, 1.0}) {
     EXPECT_EQ(convert(metallic, 1.0).specular, 0.0);
+    EXPECT_LT(convert(metallic, 0.8).specular, 0.1);  // alpha = 0.7: a wide disc with an edge
   }
-  EXPECT_NEAR(convert(0, 0.5).specular, 0.13, 0.01);
-  EXPECT_NEAR(convert(1, 0.5).specular, 0.79, 0.01);
+  EXPECT_NEAR(convert(0, 0.5).specular, 0.106, 0.001);
+  EXPECT_NEAR(convert(1, 0.5).specular, 0.748, 0.001);
   EXPECT_GT(convert(0, 0.2).specular, 0.8);
   EXPECT_GT(convert(1, 0.2).specular, 0.99);
 }
@@ -83,7 +88,8 @@ TEST(Conversion, MetalsAndDielectrics) {
   EXPECT_EQ(glint::convertPbr({.metallic = 0, .roughness = 0.3, .specularFactor = 0}).specular,
             0.0);
   const auto diamond = glint::convertPbr({.metallic = 0, .roughness = 0.5, .ior = 2.4});
-  EXPECT_NEAR(diamond.specular, 0.16955017 * 3.75 / (1 + 0.16955017 * 3.75), 1e-8);
+  const double x = 0.16955017 * 112.5 / 38.0;
+  EXPECT_NEAR(diamond.specular, x / (1.0 + x), 1e-8);
   EXPECT_EQ(diamond.ior, 2.4);
   EXPECT_EQ(glint::convertPbr({.metallic = 0, .ior = 0}).ior, 1e3);
   EXPECT_EQ(glint::convertPbr({.metallic = 0, .ior = 0.5}).ior, 1.0);

@@ -27,7 +27,8 @@ double roughnessFromExponent(double exponent) {
 }
 
 double highlightPeak(double f0, double exponent) {
-  const double x = clampTo(f0, 0.0, 1.0) * 4.0 * clampTo(exponent, 0.0, 1e6) / 8.0;
+  const double blinn = 4.0 * clampTo(exponent, 0.0, 1e6);
+  const double x = clampTo(f0, 0.0, 1.0) * (blinn / 8.0) * (blinn / (blinn + 8.0));
   return x / (1.0 + x);
 }
 

@@ -34,15 +34,17 @@ double exponentFromRoughness(double roughness);
 /// The inverse: (2 / (4 alpha + 2))^(1/4), clamped to [0.1, 1].
 double roughnessFromExponent(double exponent);
 
-/// How much light of normal incidence a material of reflectance F0 and Phong exponent alpha sends
-/// into the peak of its highlight, the m_s of the conversion, in [0, 1).
+/// The m_s of the conversion, in [0, 1): how bright the peak of the highlight is of a material of
+/// reflectance F0 at normal incidence and Phong exponent alpha = alpha' / 4.
 ///
 /// The energy-normalised Blinn-Phong lobe F0 (alpha' + 8) / (8 pi) (N.H)^alpha', in units in which
 /// a white diffuse surface sends 1, peaks at F0 (alpha' + 8) / 8 (Akenine-Moeller et al., Real-Time
-/// Rendering). Of this, F0 is the peak of the uniform lobe alpha' = 0, which is diffuse light and
-/// would show as a disc cut off at 90 degrees; the highlight is what stands above it,
-/// x = F0 alpha' / 8. A picture ends at 1, so x is bent over: x / (1 + x), the same for a weak
-/// highlight and never above what white paper sends.
+/// Rendering). Of this, F0 is the peak of the uniform lobe alpha' = 0, which is diffuse light; what
+/// stands above it is F0 alpha' / 8. A lobe of alpha < 1 ends at 90 degrees in a visible edge, so
+/// the share alpha' / (alpha' + 8) that stands above is taken once more:
+///     x = F0 (alpha' / 8) alpha' / (alpha' + 8).
+/// A picture ends at 1, so x is bent over: x / (1 + x), the same for a weak highlight and never
+/// above what white paper sends.
 double highlightPeak(double f0, double exponent);
 
 /// The conversion. F0 = ((n-1)/(n+1))^2 specularFactor for dielectrics and 1 for metals, whose

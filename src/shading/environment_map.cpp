@@ -21,10 +21,12 @@ glm::dvec3 sky(const glm::dvec3& d) {
   const double haze = low * low * low;
   const glm::dvec3 air = k.zenith + (k.horizon - k.zenith) * haze;
   const double cosSun = glm::dot(d, k.sun);
+  const glm::dvec3 off = d - k.sun;
   const double g8 = squared(squared(squared(std::max(cosSun, 0.0))));
   const double g64 = squared(squared(squared(g8)));
   const double glow =
-      k.wide * g8 + k.narrow * g64 + k.disc * smoothStep(k.discOuter, k.discInner, cosSun);
+      k.wide * g8 + k.narrow * g64 +
+      k.disc * (1.0 - smoothStep(k.discInner, k.discOuter, 0.5 * glm::dot(off, off)));
   const glm::dvec3 ground =
       k.groundHorizon + (k.groundNadir - k.groundHorizon) * std::max(-d.y, 0.0);
   const glm::dvec3 above = air + glow * k.sunColor;

@@ -161,7 +161,7 @@ double rationalMinimax(double n1, double n2) {
     samples[i] = {c, fresnelExact(c, constants)};
   }
   double low = 0.0;
-  double high = 4.0 * (rationalSlope(n1, n2) + 1.0);
+  double high = 64.0 * (rationalSlope(n1, n2) + 1.0);
   while (high - low > 1e-7 * high) {
     const double k = 0.5 * (low + high);
     double over = 0.0;
