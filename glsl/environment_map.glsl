@@ -17,9 +17,10 @@ vec3 environmentRadiance(vec3 direction) {
   vec3 d = safeUnit(direction);
   float h = 1.0 - max(d.y, 0.0);
   vec3 air = mix(vec3(0.14, 0.32, 0.70), vec3(0.82, 0.90, 0.98), h * h * h);
-  float s = dot(d, sun), g = max(s, 0.0);
+  vec3 apart = d - sun;  // |d - sun|^2 / 2 = 1 - d.sun, exact near the sun
+  float g = max(dot(d, sun), 0.0), disc = smoothstep(0.002, 0.010, 0.5 * dot(apart, apart));
   float g2 = g * g, g4 = g2 * g2, g8 = g4 * g4, g16 = g8 * g8, g32 = g16 * g16;
-  float glow = 0.30 * g8 + 0.55 * g32 * g32 + 1.2 * smoothstep(0.990, 0.998, s);
+  float glow = 0.30 * g8 + 0.55 * g32 * g32 + 1.2 * (1.0 - disc);
   vec3 ground = mix(vec3(0.46, 0.42, 0.36), vec3(0.26, 0.22, 0.18), max(-d.y, 0.0));
   return mix(ground, air + glow * vec3(1.0, 0.90, 0.74), smoothstep(-0.05, 0.05, d.y));
 #else
