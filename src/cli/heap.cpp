@@ -1,12 +1,13 @@
 #include "heap.h"
 
+#include <cstdlib>  // tells which C library this is
+
 #if defined(__GLIBC__)
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdint>
-#include <cstdlib>
 #endif
 
 namespace glint {
