@@ -35,18 +35,32 @@ int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height
   return given;
 }
 
+int makeStorage(const TextureHandle& texture, GLenum format, int width, int height, int samples) {
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.id());
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format, width, height, GL_TRUE);
+  GLint given = 0;
+  glGetTexLevelParameteriv(GL_TEXTURE_2D_MULTISAMPLE, 0, GL_TEXTURE_SAMPLES, &given);
+  return given;
+}
+
+void attach(const TextureHandle& color) {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
+                         color.id(), 0);
+}
+
 void attach(GLenum point, const Renderbuffer& buffer) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.id());
 }
 
 /// The samples that a tiny target comes with, or 0 if the driver cannot make it.
 int trySamples(int samples) {
-  const Renderbuffer color = Renderbuffer::make(), depth = Renderbuffer::make();
+  const TextureHandle color = TextureHandle::make();
+  const Renderbuffer depth = Renderbuffer::make();
   const Framebuffer framebuffer = Framebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   const int given = makeStorage(color, GL_RGBA32F, 1, 1, samples);
   makeStorage(depth, GL_DEPTH_COMPONENT32F, 1, 1, samples);
-  attach(GL_COLOR_ATTACHMENT0, color);
+  attach(color);
   attach(GL_DEPTH_ATTACHMENT, depth);
   const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   const bool valid = glGetError() == GL_NO_ERROR;
@@ -83,6 +97,27 @@ void checkSamples(int samples) {
       ": use --anti-aliasing ssaa:" + std::to_string(side));
 }
 
+Program resolveProgram(int samples) {
+  const std::string vertex = R"(#version 330 core
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
+})";
+  const std::string fragment = "#version 330 core\n#define SAMPLES " + std::to_string(samples) +
+                               R"(
+uniform sampler2DMS drawn;
+out vec4 mean;
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 sum = texelFetch(drawn, pixel, 0);
+  for (int i = 1; i < SAMPLES; ++i) sum += texelFetch(drawn, pixel, i);
+  mean = sum * (1.0 / float(SAMPLES));
+})";
+  const ShaderSource sources[] = {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}};
+  Program program("resolve", sources);
+  program.bindSampler("drawn", 0);
+  return program;
+}
+
 }  // namespace
 
 int maxSamples() {
@@ -102,22 +137,27 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
   checkSamples(samples);
   checkGl("before making a framebuffer");
   const int multi = samples > 1 ? samples : 0;
-  color_ = Renderbuffer::make();
   depth_ = Renderbuffer::make();
+  color_ = Renderbuffer::make();
   drawn_ = Framebuffer::make();
+  makeStorage(color_, GL_RGBA32F, width, height, 0);
   if (multi) {
-    singleColor_ = Renderbuffer::make();
     single_ = Framebuffer::make();
-    makeStorage(singleColor_, GL_RGBA32F, width, height, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, single_.id());
-    attach(GL_COLOR_ATTACHMENT0, singleColor_);
+    attach(GL_COLOR_ATTACHMENT0, color_);
     checkGl("making a framebuffer");
     checkComplete();
+    samplesColor_ = TextureHandle::make();
+    samples_ = std::max(makeStorage(samplesColor_, GL_RGBA32F, width, height, multi), 1);
+    resolve_ = resolveProgram(samples_);
+    noVertices_ = VertexArray::make();
   }
-  samples_ = std::max(makeStorage(color_, GL_RGBA32F, width, height, multi), 1);
   makeStorage(depth_, GL_DEPTH_COMPONENT32F, width, height, multi);
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
-  attach(GL_COLOR_ATTACHMENT0, color_);
+  if (multi)
+    attach(samplesColor_);
+  else
+    attach(GL_COLOR_ATTACHMENT0, color_);
   attach(GL_DEPTH_ATTACHMENT, depth_);
   checkGl("making a framebuffer");
   checkComplete();
@@ -131,9 +171,15 @@ void RenderTarget::bind() const {
 
 void RenderTarget::resolve() const {
   if (samples_ <= 1) return;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.id());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.id());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, single_.id());
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesColor_.id());
+  resolve_.use();
+  glBindVertexArray(noVertices_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void RenderTarget::readRows(float* rgba, int first, int rows) const {

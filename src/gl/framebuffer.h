@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glint/gl/handles.h"
+#include "glint/gl/program.h"
 
 namespace glint {
 
@@ -26,9 +27,11 @@ class RenderTarget {
   /// Makes it what is drawn into and sets the viewport to the whole of it.
   void bind() const;
 
-  /// Averages the samples of each pixel, in linear light. Call it after drawing and before
-  /// readRows or blitting; does nothing if there is one sample. Leaves other framebuffers bound:
-  /// bind() before drawing more.
+  /// Averages the samples of each pixel, in linear light, by a program of its own: the sum is then
+  /// the same on every driver, and it is compiled once for all (a software driver compiles the
+  /// program of glBlitFramebuffer anew in every process, 100 ms). Call it after drawing and before
+  /// readRows or blitting; does nothing if there is one sample. Leaves other framebuffers bound and
+  /// state changed: bind() and set state before drawing more.
   void resolve() const;
 
   /// Copies `rows` rows beginning with `first` (row 0 is the bottom one, as in GL; a picture file
@@ -43,7 +46,10 @@ class RenderTarget {
 
  private:
   int width_, height_, samples_ = 1;
-  Renderbuffer color_, depth_, singleColor_;
+  Renderbuffer color_, depth_;
+  TextureHandle samplesColor_;  // in place of color_ where there are samples
+  Program resolve_;
+  VertexArray noVertices_;
   Framebuffer drawn_, single_;  // after the renderbuffers: deleted before them
 };
 

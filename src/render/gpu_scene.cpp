@@ -1,9 +1,11 @@
 #include "glint/render/gpu_scene.h"
 
+#include <algorithm>
 #include <future>
 #include <span>
 
 #include "glint/image/error.h"
+#include "glint/image/mipmaps.h"
 #include "glint/render/face_mesh.h"
 
 namespace glint {
@@ -76,7 +78,17 @@ GLint wrapMode(Wrap wrap) {
                                      : GL_MIRRORED_REPEAT;
 }
 
-TextureHandle uploadTexture(const ByteImage& image, const std::string& name) {
+bool readsMipLevels(const Scene& scene, int image) {
+  const auto reads = [&](const std::optional<Texture>& t) {
+    return t && t->image == image && t->sampler.mip != MipFilter::none;
+  };
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+    return reads(m.colorTexture) || reads(m.emissionTexture);
+  });
+}
+
+TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name) {
+  const ByteImage& image = decoded.image;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (image.width > limit || image.height > limit)
@@ -86,19 +98,27 @@ TextureHandle uploadTexture(const ByteImage& image, const std::string& name) {
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, image.values.data());
-  glGenerateMipmap(GL_TEXTURE_2D);
+  const auto upload = [](GLint level, const ByteImage& from) {
+    glTexImage2D(GL_TEXTURE_2D, level, GL_SRGB8_ALPHA8, from.width, from.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, from.values.data());
+  };
+  upload(0, image);
+  for (std::size_t i = 0; i < decoded.mipLevels.size(); ++i)
+    upload(GLint(i + 1), decoded.mipLevels[i]);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
   return texture;
 }
 
 }  // namespace
 
 DecodedImages decodeImages(Scene& scene, const Look& look) {
-  std::vector<std::pair<int, std::future<ByteImage>>> tasks;
+  std::vector<std::pair<int, std::future<DecodedImage>>> tasks;
   for (int i : imagesRead(scene, look))
-    tasks.emplace_back(i, std::async(std::launch::async, [&image = scene.images[std::size_t(i)]] {
-                         return decodeTexture(image.bytes, image.name);
+    tasks.emplace_back(i, std::async(std::launch::async, [&scene, i] {
+                         const EncodedImage& image = scene.images[std::size_t(i)];
+                         DecodedImage decoded{decodeTexture(image.bytes, image.name), {}};
+                         if (readsMipLevels(scene, i)) decoded.mipLevels = mipLevels(decoded.image);
+                         return decoded;
                        }));
   DecodedImages images;
   for (auto& [i, task] : tasks) {

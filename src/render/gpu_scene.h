@@ -11,8 +11,14 @@
 
 namespace glint {
 
-/// Decoded pictures by their index in Scene::images.
-using DecodedImages = std::map<int, ByteImage>;
+/// A texture's picture with the smaller levels, if a sampler reads them.
+struct DecodedImage {
+  ByteImage image;
+  std::vector<ByteImage> mipLevels;
+};
+
+/// By index in Scene::images.
+using DecodedImages = std::map<int, DecodedImage>;
 
 /// Decodes the images that the look reads, in parallel. A broken one becomes a warning of the scene
 /// and its materials lose the texture.

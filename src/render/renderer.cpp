@@ -75,15 +75,16 @@ void setState(const DrawItem& item) {
   glDepthMask(item.blended ? GL_FALSE : GL_TRUE);
 }
 
-// The mean of each scale x scale block. Rows of `from`, fromWidth pixels wide, count from the bottom;
-// those of the band `to` from the top.
+// The mean of each scale x scale block. Rows of `from`, fromWidth pixels wide, count from the
+// bottom; those of the band `to` from the top.
 void copyRows(const float* from, int fromWidth, int scale, const Tile& tile, Image& to) {
   const std::size_t across = std::size_t(4) * fromWidth;
   const int last = tile.height * scale - 1;
   for (int y = 0; y < tile.height; ++y) {
     float* out = to.row(y) + std::size_t(4) * tile.x;
     if (scale == 1) {
-      std::memcpy(out, from + across * std::size_t(last - y), sizeof(float) * 4 * std::size_t(tile.width));
+      std::memcpy(out, from + across * std::size_t(last - y),
+                  sizeof(float) * 4 * std::size_t(tile.width));
       continue;
     }
     const double share = 1.0 / (double(scale) * scale);
