@@ -117,7 +117,7 @@ Command addInfo(CLI::App& app) {
     const Look look = makeLook();
     const Scene scene = loadGltf(*model);
     const Json json = infoJson(scene, look);
-    for (const std::string& warning : scene.warnings) printWarning(warning);
+    for (const std::string& warning : scene.warnings) printWarning(*model + ": " + warning);
     if (*jsonFile != "-") print(json);
     if (!jsonFile->empty()) writeText(*jsonFile, json.dump(2) + "\n");
     return done;
