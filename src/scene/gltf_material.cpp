@@ -102,8 +102,7 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   }
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
-  material.shading =
-      shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
+  material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
 
   const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
   material.shading.color = glm::dvec3(color);
@@ -144,9 +143,12 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   std::vector<Material> materials;
   const Cursor list = Cursor(document.json, messages).member("materials");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    materials.push_back(readMaterial(list.item(i), textures, messages));
+    Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
+    // Every material needs a name by which it can be edited.
+    if (material.name.empty()) material.name = "#" + std::to_string(i);
   }
   Material& standard = materials.emplace_back();
+  standard.name = "#default";
   standard.shading = shadingFromPbr({});
   return materials;
 }
