@@ -343,18 +343,16 @@ void App::helpWindow() {
   ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x / 2, io.DisplaySize.y / 2), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   const float font = ImGui::GetFontSize();
-  ImGui::SetNextWindowSize(ImVec2(std::min(font * 58, io.DisplaySize.x * 0.96f),
-                                  std::min(font * 40, io.DisplaySize.y * 0.94f)));
+  ImGui::SetNextWindowSize(ImVec2(std::min(font * 62, io.DisplaySize.x * 0.96f),
+                                  std::min(font * 52, io.DisplaySize.y * 0.96f)));
   ImGui::Begin("Keys and mouse", &helpShown_,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
   const auto line = [&](const std::string& key, std::string_view text) {
     ImGui::TextColored(ImVec4(0.95f, 0.78f, 0.4f, 1), "%s", key.c_str());
-    ImGui::SameLine(ImGui::GetColumnOffset() + font * 9);
+    ImGui::SameLine(font * 9);
     ImGui::TextWrapped("%s", std::string(text).c_str());
   };
   ImGui::Columns(2, "keys", false);
-  const float top = ImGui::GetCursorPosY();
-  (void)top;
   ImGui::TextDisabled("Mouse over the picture");
   line("left drag", "turn the camera about what it looks at");
   line("middle drag", "move the camera sideways (also Shift + left)");
@@ -369,7 +367,7 @@ void App::helpWindow() {
   std::string_view section;
   for (const ActionInfo& info : actions()) {
     if (info.section != section) {
-      if (info.section == "Camera") ImGui::NextColumn();
+      if (info.section == "Edit") ImGui::NextColumn();
       ImGui::Spacing();
       section = info.section;
       ImGui::TextDisabled("%s", std::string(section).c_str());

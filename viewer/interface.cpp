@@ -119,7 +119,8 @@ Interface::Interface(Window& window, double scale) : window_(window) {
   loadFont(float(scale));
   ImGui::GetStyle().ScaleAllSizes(float(scale));
   widgets::style().scale = float(scale);
-  widgets::style().labelWidth = ImGui::GetIO().Fonts->Fonts[0]->FontSize * 9.6f;
+  io.Fonts->Build();
+  widgets::style().labelWidth = io.Fonts->Fonts[0]->FontSize * 9.4f;
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 

@@ -176,7 +176,8 @@ Probe probePixel(const Scene& scene, const Bounds& bounds, const Picker& picker,
     probe.expectedCode[i] = encodeSrgb8(e * scale);
   }
   if (look.antiAliasing.mode != AntiAliasing::Mode::none)
-    probe.remark = "at an edge the pixel is a mean of several samples";
+    probe.remark = "anti-aliased: the driver shades at another place within the pixel than its centre, and an edge is "
+        "a mean; without anti-aliasing the two agree to a few ulp";
   return probe;
 }
 
