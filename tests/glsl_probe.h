@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <ostream>
 #include <random>
