@@ -27,7 +27,7 @@ class SceneBuilder {
       : document_(document),
         graph_(graph),
         scene_(scene),
-        budget_(document.bufferBytes, messages),
+        budget_(document.geometryBytes, messages),
         messages_(messages) {}
 
   void place(std::size_t index) {
