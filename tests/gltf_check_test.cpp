@@ -60,6 +60,12 @@ TEST(GltfCheck, IndicesAreChecked) {
   expectRefused("/nodes/0/camera", 0, "refers to something that the file does not have");
 }
 
+TEST(GltfCheck, AttributeNamesWithAZeroByteAreCheckedToo) {
+  Sample sample;
+  sample.triangle()["attributes"][std::string("POSITION\0", 9)] = 99999;
+  EXPECT_THAT(sample.error(), HasSubstr("must be a whole number from 0 to 0, not 99999"));
+}
+
 TEST(GltfCheck, WholeNumbersMayBeWrittenWithAPoint) {
   Sample sample;
   sample.triangle();

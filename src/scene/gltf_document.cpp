@@ -188,8 +188,8 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
 }
 
 Budget::Budget(std::uint64_t geometryBytes, const Messages& messages)
-    : readable_((std::uint64_t(1) << 26) + 64 * geometryBytes),
-      keepable_(std::min((std::uint64_t(1) << 24) + 4 * geometryBytes, std::uint64_t(1) << 28)),
+    : readable_((std::uint64_t(1) << 25) + 64 * geometryBytes),
+      keepable_(std::min((std::uint64_t(1) << 22) + 4 * geometryBytes, std::uint64_t(1) << 28)),
       messages_(&messages) {}
 
 void Budget::read(std::uint64_t elements) {
