@@ -68,7 +68,8 @@ void readExtras(const Json& material, const std::string& label, ShadingParameter
     }
     const auto key = std::ranges::find(keys, std::string_view(it.key()), &Key::name);
     if (key == keys.end()) {
-      messages.warn(place + "." + name + " is not known and is ignored");
+      messages.warn(
+          std::string(place).append(".").append(name).append(" is not known and is ignored"));
     } else {
       take(name, *it, shading.*key->value, key->least, key->most);
     }
