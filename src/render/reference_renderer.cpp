@@ -112,7 +112,7 @@ void ReferenceRenderer::drawStrip(int firstRow, int endRow, Strip& strip) const 
         strip.color[at] = background(column, row);
         continue;
       }
-      const Reference& seen = primitives[strip.visible[at] - 1];
+      const Entry& seen = primitives[strip.visible[at] - 1];
       strip.color[at] = shader.fragment(int(seen.item), seen.primitive, column, row);
     }
   blend(firstRow, endRow, strip);
@@ -122,7 +122,7 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
   const std::size_t width = std::size_t(stage_.grid.x);
   const auto& primitives = strips_[stripOf(firstRow)];
   auto from = std::find_if(primitives.begin(), primitives.end(),
-                           [&](const Reference& r) { return stage_.items[r.item].blended; });
+                           [&](const Entry& r) { return stage_.items[r.item].blended; });
   PixelShader shader(stage_);
   for (; from != primitives.end(); ++from) {
     const reference::Item& item = stage_.items[from->item];
@@ -208,7 +208,7 @@ std::vector<reference::Attributes> ReferenceRenderer::attributes(int y0, int row
     for (int row = from; row < to; ++row)
       for (int column = 0; column < stage_.grid.x; ++column, ++at) {
         if (strip.visible[at] == 0) continue;
-        const Reference& seen = strips_[stripOf(from)][strip.visible[at] - 1];
+        const Entry& seen = strips_[stripOf(from)][strip.visible[at] - 1];
         all[width * std::size_t(row - y0) + std::size_t(column)] =
             shader.attributes(int(seen.item), seen.primitive, column, row);
       }

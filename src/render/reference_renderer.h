@@ -46,7 +46,7 @@ class ReferenceRenderer {
   const reference::Stage& stage() const { return stage_; }
 
  private:
-  struct Reference {
+  struct Entry {
     std::uint32_t item, primitive;
   };
   struct Strip {
@@ -67,7 +67,7 @@ class ReferenceRenderer {
   int stripRows_ = 1;  ///< rows of samples; a multiple of scale_
   DrawList list_;
   reference::Stage stage_;
-  std::vector<std::vector<Reference>> strips_;  ///< what may touch each, in drawing order
+  std::vector<std::vector<Entry>> strips_;  ///< what may touch each, in drawing order
   std::atomic<int> rowsDone_ = 0;
 };
 
