@@ -1,5 +1,9 @@
 #include "glint/render/reference_pixel.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "glint/shading/safe.h"
 
 namespace glint::reference {
@@ -35,6 +39,13 @@ glm::dvec3 emissionOf(const Item& item, const Footprint& f) {
   if (!item.emissionTexture) return item.emission;
   return item.emission *
          glm::dvec3(sampleTexture(*item.emissionTexture, item.emissionTexcoords, f));
+}
+
+double edgeDistanceOf(const Footprint& f) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+    nearest = std::min(nearest, f.weights[i] / std::hypot(f.dx[i], f.dy[i]));
+  return nearest;
 }
 
 bool carriesLight(const Surface& s) {
@@ -96,6 +107,7 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   a.primitive = number;
   a.front = primitive_.front;
   a.depth = f.depth;
+  if (primitive_.topology == Topology::triangles) a.edgeDistance = edgeDistanceOf(f);
   const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
   a.barycentrics = f.weights * w;
   a.base = baseColor(item, f);

@@ -54,7 +54,10 @@ struct Attributes {
   std::uint32_t primitive = 0;  ///< triangle, line or point of the item's mesh
   bool front = true;            ///< the side that is seen
   glm::dvec3 barycentrics{0.0};
-  double depth = 0;            ///< 1 at the near plane, 0 at the far one
+  double depth = 0;  ///< 1 at the near plane, 0 at the far one
+  /// Of triangles: from the sample to the nearest edge, in samples. A driver that snaps vertices to
+  /// 1/256 of a sample may put samples closer than 1/256 on the other side.
+  double edgeDistance = 0;
   glm::dvec3 position{0.0};    ///< interpolated
   glm::dvec3 normal{0.0};      ///< interpolated, neither renormalised nor turned
   glm::dvec3 faceNormal{0.0};  ///< unit, of the front side
