@@ -17,13 +17,13 @@ long cross(glm::ivec2 a, glm::ivec2 b, glm::ivec2 p) {
   return long(b.x - a.x) * (p.y - a.y) - long(b.y - a.y) * (p.x - a.x);
 }
 
-// Exact, y upwards, counter-clockwise: samples on a left edge (going down) or on a level top edge
-// (going left) are inside.
+// Exact, y upwards, counter-clockwise: samples on a left edge (going down) or on a level bottom
+// edge (going right) are inside.
 bool covers(const std::array<glm::ivec2, 3>& t, glm::ivec2 p) {
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::ivec2 a = t[i], b = t[(i + 1) % 3];
     const long side = cross(a, b, p);
-    const bool owned = b.y < a.y || (b.y == a.y && b.x < a.x);
+    const bool owned = b.y < a.y || (b.y == a.y && b.x > a.x);
     if (side < 0 || (side == 0 && !owned)) return false;
   }
   return true;

@@ -44,9 +44,10 @@ std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertice
 std::size_t primitiveCount(const Mesh& mesh);
 
 /// Whether a sample on an edge belongs to the triangle on the side where the edge's function is
-/// positive: edges on the left, and level ones at the top of the picture (their inside is below).
-/// Checked against llvmpipe, which draws into framebuffer objects likewise.
-inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0 && edge.y < 0); }
+/// positive. GL leaves it to the driver, as long as one of two triangles gets it. Here: edges on
+/// the left, and level ones at the bottom of the picture (their inside is above), as llvmpipe has
+/// it in framebuffer objects: its top-left rule counts rows as they lie in memory, bottom first.
+inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0 && edge.y > 0); }
 
 inline double at(const glm::dvec3& f, double x, double y) { return f.x * x + f.y * y + f.z; }
 

@@ -12,7 +12,7 @@ namespace glint {
 /// Draws a scene and look on the CPU in double precision, without GL: the truth for every error
 /// figure. The same picture whatever the number of threads and however the rows are asked for.
 ///
-/// Rasterises by GL's rules (pixel centres, the left and top edges' samples belong to a triangle,
+/// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
 /// perspective-correct interpolation, samples between the near and the far plane) but does not snap
 /// vertices to a subpixel grid. Where depths agree to 1e-12 the first drawn stays in front.
 /// Alpha-blended items follow the others from back to front, as in GL.
