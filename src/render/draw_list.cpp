@@ -114,8 +114,9 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return block;
 }
 
+// The sign of the determinant, of columns scaled so that their product neither under- nor overflows.
 bool isMirrored(const glm::dmat4& world) {
-  return glm::dot(glm::dvec3(world[0]), glm::cross(glm::dvec3(world[1]), glm::dvec3(world[2]))) < 0;
+  return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
 }
 
 double depthOf(const Mesh& mesh, const DrawBlock& block) {
