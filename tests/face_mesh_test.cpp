@@ -18,10 +18,9 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Turned so that the smallest index stands first: the same triangle with the same winding.
-Triangle turned(Triangle t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
+// The first in order of the triangle's three writings with the same winding.
+Triangle turned(const Triangle& t) {
+  return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
 }
 
 void expectFaces(const Mesh& mesh) {

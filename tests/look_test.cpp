@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glint/image/error.h"
+#include "glint/image/srgb.h"
 #include "glint/scene/parameters.h"
 #include "scenes.h"
 
@@ -190,7 +191,8 @@ const std::vector<Good>& goodTexts() {
        [](Look& l) {
          l.backgroundColor = {1, 0, 0.25};
        }},
-      {"background-color", "#333333", [](Look&) {}},
+      {"background-color", "#333333",
+       [](Look& l) { l.backgroundColor = glm::dvec3(glint::decodeSrgb8(0x33)); }},
       {"no-background", "true", [](Look& l) { l.noBackground = true; }},
       {"exposure", "-1.5", [](Look& l) { l.exposure = -1.5; }},
   };
@@ -428,6 +430,7 @@ TEST(LookTexts, LightsAddUpToTheLimit) {
 }
 
 TEST(LookTexts, HexColoursAreSrgb) {
+  EXPECT_EQ(float(Look{}.backgroundColor.r), glint::decodeSrgb8(0x33));  // the default, #333333
   // IEC 61966-2-1: 0x80 = 128 / 255 is ((0.50196 + 0.055) / 1.055)^2.4; the table is float.
   const double expected = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);
   EXPECT_NEAR(with("background-color", "#800000").backgroundColor.r, expected, 3e-8);
