@@ -51,7 +51,9 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
       e.position = glm::vec4(glm::vec3(l), 0);
       // L + V for the one direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
       const glm::dvec3 between = l + glm::dvec3(0, 0, 1);
-      e.constant = glm::vec4(glm::vec3(blinn ? unit(between) : between), 0);
+      const bool opposed = !(glm::dot(between, between) > 1e-12);
+      const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
+      e.constant = glm::vec4(glm::vec3(blinn ? half : between), 0);
     } else {
       e.position = glm::vec4(eyePosition(light.position, camera, rotation), 1);
     }
