@@ -161,6 +161,6 @@ TEST(Backends, GiveTheSameBitsInTilesAndAgain) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(differingPixels(a[i], b[i]), 0u);
     EXPECT_EQ(differingPixels(a[i], a[i + 2]), 0u);  // I9
-    EXPECT_GT(coveredPixels(a[i], look.backgroundColor), 1000u);
+    EXPECT_GT(coveredPixels(a[i], look.backgroundColor), 300u);
   }
 }

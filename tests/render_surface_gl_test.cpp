@@ -303,7 +303,8 @@ TEST_P(Surface, VanishingNormalsGiveTheFacesOwn) {
       EXPECT_TRUE(isFinite(image));
       // In the middle column the normals cancel; the face looks to the light.
       // Its normal comes from differences of positions over a pixel, 2/9, good to 9 roundings of 4.
-      expectColor(middle(image), glm::dvec3(0.75), 64 * rounding, glint::shadingName(shading).data());
+      expectColor(middle(image), glm::dvec3(0.75), 64 * rounding,
+                  glint::shadingName(shading).data());
       mesh.normals.assign(4, glm::vec3(0));  // none anywhere (A1)
       expectColor(color(draw(sceneOf(mesh, m), look), 2, 5), glm::dvec3(0.75), 64 * rounding);
     }
@@ -312,7 +313,9 @@ TEST_P(Surface, VanishingNormalsGiveTheFacesOwn) {
 TEST_P(Surface, BackgroundIsEncodedToItsCode) {
   Look look = parallelLook();
   look.backgroundColor = Look{}.backgroundColor;
-  const Image image = draw(Scene{.materials = {Material{}}}, look);
+  Scene nothing;
+  nothing.materials.emplace_back();
+  const Image image = draw(nothing, look);
   EXPECT_THAT(codes(middle(image)), testing::Each(0x33));
   EXPECT_EQ(pixel(image, 0, 0).w, 1);
 }
@@ -329,8 +332,7 @@ TEST_P(Surface, EdgesOverNoBackgroundHaveStraightAlpha) {
     look.backgroundColor = {1, 0, 1};  // must not show
     look.environmentBackground = true;
     look.antiAliasing = antiAliasing;
-    const Image image =
-        draw(sceneOf(quad({0, 0, 1}, 0.6f), unlitMaterial(c), rotation(0.4)), look);
+    const Image image = draw(sceneOf(quad({0, 0, 1}, 0.6f), unlitMaterial(c), rotation(0.4)), look);
     std::map<double, int> alphas;
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 40; ++x) {
@@ -440,9 +442,8 @@ TEST_P(Surface, TrianglesThroughTheNearPlaneAreFinite) {  // G4, G9
     EXPECT_TRUE(isFinite(inside));
     EXPECT_EQ(coveredPixels(inside), 32u * 32u);
     look.cameraPosition = glm::dvec3(0, 0.1, 0.5);
-    EXPECT_TRUE(isFinite(draw(sceneOf(quad({0, 1, 0}, 3), materialOf(1, 1, 1, 10),
-                                      rotation(1.5)),
-                              look)));
+    EXPECT_TRUE(
+        isFinite(draw(sceneOf(quad({0, 1, 0}, 3), materialOf(1, 1, 1, 10), rotation(1.5)), look)));
   }
 }
 
