@@ -24,21 +24,31 @@ void main() {
 #if ALPHA_MASK
   if (base.a < material.emission.a) discard;
 #endif
-#if UNLIT
-  vec3 radiance = base.rgb;
-#else
-  vec3 radiance = shade(base);
-#if EMISSION
-  vec3 emission = material.emission.rgb;
+  vec3 emission = vec3(0.0);
+#if !UNLIT && EMISSION
+  emission = material.emission.rgb;
 #if EMISSION_TEXTURE
   emission *= texture(emissionTexture, vEmissionTexcoord).rgb;
 #endif
-  radiance += emission;
 #endif
+#if OUTPUT == OUTPUT_COLOR
+  fragment = base;
+#elif OUTPUT == OUTPUT_EMISSION
+  fragment = vec4(emission, 1.0);
+#elif OUTPUT == OUTPUT_NORMAL
+  fragment = vec4(vNormal, gl_FrontFacing ? 1.0 : -1.0);
+#elif OUTPUT == OUTPUT_POSITION
+  fragment = vec4(vPosition, 1.0);
+#else
+#if UNLIT
+  vec3 radiance = base.rgb;
+#else
+  vec3 radiance = shade(base) + emission;
 #endif
 #if ALPHA_BLEND && !OPAQUE_OUTPUT
   fragment = vec4(radiance, base.a);
 #else
   fragment = vec4(radiance, 1.0);
+#endif
 #endif
 }

@@ -164,7 +164,7 @@ TEST_P(OnBackend, RefusesMoreSamplesThanTheDriverHas) {
   const int most = glint::maxSamples();
   EXPECT_EQ(most, 4);
   EXPECT_EQ(message([] { glint::RenderTarget target(8, 8, 8); }),
-            "anti-aliasing msaa:8: this driver has at most 4 samples: use --anti-aliasing ssaa:3");
+            "--anti-aliasing msaa:8: this driver has at most 4 samples: use --anti-aliasing ssaa:3");
   EXPECT_THROW(glint::RenderTarget(8, 8, 16), glint::InputError);
   EXPECT_THROW(glint::RenderTarget(8, 8, 0), glint::InputError);
   glint::checkGl("asking for samples");
@@ -172,7 +172,7 @@ TEST_P(OnBackend, RefusesMoreSamplesThanTheDriverHas) {
 
 TEST_P(OnBackend, RefusesSizesTheDriverLacks) {
   EXPECT_THAT(message([] { glint::RenderTarget target(1 << 20, 8, 1); }),
-              AllOf(HasSubstr("resolution 1048576,8"), HasSubstr("pixels a side")));
+              AllOf(HasSubstr("--resolution 1048576,8"), HasSubstr("pixels a side")));
   EXPECT_THROW(glint::RenderTarget(0, 8, 1), glint::InputError);
 }
 

@@ -73,8 +73,9 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const auto used = app.get_subcommands();
   const CLI::App& command = used.empty() ? app : *used.front();
-  const std::string where = used.empty() ? "glint" : "glint " + command.get_name();
-  const std::string remedy = ": see " + where + " --help";
+  const std::string where = used.empty() ? "" : command.get_name() + ": ";
+  const std::string remedy =
+      ": see glint " + (used.empty() ? "" : command.get_name() + " ") + "--help";
   if (dynamic_cast<const CLI::RequiredError*>(&error) && used.empty()) {
     if (argc > 1 && argv[1][0] != '-') {
       std::vector<std::string> names;
@@ -90,17 +91,17 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, int 
     const std::string word =
         extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
     if (used.empty()) return "unknown command or option '" + word + "'" + remedy;
-    if (word.empty() || word[0] != '-') return where + ": unexpected '" + word + "'" + remedy;
+    if (word.empty() || word[0] != '-') return where + "unexpected '" + word + "'" + remedy;
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     const std::string best = nearest(word, names);
-    return where + ": unknown option '" + word + "'" +
+    return where + "unknown option '" + word + "'" +
            (best.empty() ? remedy : ": did you mean '" + best + "'?");
   }
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return where + ": " + text + remedy;
+  return where + text + remedy;
 }
 
 }  // namespace glint

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -48,8 +49,11 @@ Json infoJson(const Scene& scene, const Look& look) {
             {"center", vectorJson(bounds.center)},
             {"radius", bounds.radius}};
   json["materials"] = Json::array();
-  for (const Material& m : scene.materials)
-    json["materials"].push_back(materialJson(editedMaterial(m, look), read));
+  std::set<int> used;
+  for (const Instance& i : scene.instances) used.insert(scene.meshes[std::size_t(i.mesh)].material);
+  for (const int i : used)
+    json["materials"].push_back(
+        materialJson(editedMaterial(scene.materials[std::size_t(i)], look), read));
   json["images"] = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i)
     json["images"].push_back({{"name", scene.images[i].name},
@@ -70,7 +74,7 @@ std::string oneLine(const Json& value) {
 
 void print(const Json& json) {
   std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
-            << json["meshes"] << " meshes in " << json["instances"] << " places, radius "
+            << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
             << json["radius"] << " about " << json["center"].dump() << "\n";
   std::cout << "\nMaterials\n";
   for (const Json& m : json["materials"]) {
@@ -114,7 +118,7 @@ Command addInfo(CLI::App& app) {
     const Look look = makeLook();
     const Scene scene = loadGltf(*model);
     const Json json = infoJson(scene, look);
-    for (const std::string& warning : scene.warnings) printWarning(warning);
+    for (const std::string& warning : scene.warnings) printWarning(*model + ": " + warning);
     if (*jsonFile != "-") print(json);
     if (!jsonFile->empty()) writeText(*jsonFile, json.dump(2) + "\n");
     return done;

@@ -1,6 +1,8 @@
+#include <CLI/CLI.hpp>
 #include <deque>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "glint/image/error.h"

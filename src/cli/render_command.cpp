@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -146,7 +147,8 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
       entry["ms"]["context"] = contextTime;
       entry["ms"]["total"] = since(started);
     }
-    for (const std::string& warning : loaded.scene.warnings) printWarning(warning);
+    for (const std::string& warning : loaded.scene.warnings)
+      printWarning(options.models[i] + ": " + warning);
     entry["warnings"] = loaded.scene.warnings;
     if (!loaded.error.empty()) {
       std::cerr << "glint: " << loaded.error << "\n";

@@ -79,20 +79,20 @@ void checkSize(int width, int height) {
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
   const int most = std::min({buffer, viewport[0], viewport[1]});
   if (width < 1 || height < 1 || width > most || height > most)
-    throw InputError("resolution " + std::to_string(width) + "," + std::to_string(height) +
+    throw InputError("--resolution " + std::to_string(width) + "," + std::to_string(height) +
                      ": this driver draws from 1 to " + std::to_string(most) + " pixels a side");
 }
 
 void checkSamples(int samples) {
   if (samples < 1)
-    throw InputError("anti-aliasing msaa:" + std::to_string(samples) +
+    throw InputError("--anti-aliasing msaa:" + std::to_string(samples) +
                      ": the number of samples begins with 1");
   if (samples == 1) return;
   const int most = maxSamples();
   if (samples <= most) return;
   const int side = int(std::ceil(std::sqrt(double(samples))));
   throw InputError(
-      "anti-aliasing msaa:" + std::to_string(samples) + ": this driver has " +
+      "--anti-aliasing msaa:" + std::to_string(samples) + ": this driver has " +
       (most > 1 ? "at most " + std::to_string(most) + " samples" : "no multisampling") +
       ": use --anti-aliasing ssaa:" + std::to_string(side));
 }

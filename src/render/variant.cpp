@@ -101,6 +101,12 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   return v;
 }
 
+Variant attributeVariant(Variant variant, PixelOutput output) {
+  variant.output = output;
+  if (output == PixelOutput::position) variant.pixelPosition = true;
+  return variant;
+}
+
 std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const Material& material,
                                       const Look& look, bool orthographic) {
   std::vector<FeatureReason> reasons;

@@ -10,6 +10,16 @@
 
 namespace glint {
 
+/// What a pixel's value is: the picture's radiance, or what went into it, so that the error of a
+/// picture can be split into that of interpolation, of texture filtering and of shading.
+enum class PixelOutput {
+  radiance,
+  position,  ///< xyz: eye space, w: 1
+  normal,    ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
+  color,     ///< C of the pixel and alpha: factor, vertex colour and texture
+  emission,  ///< rgb, w: 1
+};
+
 /// What a shader holds: the program and only the features that the scene needs of it. Equal
 /// variants are one GLSL program. A pure function of scene and look; needs no GL.
 struct Variant {
@@ -32,6 +42,7 @@ struct Variant {
   Fresnel fresnel = Fresnel::exact;
   bool dielectric = false, metal = false, refraction = false;
   bool centroid = false;  ///< multisampled: varyings stay within the triangle
+  PixelOutput output = PixelOutput::radiance;
 
   auto operator<=>(const Variant&) const = default;
 };
@@ -47,6 +58,10 @@ struct FeatureReason {
 /// `orthographic` is that of the camera in use.
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
+
+/// The variant that writes an attribute of the same pixels; per-pixel programs only have normals and
+/// positions.
+Variant attributeVariant(Variant, PixelOutput);
 
 /// Why a variant is as it is, in the order of its members.
 std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Material&, const Look&,

@@ -5,8 +5,10 @@
 //   floor OUT.png [key=value ...]
 //     backend=osmesa|egl   size=1024   samples=1|4   bands=1   triangles=4000
 //     heap=none|keep|huge  (what glibc is told: nothing; keep freed memory; and use huge pages)
+//     print=1              (milliseconds of each step)
 //     frames=1             (more: prints the steady state's median)
-//     format=float|rgba8   (rgba8: the driver's own rounding; only to see what a float target costs)
+//     format=float|rgba8   (rgba8: the driver's own rounding; only to see what a float target
+//     costs)
 #include <dlfcn.h>
 #include <glad/egl.h>
 #include <glad/gl.h>
@@ -78,9 +80,13 @@ void openEgl() {
   eglInitialize(display, nullptr, nullptr);
   gladLoadEGL(display, load);
   eglBindAPI(EGL_OPENGL_API);
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               3,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               3,
                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
   const EGLContext context =
       eglCreateContext(display, EGLConfig(nullptr), EGL_NO_CONTEXT, attributes);
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
@@ -115,8 +121,8 @@ void main() {
 
 GLuint makeProgram() {
   const GLuint program = glCreateProgram();
-  for (auto [stage, source] : {std::pair{GL_VERTEX_SHADER, vertexSource},
-                               std::pair{GL_FRAGMENT_SHADER, fragmentSource}}) {
+  for (auto [stage, source] :
+       {std::pair{GL_VERTEX_SHADER, vertexSource}, std::pair{GL_FRAGMENT_SHADER, fragmentSource}}) {
     const GLuint shader = glCreateShader(stage);
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
@@ -213,9 +219,10 @@ void encodeRows(const Encoder& encode, const float* from, std::uint8_t* to, int 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::map<std::string, std::string> o{{"backend", "osmesa"}, {"size", "1024"}, {"samples", "1"},
-                                       {"bands", "1"}, {"triangles", "4000"}, {"heap", "huge"},
-                                       {"frames", "1"}, {"format", "float"}, {"level", "1"}};
+  std::map<std::string, std::string> o{
+      {"backend", "osmesa"}, {"size", "1024"},      {"samples", "1"},
+      {"bands", "1"},        {"triangles", "4000"}, {"heap", "huge"},
+      {"frames", "1"},       {"format", "float"},   {"level", "1"}};
   for (int i = 2; i < argc; ++i) {
     const std::string a = argv[i];
     o[a.substr(0, a.find('='))] = a.substr(a.find('=') + 1);
@@ -270,7 +277,8 @@ int main(int argc, char** argv) {
       if (floats)
         encodeRows(encode, values.data(), out, size, rows);
       else
-        for (std::size_t i = 0; i < bytes.size() / 4; ++i) std::memcpy(out + 3 * i, &bytes[4 * i], 3);
+        for (std::size_t i = 0; i < bytes.size() / 4; ++i)
+          std::memcpy(out + 3 * i, &bytes[4 * i], 3);
       draw += t1 - t0, read += t2 - t1, code += now() - t2;
     }
     times.push_back(now() - start);
@@ -290,9 +298,11 @@ int main(int argc, char** argv) {
     std::sort(times.begin(), times.end());
     std::printf("frame %.2f ms\n", times[times.size() / 2]);
   } else if (o.count("print")) {
-    std::printf("fb %.1f alloc %.1f\n", tfb - t[2], tvec - tfb);
-    std::printf("context %.1f mesh+program %.1f frame %.1f (draw %.1f read %.1f encode %.1f) png %.1f total %.1f\n",
-                t[1] - t[0], t[2] - t[1], t[3] - t[2], draw, read, code, t[4] - t[3], t[4] - t[0]);
+    std::printf(
+        "context %.1f mesh+program %.1f framebuffer %.1f buffers %.1f draw %.1f read %.1f "
+        "encode %.1f png %.1f total %.1f\n",
+        t[1] - t[0], t[2] - t[1], tfb - t[2], tvec - tfb, draw, read, code, t[4] - t[3],
+        t[4] - t[0]);
   }
   std::fflush(stdout);
   std::_Exit(0);
