@@ -91,7 +91,7 @@ class GlslFresnel : public GlslTest {
 
   void SetUp() override {
     GlslTest::SetUp();
-    probe_.emplace(GlslSources{}, ProbeText{{"fresnel.glsl"}, {}});
+    probe_.emplace(glslSources(), ProbeText{{"fresnel.glsl"}, {}});
   }
 
   Column exact(const Column& c, const Indices& i) {
@@ -273,7 +273,7 @@ TEST_P(GlslFresnel, HuntedWorstInput) {
         },
         1 << 14, 24);
     EXPECT_LE(worst.error, 1) << describeRow({worst.input}, {2}, 0);
-    if (std::getenv("GLINT_PROBE_PRINT"))
+    if (printsErrors())
       std::printf("hunted: fresnelExact %s %.3g of the bound at %s, largest error %.3g\n",
                   denser ? "from the denser side" : "from the thinner side", worst.error,
                   describeRow({worst.input}, {2}, 0).c_str(), largest);
