@@ -19,27 +19,30 @@ float fresnelExact(float cosine, Boundary b) {
   float g = sqrt(max(g2, 0.0));
   float s = c + g, p = b.square * c + g;
   float rs = b.e / (s * s), rp = b.e * q / (p * p);
-  return b.e == 0.0 ? 0.0 : g2 > 0.0 ? 0.5 * (rs * rs + rp * rp) : 1.0;
+  return b.e == 0.0 ? 0.0 : g2 > 0.0 ? min(0.5 * (rs * rs + rp * rp), 1.0) : 1.0;
 }
 
-// As the textbooks write it, with the mean of both polarisations.
+// As the textbooks write it, with the mean of both polarisations; equal indices, where rounding would
+// leave something at grazing angles, give 0 here too.
 float fresnelTextbook(float cosine, Boundary b) {
   float c = clamp(cosine, 0.0, 1.0);
   float sin2 = b.ratio * b.ratio * (1.0 - c * c);
-  if (sin2 >= 1.0) return b.e == 0.0 ? 0.0 : 1.0;
+  if (sin2 >= 1.0 || b.e == 0.0) return b.e == 0.0 ? 0.0 : 1.0;
   float n = 1.0 / b.ratio, t = sqrt(1.0 - sin2);
   float rs = (c - n * t) / (c + n * t), rp = (n * c - t) / (n * c + t);
-  return 0.5 * (rs * rs + rp * rp);
+  return min(0.5 * (rs * rs + rp * rp), 1.0);
 }
 
 // Schlick 1994: R0 + (1 - R0)(1 - c)^exponent, with the cosine on the thinner side: from the denser
-// side that is the refracted one, and beyond the critical angle R is 1.
+// side that is the refracted one, and beyond the critical angle R is 1. Equal indices give 0.
 float fresnelSchlick(float cosine, Boundary b, float exponent) {
   float c = clamp(cosine, 0.0, 1.0);
+  if (b.e == 0.0) return 0.0;
   if (b.e < 0.0) {
-    float cos2 = (b.e + c * c) / b.square;
+    // As in fresnelExact: e + c^2 has no digits left where c nears 1 and n is small.
+    float c2 = c * c, cos2 = (c2 > 0.5 ? b.square - (1.0 - c) * (1.0 + c) : b.e + c2) / b.square;
     if (cos2 <= 0.0) return 1.0;
-    c = sqrt(cos2);
+    c = min(sqrt(cos2), 1.0);
   }
   float x = 1.0 - c;
   return b.normal + (1.0 - b.normal) * (x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : 1.0);

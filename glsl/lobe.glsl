@@ -28,7 +28,8 @@ float lobeExact(float lambda, float exponent) {
   return lambda < 1.0 ? exp2(1.44269504089 * exponent * log1m(lambda)) : 0.0;
 }
 
-// The textbook's pow(max(cosine, 0), exponent), with its rounding; pow(0, 0) is undefined in GLSL.
+// The textbook's pow(max(cosine, 0), exponent), with its rounding, but never above the peak, which
+// the cosine of rounded vectors may exceed; pow(0, 0) is undefined in GLSL.
 float lobePow(float cosine, float exponent) {
-  return cosine > 0.0 ? pow(cosine, exponent) : 0.0;
+  return cosine > 0.0 ? pow(min(cosine, 1.0), exponent) : 0.0;
 }

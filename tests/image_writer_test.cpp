@@ -178,7 +178,6 @@ TEST_F(Writer, UnfinishedPicturesLeaveNothing) {
 }
 
 TEST_F(Writer, FullDiskIsReported) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP();
   fs::create_symlink("/dev/full", in("full.png"));
   fs::create_symlink("/dev/full", in("full.pfm"));
   for (const char* name : {"full.png", "full.pfm"}) {

@@ -1,10 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 
 #include "glint/scene/look.h"
+
+namespace CLI {
+class App;
+}
 
 namespace glint {
 

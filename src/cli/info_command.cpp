@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -49,10 +50,10 @@ Json infoJson(const Scene& scene, const Look& look) {
             {"radius", bounds.radius}};
   json["materials"] = Json::array();
   std::set<int> used;
-  for (const Instance& i : scene.instances)
-    used.insert(scene.meshes[std::size_t(i.mesh)].material);
+  for (const Instance& i : scene.instances) used.insert(scene.meshes[std::size_t(i.mesh)].material);
   for (const int i : used)
-    json["materials"].push_back(materialJson(editedMaterial(scene.materials[std::size_t(i)], look), read));
+    json["materials"].push_back(
+        materialJson(editedMaterial(scene.materials[std::size_t(i)], look), read));
   json["images"] = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i)
     json["images"].push_back({{"name", scene.images[i].name},

@@ -27,7 +27,7 @@ class SceneBuilder {
       : document_(document),
         graph_(graph),
         scene_(scene),
-        budget_(document.bufferBytes, messages),
+        budget_(document.geometryBytes, messages),
         messages_(messages) {}
 
   void place(std::size_t index) {
@@ -36,6 +36,7 @@ class SceneBuilder {
     const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
     Pose pose;
     pose.weights = node.weights.empty() ? mesh.weights : node.weights;
+    budget_.read(pose.weights.size());
     if (!pose.morphs()) pose.weights.clear();
     for (const Part& part : parts(node.mesh, node.skin, std::move(pose))) {
       if (scene_.instances.size() == maxInstances) {
@@ -61,6 +62,7 @@ class SceneBuilder {
     }
     const auto index = static_cast<std::size_t>(mesh);
     const std::size_t count = document_.model.meshes[index].primitives.size();
+    budget_.read(count);
     for (std::size_t i = 0; i < count; ++i) {
       std::optional<BuiltMesh> built =
           buildMesh(document_, index, i, pose, scene_.materials, budget_, messages_);

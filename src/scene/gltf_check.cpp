@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <climits>
+#include <set>
 #include <vector>
 
 namespace glint::gltf {
@@ -49,22 +50,20 @@ void checkAsset(Cursor root, const Messages& messages) {
 
 void checkExtensions(Cursor root, Messages& messages) {
   const Cursor required = root.member("extensionsRequired");
-  std::vector<std::string> requiredNames;
   for (std::size_t i = 0; i < required.size(); ++i) {
-    requiredNames.push_back(required.item(i).text());
-    if (!isSupported(requiredNames.back())) {
-      messages.fail("requires the extension " + printable(requiredNames.back(), 80) +
+    const std::string name = required.item(i).text();
+    if (!isSupported(name)) {
+      messages.fail("requires the extension " + printable(name, 80) +
                         ", which is not supported by this version",
                     "export it without that extension");
     }
   }
   const Cursor used = root.member("extensionsUsed");
-  std::vector<std::string> told;
+  std::set<std::string> told;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string name = used.item(i).text();
-    if (isSupported(name) || std::ranges::find(told, name) != told.end()) continue;
+    if (isSupported(name) || !told.insert(name).second) continue;
     messages.warn("the extension " + printable(name, 80) + " is not supported and is ignored");
-    told.push_back(name);
   }
 }
 
@@ -186,11 +185,7 @@ void checkAccessors(Cursor root, const std::vector<View>& views) {
 }
 
 void checkAttributes(Cursor attributes, std::size_t accessors) {
-  attributes.checkObject();
-  if (!attributes.exists()) return;
-  for (auto it = attributes.json().begin(); it != attributes.json().end(); ++it) {
-    attributes.member(it.key().c_str()).index(accessors);
-  }
+  attributes.forEachMember([&](Cursor attribute) { attribute.index(accessors); });
 }
 
 void checkMeshes(Cursor root) {

@@ -12,46 +12,97 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 /// More than any GPU holds; many buffers may name the same large file.
-constexpr std::uint64_t maxBufferBytes = std::uint64_t(8) << 30;
+constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
 
-Bytes readBuffer(Cursor buffer, std::size_t index, Container& container,
-                 const std::filesystem::path& folder, const Messages& messages) {
+ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& container,
+                      const std::filesystem::path& folder, const Messages& messages) {
   const std::string label = "buffers[" + std::to_string(index) + "]";
   const auto wanted =
       static_cast<std::uint64_t>(buffer.member("byteLength").integer(0, 0, INT64_MAX));
-  Bytes bytes;
+  ByteSource source;
   if (const Cursor uri = buffer.member("uri"); uri.exists()) {
     std::string error;
     const std::string text = uri.text();
-    bytes = readUri<unsigned char>(text, folder, wanted, error);
+    source = openUri(text, folder, error);
     if (!error.empty()) {
       messages.fail(label + ", the file \"" + printableUri(text) + "\", " + error,
                     "put it there or export the model as .glb");
     }
   } else if (index == 0 && container.binary) {
-    bytes = std::move(*container.binary);
+    source = *container.binary;
   } else {
     messages.fail(label + " has neither a uri nor a binary GLB chunk");
   }
-  if (bytes.size() < wanted) {
+  if (source.size() < wanted) {
     messages.fail(label + " tells " + std::to_string(wanted) + " bytes and has " +
-                  std::to_string(bytes.size()));
+                  std::to_string(source.size()));
   }
-  bytes.resize(wanted);
-  return bytes;
+  return source;
 }
 
-std::vector<Bytes> readBuffers(Cursor root, Container& container,
-                               const std::filesystem::path& folder, const Messages& messages) {
-  const Cursor list = root.member("buffers");
-  std::vector<Bytes> buffers;
-  std::uint64_t total = 0;
+std::vector<ViewPlace> placeViews(Cursor root) {
+  const Cursor list = root.member("bufferViews");
+  std::vector<ViewPlace> views;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    total += static_cast<std::uint64_t>(list.item(i).member("byteLength").integer(0, 0, INT64_MAX));
-    if (total > maxBufferBytes) {
+    const auto number = [&](const char* key) {
+      return static_cast<std::uint64_t>(list.item(i).member(key).integer(0, 0, INT64_MAX));
+    };
+    views.push_back({number("buffer"), number("byteOffset"), number("byteLength")});
+  }
+  return views;
+}
+
+/// The buffer views that accessors refer to.
+std::vector<bool> viewsOfAccessors(Cursor root, std::size_t count) {
+  std::vector<bool> used(count, false);
+  const auto use = [&](Cursor owner) {
+    const int view = owner.member("bufferView").index(count);
+    if (view >= 0) used[static_cast<std::size_t>(view)] = true;
+  };
+  const Cursor list = root.member("accessors");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    use(list.item(i));
+    use(list.item(i).member("sparse").member("indices"));
+    use(list.item(i).member("sparse").member("values"));
+  }
+  return used;
+}
+
+/// Reads of each buffer the stretch in which the views lie that accessors use, and makes the
+/// document's buffer views relative to it.
+std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages& messages) {
+  const std::vector<bool> used = viewsOfAccessors(root, document.views.size());
+  struct Stretch {
+    std::uint64_t first = UINT64_MAX;
+    std::uint64_t end = 0;
+  };
+  std::vector<Stretch> stretches(document.buffers.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const ViewPlace& view = document.views[i];
+    Stretch& stretch = stretches[view.buffer];
+    stretch.first = std::min(stretch.first, view.offset);
+    stretch.end = std::max(stretch.end, view.offset + view.size);
+  }
+  const Cursor views = root.member("bufferViews");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const ViewPlace& view = document.views[i];
+    views.item(i).json()["byteOffset"] =
+        used[i] ? view.offset - stretches[view.buffer].first : std::uint64_t(0);
+  }
+  std::vector<Bytes> buffers(document.buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const Stretch stretch = stretches[i];
+    if (stretch.end > stretch.first) document.geometryBytes += stretch.end - stretch.first;
+    if (document.geometryBytes > maxGeometryBytes) {
       messages.fail("its buffers hold more than 8 GiB", "split the model");
     }
-    buffers.push_back(readBuffer(list.item(i), i, container, folder, messages));
+    buffers[i].resize(stretch.end > stretch.first ? stretch.end - stretch.first : 0);
+    if (!document.buffers[i].read(buffers[i].data(), stretch.first, buffers[i].size()) &&
+        !buffers[i].empty()) {
+      messages.fail("buffers[" + std::to_string(i) + "] cannot be read", "check the disk");
+    }
+    if (buffers[i].empty()) buffers[i].push_back(0);  // tinygltf takes it for a missing file
   }
   return buffers;
 }
@@ -112,13 +163,14 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   document.json = parseJson(container.json, messages);
   container.json = {};
   checkDocument(document.json, messages);
-  std::vector<Bytes> buffers =
-      readBuffers(Cursor(document.json, messages), container, path.parent_path(), messages);
-  for (Bytes& buffer : buffers) {
-    document.bufferBytes += buffer.size();
-    if (buffer.empty()) buffer.push_back(0);  // tinygltf takes an empty file for a missing one
+  const Cursor root(document.json, messages);
+  const Cursor list = root.member("buffers");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    document.buffers.push_back(
+        openBuffer(list.item(i), i, container, path.parent_path(), messages));
   }
-
+  document.views = placeViews(root);
+  std::vector<Bytes> buffers = readGeometry(root, document, messages);
   const std::string geometry = takeGeometry(document.json, buffers);
   tinygltf::TinyGLTF reader;
   tinygltf::FsCallbacks callbacks{};
@@ -135,9 +187,9 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   return document;
 }
 
-Budget::Budget(std::uint64_t bufferBytes, const Messages& messages)
-    : readable_((std::uint64_t(1) << 26) + 64 * bufferBytes),
-      keepable_(std::min((std::uint64_t(1) << 24) + 4 * bufferBytes, std::uint64_t(1) << 28)),
+Budget::Budget(std::uint64_t geometryBytes, const Messages& messages)
+    : readable_((std::uint64_t(1) << 25) + 64 * geometryBytes),
+      keepable_(std::min((std::uint64_t(1) << 22) + 4 * geometryBytes, std::uint64_t(1) << 28)),
       messages_(&messages) {}
 
 void Budget::read(std::uint64_t elements) {

@@ -4,20 +4,33 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
+#include "glint/scene/gltf_file.h"
 #include "glint/scene/gltf_json.h"
 
 namespace glint::gltf {
 
-/// A glTF file, checked, with its buffers in memory.
+/// Where a buffer view lies.
+struct ViewPlace {
+  std::size_t buffer = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t size = 0;
+};
+
+/// A glTF file, checked, with what its accessors refer to in memory.
 struct Document {
   std::filesystem::path path;
-  /// Accessors, buffer views, buffers' bytes, meshes, nodes, skins and scenes.
+  /// Accessors, buffer views, meshes, nodes, skins and scenes. Of each buffer only the stretch that
+  /// accessors lie in is held, and only their buffer views point into it: most of a model's bytes
+  /// are images, of which most are never shown.
   tinygltf::Model model;
   /// Materials, textures, samplers, images and cameras, as they stand in the file: tinygltf cuts
   /// large numbers down to 32 bits and would read images that nothing shows.
   Json json;
-  std::uint64_t bufferBytes = 0;  ///< of all buffers together
+  std::vector<ByteSource> buffers;
+  std::vector<ViewPlace> views;     ///< all buffer views, as they lie in `buffers`
+  std::uint64_t geometryBytes = 0;  ///< held in `model`
 };
 
 Document readDocument(const std::filesystem::path& path, Messages& messages);
@@ -27,7 +40,7 @@ Document readDocument(const std::filesystem::path& path, Messages& messages);
 /// needs a few elements for each byte that it brings.
 class Budget {
  public:
-  Budget(std::uint64_t bufferBytes, const Messages& messages);
+  Budget(std::uint64_t geometryBytes, const Messages& messages);
 
   /// Counts elements about to be read, or fails.
   void read(std::uint64_t elements);

@@ -20,7 +20,8 @@ std::uint32_t littleEndian(const unsigned char* bytes) {
   return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
 }
 
-Container readGlb(const RegularFile& file, const Messages& messages) {
+Container readGlb(const RegularFile& file, const std::filesystem::path& path,
+                  const Messages& messages) {
   constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
   const char* const cutOff = "copy or download the file again";
   std::array<unsigned char, 12> header;
@@ -50,15 +51,12 @@ Container readGlb(const RegularFile& file, const Messages& messages) {
                     cutOff);
     }
     if (chunk == 0 && type != jsonChunk) messages.fail("its first GLB chunk is not JSON");
-    const auto load = [&](auto& bytes) {
-      bytes.resize(size);
-      if (!file.read(bytes.data(), offset, size)) messages.fail("cannot be read", cutOff);
-    };
     if (chunk == 0) {
       if (size > maxJsonBytes) messages.fail("its JSON is larger than 256 MiB", "split the model");
-      load(container.json);
+      container.json.resize(size);
+      if (!file.read(container.json.data(), offset, size)) messages.fail("cannot be read", cutOff);
     } else if (type == binaryChunk && !container.binary) {
-      load(container.binary.emplace());
+      container.binary.emplace(path, offset, size);
     }
     offset += size;
   }
@@ -87,15 +85,14 @@ std::string percentDecoded(std::string_view text) {
 }
 
 /// RFC 4648; false on a character that is not of its alphabet. White space is skipped.
-template <typename Byte>
-bool decodeBase64(std::string_view text, std::vector<Byte>& bytes) {
+bool decodeBase64(std::string_view text, std::vector<unsigned char>& bytes) {
   static const auto values = [] {
-    std::array<signed char, 256> table;
+    std::array<int, 256> table;
     table.fill(-1);
     const std::string_view alphabet =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < alphabet.size(); ++i) {
-      table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
+      table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
     }
     return table;
   }();
@@ -111,15 +108,14 @@ bool decodeBase64(std::string_view text, std::vector<Byte>& bytes) {
     count += 6;
     if (count >= 8) {
       count -= 8;
-      bytes.push_back(static_cast<Byte>(bits >> count & 0xff));
+      bytes.push_back(static_cast<unsigned char>(bits >> count & 0xff));
     }
   }
   return true;
 }
 
-template <typename Byte>
-std::vector<Byte> readDataUri(const std::string& uri, std::uint64_t limit, std::string& error) {
-  std::vector<Byte> bytes;
+std::vector<unsigned char> readDataUri(const std::string& uri, std::string& error) {
+  std::vector<unsigned char> bytes;
   const std::size_t comma = uri.find(',');
   if (comma == uri.npos) {
     error = "is a data URI without data";
@@ -131,10 +127,8 @@ std::vector<Byte> readDataUri(const std::string& uri, std::uint64_t limit, std::
   if (std::string_view(uri).substr(0, comma).ends_with(";base64")) {
     if (!decodeBase64(payload, bytes)) error = "is a data URI whose base64 is damaged";
   } else {
-    bytes.resize(payload.size());
-    std::memcpy(bytes.data(), payload.data(), payload.size());
+    bytes.assign(payload.begin(), payload.end());
   }
-  if (bytes.size() > limit) bytes.resize(limit);
   return bytes;
 }
 
@@ -186,6 +180,24 @@ bool RegularFile::read(void* to, std::uint64_t offset, std::size_t count) const 
   return true;
 }
 
+ByteSource::ByteSource(std::vector<unsigned char> bytes)
+    : size_(bytes.size()), bytes_(std::move(bytes)) {}
+
+ByteSource::ByteSource(std::filesystem::path path, std::uint64_t start, std::uint64_t size)
+    : path_(std::move(path)), start_(start), size_(size) {}
+
+bool ByteSource::read(void* to, std::uint64_t offset, std::size_t count) const {
+  if (offset > size_ || count > size_ - offset) return false;
+  if (count == 0) return true;
+  if (path_.empty()) {
+    std::memcpy(to, bytes_.data() + offset, count);
+    return true;
+  }
+  std::string error;
+  const RegularFile file(path_, error);
+  return error.empty() && file.read(to, start_ + offset, count);
+}
+
 Container readContainer(const std::filesystem::path& path, const Messages& messages) {
   std::string error;
   const RegularFile file(path, error);
@@ -195,7 +207,7 @@ Container readContainer(const std::filesystem::path& path, const Messages& messa
   const std::size_t known = std::min<std::uint64_t>(start.size(), file.size());
   if (!file.read(start.data(), 0, known)) messages.fail("cannot be read", "check the disk");
   std::string_view front(start.data(), known);
-  if (front.starts_with("glTF")) return readGlb(file, messages);
+  if (front.starts_with("glTF")) return readGlb(file, path, messages);
 
   if (front.starts_with("\xef\xbb\xbf")) front.remove_prefix(3);
   const std::size_t first = front.find_first_not_of(" \t\r\n");
@@ -213,42 +225,29 @@ Container readContainer(const std::filesystem::path& path, const Messages& messa
   return container;
 }
 
-template <typename Byte>
-std::vector<Byte> readUri(const std::string& uri, const std::filesystem::path& folder,
-                          std::uint64_t limit, std::string& error) {
-  if (isDataUri(uri)) return readDataUri<Byte>(uri, limit, error);
-  if (const std::string_view scheme = schemeOf(uri); !scheme.empty()) {
+ByteSource openUri(const std::string& uri, const std::filesystem::path& folder,
+                   std::string& error) {
+  if (isDataUri(uri)) return ByteSource(readDataUri(uri, error));
+  if (!schemeOf(uri).empty()) {
     error = "is not a file beside the model";
     return {};
   }
   const std::string name = percentDecoded(uri);
-  if (name.empty() || name.find('\0') != name.npos) {
+  if (name.empty() || name.find('\0') != name.npos || uri.find('\0') != uri.npos) {
     error = "is not a file name";
     return {};
   }
-  const auto load = [&](const std::string& relative) {
-    error.clear();
-    std::vector<Byte> bytes;
-    const RegularFile file(folder / relative, error);
-    if (!error.empty()) return bytes;
-    bytes.resize(std::min(file.size(), limit));
-    if (!file.read(bytes.data(), 0, bytes.size())) error = "cannot be read";
-    return bytes;
-  };
-  std::vector<Byte> bytes = load(name);
-  // Some exporters write names with a percent sign as they are.
-  if (!error.empty() && name != uri) {
-    const std::string firstError = error;
-    bytes = load(uri);
-    if (!error.empty()) error = firstError;
+  if (const RegularFile file(folder / name, error); error.empty()) {
+    return ByteSource(folder / name, 0, file.size());
   }
-  return bytes;
+  // Some exporters write names with a percent sign as they are.
+  std::string second;
+  if (const RegularFile file(folder / uri, second); second.empty()) {
+    error.clear();
+    return ByteSource(folder / uri, 0, file.size());
+  }
+  return {};
 }
-
-template std::vector<unsigned char> readUri(const std::string&, const std::filesystem::path&,
-                                            std::uint64_t, std::string&);
-template std::vector<std::byte> readUri(const std::string&, const std::filesystem::path&,
-                                        std::uint64_t, std::string&);
 
 std::string printableUri(std::string_view uri) {
   if (isDataUri(uri)) return printable(uri.substr(0, uri.find_first_of(";,")), 60);

@@ -31,10 +31,29 @@ class RegularFile {
   std::uint64_t size_ = 0;
 };
 
-/// A model file taken apart: its JSON text and, in a GLB file, the binary chunk.
+/// Bytes that can be read in pieces: a part of a file, opened anew for each read so that a model of
+/// a thousand files does not hold them all open, or a block of memory.
+class ByteSource {
+ public:
+  ByteSource() = default;
+  explicit ByteSource(std::vector<unsigned char> bytes);
+  ByteSource(std::filesystem::path path, std::uint64_t start, std::uint64_t size);
+
+  std::uint64_t size() const { return size_; }
+  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  bool read(void* to, std::uint64_t offset, std::size_t count) const;
+
+ private:
+  std::filesystem::path path_;  ///< empty for memory
+  std::uint64_t start_ = 0;
+  std::uint64_t size_ = 0;
+  std::vector<unsigned char> bytes_;
+};
+
+/// A model file taken apart: its JSON text and, in a GLB file, where the binary chunk lies.
 struct Container {
   std::string json;
-  std::optional<std::vector<unsigned char>> binary;
+  std::optional<ByteSource> binary;
 };
 
 /// Reads a `.gltf` or `.glb` file, told apart by the first four bytes. Checks the GLB header, the
@@ -43,11 +62,8 @@ struct Container {
 Container readContainer(const std::filesystem::path& path, const Messages& messages);
 
 /// What a URI stands for: the payload of a `data:` URI or the file named relative to `folder`,
-/// percent-decoded. Reads at most `limit` bytes. Where it cannot, `error` says why, without the
-/// URI. Byte is unsigned char or std::byte.
-template <typename Byte>
-std::vector<Byte> readUri(const std::string& uri, const std::filesystem::path& folder,
-                          std::uint64_t limit, std::string& error);
+/// percent-decoded. Where there is none, `error` says why, without the URI.
+ByteSource openUri(const std::string& uri, const std::filesystem::path& folder, std::string& error);
 
 /// The URI as it may stand in a message: data URIs are cut behind their media type.
 std::string printableUri(std::string_view uri);

@@ -32,6 +32,14 @@ class Cursor {
   Cursor member(const char* key) const;
   /// The same, failing where it is absent.
   Cursor required(const char* key) const;
+  /// Calls `use` with each member of an object. Keys are not looked up again: one that holds a zero
+  /// byte would be mistaken for another.
+  template <typename Use>
+  void forEachMember(const Use& use) const {
+    checkObject();
+    if (!exists()) return;
+    for (auto it = json_->begin(); it != json_->end(); ++it) use(step(&*it, {it.key().c_str(), 0}));
+  }
   /// The entry of an array, i < size().
   Cursor item(std::size_t i) const;
   /// Entries of an array, 0 where it is absent.

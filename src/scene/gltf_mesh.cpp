@@ -83,7 +83,8 @@ std::vector<Vector> Builder::read(const Attributes& attributes, const std::strin
   AccessorView view =
       openAccessor(document_, found->second, label_ + " " + name, budget_, messages_);
   if (view.components < least || view.components > most) {
-    fail(name + " must have " + std::to_string(least) + " components a vertex, not " +
+    fail(name + " must have " + std::to_string(least) +
+         (most > least ? " or " + std::to_string(most) : "") + " components a vertex, not " +
          std::to_string(view.components));
   }
   if (view.count < vertexCount_) {
@@ -269,6 +270,7 @@ void Builder::finishNormals() {
     warn(std::to_string(mended) + " of " + std::to_string(mesh.normals.size()) +
          " normals are zero or not finite, replaced by the faces' normals");
   }
+  if (mesh.topology == Topology::triangles) mesh.normalsMayCancel = normalsMayCancel(mesh);
 }
 
 std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Material>& materials) {

@@ -64,7 +64,7 @@ int TextureReader::imageSlot(std::size_t index) {
   const Cursor image = root_.member("images").item(index);
   // A data URI is its own source; as a key it would be a copy of the image.
   const std::string uri = image.member("uri").text();
-  const int view = image.member("bufferView").index(document_.model.bufferViews.size());
+  const int view = image.member("bufferView").index(document_.views.size());
   const std::string source = view >= 0                  ? "view " + std::to_string(view)
                              : uri.starts_with("data:") ? "image " + std::to_string(index)
                                                         : "file " + uri;
@@ -91,21 +91,29 @@ int TextureReader::imageSlot(std::size_t index) {
 
 std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std::string& error) {
   name = image.path();
-  const int viewIndex = image.member("bufferView").index(document_.model.bufferViews.size());
-  if (viewIndex >= 0) {
-    const auto& view = document_.model.bufferViews[static_cast<std::size_t>(viewIndex)];
-    const auto& buffer = document_.model.buffers[static_cast<std::size_t>(view.buffer)];
-    const auto* first = reinterpret_cast<const std::byte*>(buffer.data.data()) + view.byteOffset;
-    return {first, first + view.byteLength};
-  }
+  const int viewIndex = image.member("bufferView").index(document_.views.size());
   const Cursor uri = image.member("uri");
-  if (!uri.exists()) {
+  std::vector<std::byte> bytes;
+  const auto take = [&](const ByteSource& source, std::uint64_t offset, std::uint64_t size) {
+    if (size > maxImageBytes) {
+      error = "has more than 1 GiB";
+      return;
+    }
+    bytes.resize(size);
+    if (!source.read(bytes.data(), offset, bytes.size())) error = "cannot be read";
+  };
+  if (viewIndex >= 0) {
+    const ViewPlace& view = document_.views[static_cast<std::size_t>(viewIndex)];
+    take(document_.buffers[view.buffer], view.offset, view.size);
+  } else if (uri.exists()) {
+    const std::string text = uri.text();
+    if (!text.starts_with("data:")) name = printableUri(text);
+    const ByteSource source = openUri(text, document_.path.parent_path(), error);
+    if (error.empty()) take(source, 0, source.size());
+  } else {
     error = "has neither a bufferView nor a uri";
-    return {};
   }
-  const std::string text = uri.text();
-  if (!text.starts_with("data:")) name = printableUri(text);
-  return readUri<std::byte>(text, document_.path.parent_path(), maxImageBytes, error);
+  return bytes;
 }
 
 Sampler TextureReader::sampler(Cursor texture) {

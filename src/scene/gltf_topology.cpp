@@ -22,10 +22,6 @@ void dropDegenerate(std::vector<std::uint32_t>& indices, std::size_t corners) {
 
 }  // namespace
 
-std::size_t cornersOf(Topology topology) {
-  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
-}
-
 Elements listElements(int mode, std::vector<std::uint32_t> v) {
   Elements elements;
   elements.topology = mode == points      ? Topology::points
@@ -63,8 +59,8 @@ VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCo
     list.all = false;
     list.ids = indices;
     std::ranges::sort(list.ids);
-    const auto rest = std::ranges::unique(list.ids);
-    list.ids.erase(rest.begin(), rest.end());
+    // std::ranges::unique of this library does not compile with clang 14.
+    list.ids.erase(std::unique(list.ids.begin(), list.ids.end()), list.ids.end());
     for (std::uint32_t& index : indices) {
       index =
           static_cast<std::uint32_t>(std::ranges::lower_bound(list.ids, index) - list.ids.begin());

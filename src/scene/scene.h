@@ -25,6 +25,7 @@ struct Mesh {
   /// Linear RGB and alpha, one a position, or empty (glTF COLOR_0).
   std::vector<glm::vec4> colors;
   /// texcoords[set] has one a position, or is empty; only sets that the material's textures read.
+  /// A set that a texture reads may be missing: the mesh is then drawn without that texture.
   std::vector<std::vector<glm::vec2>> texcoords;
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
   /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
@@ -93,7 +94,7 @@ struct Instance {
   glm::dmat4 world{1.0};  ///< model to world; the last row is 0 0 0 1
 };
 
-/// A camera of the file. It looks along -Z of its own space, +Y up.
+/// A camera of the file. It looks along -Z of its own space, +Y up; `world` is a rigid motion.
 struct FileCamera {
   std::string name;
   glm::dmat4 world{1.0};

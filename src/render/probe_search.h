@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace glint {
+
+/// The floats in order: a number that grows by one from each float to the next; 0 is 0 and -0.
+std::int32_t floatOrder(float x);
+float floatAtOrder(std::int32_t order);
+
+/// The float `steps` floats above x (below, if negative); stops at the infinities.
+float stepFloat(float x, std::int64_t steps);
+
+/// Where a search may take one number from.
+struct SearchRange {
+  float low = 0, high = 1;      ///< both included
+  std::vector<float> specials;  ///< values near which errors hide: limits, switches, poles
+};
+
+struct SearchResult {
+  std::vector<float> input;  ///< one number for each range
+  double error = 0;
+};
+
+/// The errors of rows of inputs: one column for each range, one error for each row.
+using SearchErrors = std::function<std::vector<double>(const std::vector<std::vector<float>>&)>;
+
+/// Hunts the input with the largest error: draws uniformly over the range and over its floats,
+/// takes the neighbours of ends and special values up to 2^16 floats away, then goes on from the
+/// worst inputs found, changing one number or all of them by steps that shrink from a quarter of
+/// the range to a single float. `rows` inputs a round. A find is a lower bound of the largest
+/// error, no proof.
+SearchResult huntWorst(const std::vector<SearchRange>& ranges, const SearchErrors& errors,
+                       std::size_t rows, int rounds, std::uint32_t seed = 1);
+
+}  // namespace glint

@@ -1,0 +1,283 @@
+// glsl/fresnel.glsl against the formulas in double (src/shading), from the same indices and
+// cosines.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "glint/shading/fresnel.h"
+#include "glsl_probe.h"
+
+using namespace glint;
+
+namespace {
+
+struct Indices {
+  double n1, n2;
+};
+
+std::vector<Indices> indices() {
+  std::vector<Indices> pairs;
+  for (double n : {1 + 1.2e-7, 1.00007, 1.0003, 1.01, 1.1, 1.33, 1.5, 2.4, 4.0, 100.0, 1e3}) {
+    pairs.push_back({1, n});
+    pairs.push_back({n, 1});
+  }
+  return pairs;
+}
+
+std::string nameOf(const Indices& i) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.9g to %.9g", i.n1, i.n2);
+  return text;
+}
+
+/// As the renderer hands it over.
+Column boundary(const FresnelConstants& k) {
+  return {float(k.e), float(k.nSquared), float(1 / k.n), float(k.r0)};
+}
+
+/// Cosines uniform, crowded against 0, 1 and the critical cosine down to single floats, and the
+/// 4096 floats on each side of these.
+Column cosines(const Indices& i) {
+  Column column{0, -0.0f, 1};
+  const double critical = criticalCosine(i.n1, i.n2);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  const auto push = [&](double c) { column.push_back(float(std::clamp(c, 0.0, 1.0))); };
+  for (int k = 0; k < 20000; ++k) {
+    push(u(random));
+    push(std::exp(-20 * u(random)));
+    push(1 - std::exp(-18 * u(random)));
+    push(critical * (1 + std::exp(-17 * u(random))));
+    push(critical * (1 - std::exp(-17 * u(random))));
+  }
+  for (std::int64_t k = -4096; k <= 4096; ++k) {
+    push(stepFloat(float(critical), k));
+    push(stepFloat(1, -std::abs(k)));
+  }
+  return column;
+}
+
+/// How far g = n cos(theta_t) may be off where g^2 = `square` is off by `error`: sqrt(a) - sqrt(b)
+/// is (a - b) / (sqrt(a) + sqrt(b)) and at most sqrt(a - b).
+double rootError(double square, double error) {
+  return square > 0 ? std::min(error / std::sqrt(square), std::sqrt(error)) : std::sqrt(error);
+}
+
+/// The bound of fresnelExact: rounding is about 12 steps of 2^-24, in amplitudes that are squared
+/// and halved: 2e-6. From the denser side g^2 is a difference of e or n^2, rounded to float, and
+/// of c^2 or 1 - c^2, rounded too; its error enters by R's slope in g,
+/// 2 e^2 / (c + g)^5 + 2 n^2 c / (n^2 c + g)^2, infinite in c at the critical cosine.
+double exactBound(double c, const Indices& i) {
+  if (i.n1 <= i.n2) return 2e-6;
+  const FresnelConstants k = fresnelConstants(i.n1, i.n2);
+  c = std::clamp(c, 0.0, 1.0);
+  const double sin2 = (1 - c) * (1 + c), g2 = k.nSquared - sin2;
+  const double parts = c * c > 0.5 ? k.nSquared + 2 * sin2 : c * c - k.e;
+  const double off = rootError(g2, ulp1 * (parts + std::abs(g2)));
+  const double g = std::max(std::sqrt(std::max(g2, 0.0)) - off, 0.0);
+  if (c == 0) return 2e-6;
+  const double p = k.nSquared * c + g;
+  const double slope = 2 * k.e * k.e / std::pow(c + g, 5) + 2 * k.nSquared * c / (p * p);
+  return 2e-6 + slope * off;
+}
+
+class GlslFresnel : public GlslTest {
+ protected:
+  std::optional<Probe> probe_;
+
+  void SetUp() override {
+    GlslTest::SetUp();
+    probe_.emplace(glslSources(), ProbeText{{"fresnel.glsl"}, {}});
+  }
+
+  Column exact(const Column& c, const Indices& i) {
+    return probe_->run("float fresnelExact(float, Boundary)",
+                       {c, boundary(fresnelConstants(i.n1, i.n2))});
+  }
+};
+
+}  // namespace
+
+TEST_P(GlslFresnel, Exact) {
+  for (const Indices& i : indices()) {
+    const Column c = cosines(i), b = boundary(fresnelConstants(i.n1, i.n2));
+    const Column got = exact(c, i);
+    const ErrorRecord record = measureErrors(
+        got, 1,
+        [&](std::size_t row, std::size_t) { return fresnelExact(double(c[row]), i.n1, i.n2); },
+        [&](std::size_t row, std::size_t) { return exactBound(c[row], i); });
+    expectWithin(record, "fresnelExact " + nameOf(i), {c, b}, {1, 4});
+    for (std::size_t row = 0; row < c.size(); ++row)
+      ASSERT_TRUE(got[row] >= 0 && got[row] <= 1) << got[row] << " at " << c[row];
+  }
+}
+
+TEST_P(GlslFresnel, Textbook) {
+  // What the square under the root loses, and what that does to both amplitudes: d of t^2 (products
+  // of ratio^2 (1 - c^2), each rounded) moves t by rootError; the amplitudes move by
+  // 2 n c / (c + n t)^2 and 2 n c / (n c + t)^2 of that, their squares twice as much, halved.
+  for (const Indices& i : indices()) {
+    const Column c = cosines(i), b = boundary(fresnelConstants(i.n1, i.n2));
+    const double n = i.n2 / i.n1;
+    const Column got = probe_->run("float fresnelTextbook(float, Boundary)", {c, b});
+    const ErrorRecord record = measureErrors(
+        got, 1,
+        [&](std::size_t row, std::size_t) { return fresnelTextbook(double(c[row]), i.n1, i.n2); },
+        [&](std::size_t row, std::size_t) {
+          const double x = c[row], sin2 = (1 - x * x) / (n * n), t2 = 1 - sin2;
+          const double off = rootError(t2, 5 * ulp1 * (sin2 + 1 / (n * n)));
+          const double t = std::max(std::sqrt(std::max(t2, 0.0)) - off, 0.0);
+          const double s = x + n * t, p = n * x + t;
+          if (!(s > 0 && p > 0)) return 1.0;
+          return std::min(1e-6 + 2 * n * x * (1 / (s * s) + 1 / (p * p)) * off, 1.0);
+        });
+    expectWithin(record, "fresnelTextbook " + nameOf(i), {c, b}, {1, 4});
+  }
+}
+
+TEST_P(GlslFresnel, Schlick) {
+  // The power: x^k is exp2(k log2 x), log2 off by 2^-21 near 1 (GLSL): k 3.4e-7 x^k, at most
+  // 3.4e-7 k, and 1e-6 for the rest. The cosine of refraction: cos^2 is off by 4 roundings, its
+  // root by rootError; the power's slope in it is k (1 - c)^(k - 1), largest at the smallest c.
+  for (const Indices& i : indices())
+    for (double k : {1.0, 2.5, 5.0, 20.0}) {
+      const FresnelConstants constants = fresnelConstants(i.n1, i.n2);
+      const Column c = cosines(i), b = boundary(constants), exponent{float(k)};
+      const Column got =
+          probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, exponent});
+      const ErrorRecord record = measureErrors(
+          got, 1,
+          [&](std::size_t row, std::size_t) { return schlick(double(c[row]), i.n1, i.n2, k); },
+          [&](std::size_t row, std::size_t) {
+            double off = ulp1, t = c[row];
+            if (i.n1 > i.n2) {
+              const double cos2 = (constants.e + t * t) / constants.nSquared;
+              off = rootError(cos2, 4 * ulp1);
+              t = std::sqrt(std::max(cos2, 0.0));
+            }
+            const double slope = k * std::pow(std::clamp(1 - t + off, 0.0, 1.0), k - 1);
+            return 1e-6 + 3.4e-7 * k + slope * off;
+          });
+      expectWithin(record, "fresnelSchlick^" + std::to_string(k) + " " + nameOf(i),
+                   {c, b, exponent}, {1, 4, 1});
+    }
+}
+
+TEST_P(GlslFresnel, EqualIndicesReflectNothing) {  // K1, K2
+  Column c{0, -0.0f, 1, -1, 2};
+  for (int k = 0; k < 10000; ++k) c.push_back(std::exp(-20 * float(k) / 10000));
+  const Column nothing(c.size(), 0.0f);
+  const Column b = boundary(fresnelConstants(1.5, 1.5)), five{5};
+  EXPECT_EQ(probe_->run("float fresnelExact(float, Boundary)", {c, b}), nothing);
+  EXPECT_EQ(probe_->run("float fresnelTextbook(float, Boundary)", {c, b}), nothing);
+  EXPECT_EQ(probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, five}), nothing);
+}
+
+TEST_P(GlslFresnel, CosinesOutsideTheRange) {
+  // K5, K6, K7, K8: below 0 counts as 0, where R is 1; above 1 as 1.
+  const Column c{0, -0.0f, -0.2f, -1, stepFloat(0, -1), 1, stepFloat(1, 1), 1.5f, 1e30f};
+  for (const Indices& i : indices()) {
+    const Column b = boundary(fresnelConstants(i.n1, i.n2)), five{5};
+    for (const Column& r :
+         {probe_->run("float fresnelExact(float, Boundary)", {c, b}),
+          probe_->run("float fresnelTextbook(float, Boundary)", {c, b}),
+          probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, five})}) {
+      const double r0 = fresnelConstants(i.n1, i.n2).r0;
+      for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(r[k], 1, 2e-6) << nameOf(i) << " " << c[k];
+      for (std::size_t k = 5; k < 9; ++k) {
+        EXPECT_NEAR(r[k], r0, 2e-6) << nameOf(i) << " " << c[k];
+        EXPECT_EQ(r[k], r[5]) << nameOf(i) << " " << c[k];
+      }
+    }
+  }
+}
+
+TEST_P(GlslFresnel, TotalReflection) {  // K9, K10, K11
+  for (const Indices& i : indices()) {
+    if (i.n1 < i.n2) continue;
+    const double critical = criticalCosine(i.n1, i.n2);
+    // One part in 1e6 past the critical cosine squared is more than g^2's rounding.
+    const Column c{0.0f, float(critical * 0.5), float(critical * (1 - 1e-3))};
+    // From indices above 50 the rounding of c itself may be on the other side.
+    if (i.n1 / i.n2 < 50) {
+      EXPECT_EQ(exact(c, i), (Column{1, 1, 1})) << nameOf(i);
+    }
+    const Column at{stepFloat(float(critical), -1), float(critical), stepFloat(float(critical), 1)};
+    const Column r = exact(at, i);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(r[k], fresnelExact(double(at[k]), i.n1, i.n2), 2e-3) << nameOf(i);
+  }
+}
+
+TEST_P(GlslFresnel, Brewster) {  // K12: R is half of R_perp alone, 0.0739645 at n = 1.5
+  const double c = std::cos(brewsterAngle(1, 1.5));
+  EXPECT_NEAR(exact({float(c)}, {1, 1.5})[0], 0.5 * std::pow(1.25 / 3.25, 2), 2e-7);
+}
+
+TEST_P(GlslFresnel, ExtremeIndicesStayFinite) {  // K13
+  for (double n : {1e-4, 1e4, 1e-9, 1e9}) {
+    const Indices i{1, n};
+    for (float r : exact(cosines(i), i)) ASSERT_TRUE(r >= 0 && r <= 1) << n << ": " << r;
+  }
+}
+
+TEST_P(GlslFresnel, Reciprocity) {  // K17: R(1 -> n, theta_i) = R(n -> 1, theta_t)
+  for (double n : {1.0003, 1.1, 1.5, 2.4, 4.0, 100.0}) {
+    Column inside, outside;
+    for (int k = 0; k < 20000; ++k) {
+      const double ci = 0.1 + 0.9 * (k + 0.5) / 20000;
+      outside.push_back(float(ci));
+      const double x = outside.back();
+      inside.push_back(float(std::sqrt(1 - (1 - x * x) / (n * n))));
+    }
+    const Column in = exact(outside, {1, n}), out = exact(inside, {n, 1});
+    for (std::size_t k = 0; k < in.size(); ++k) {
+      // cos(theta_t) is rounded by 2^-25 and R's slope in it is that in cos(theta_i) times
+      // n^2 cos(theta_t) / cos(theta_i).
+      const double ci = outside[k], ct = inside[k], h = 1e-4;
+      const double slope = (fresnelExact(ci - h, 1, n) - fresnelExact(ci + h, 1, n)) / (2 * h);
+      const double rounding = std::abs(slope) * n * n * ct / ci * 0.5 * ulp1;
+      ASSERT_NEAR(in[k], out[k], 2e-6 + 2 * rounding) << n << " at " << ci;
+    }
+  }
+}
+
+TEST_P(GlslFresnel, HuntedWorstInput) {
+  // Over the cosine and the index at once, by the error against its bound.
+  for (bool denser : {false, true}) {
+    double largest = 0;
+    const SearchResult worst = huntWorst(
+        {{0, 1, {1e-4f, 0.7071068f, 0.745356f}}, {1.0000001f, 10, {1.1f, 1.5f, 2}}},
+        [&](const std::vector<Column>& columns) {
+          Column b;
+          std::vector<Indices> pairs;
+          for (float n : columns[1]) {
+            pairs.push_back(denser ? Indices{n, 1} : Indices{1, n});
+            const Column one = boundary(fresnelConstants(pairs.back().n1, pairs.back().n2));
+            b.insert(b.end(), one.begin(), one.end());
+          }
+          const Column& c = columns[0];
+          const Column got = probe_->run("float fresnelExact(float, Boundary)", {c, b});
+          std::vector<double> errors;
+          for (std::size_t k = 0; k < c.size(); ++k) {
+            const double error =
+                absoluteError(got[k], fresnelExact(double(c[k]), pairs[k].n1, pairs[k].n2));
+            errors.push_back(error / exactBound(c[k], pairs[k]));
+            largest = std::max(largest, error);
+          }
+          return errors;
+        },
+        1 << 14, 24);
+    EXPECT_LE(worst.error, 1) << describeRow({worst.input}, {2}, 0);
+    if (printsErrors())
+      std::printf("hunted: fresnelExact %s %.3g of the bound at %s, largest error %.3g\n",
+                  denser ? "from the denser side" : "from the thinner side", worst.error,
+                  describeRow({worst.input}, {2}, 0).c_str(), largest);
+  }
+}
+
+GLINT_ON_SOFTWARE_BACKENDS(GlslFresnel);

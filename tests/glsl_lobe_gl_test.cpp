@@ -1,0 +1,274 @@
+// glsl/lobe.glsl against double, over every float where that is possible and hunted where not.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+
+#include "glint/shading/lobe.h"
+#include "glsl_probe.h"
+
+using namespace glint;
+
+namespace {
+
+constexpr double exponents[] = {0, 0.5, 1, 2, 10, 40, 100, 1e3, 1e4, 1e5, 1e6};
+
+constexpr const char* phong =
+    "float phong(vec3 n, vec3 l, vec3 v, float a) {\n"
+    "  return lobeExact(phongLambda(n, l + v, dot(n, l)), a);\n}";
+constexpr const char* blinn =
+    "float blinn(vec3 n, vec3 l, vec3 v, float a) {\n"
+    "  return lobeExact(blinnLambda(n, unit(l + v)), a);\n}";
+// From vectors of any length, as the programs have them.
+constexpr const char* wholePhong =
+    "float whole(vec3 n, vec3 l, vec3 v, float a) {\n"
+    "  vec3 un = unit(n), ul = unit(l), uv = unit(v);\n"
+    "  return lobeExact(phongLambda(un, ul + uv, dot(un, ul)), a);\n}";
+constexpr const char* wholeBlinn =
+    "float whole(vec3 n, vec3 l, vec3 v, float a) {\n"
+    "  vec3 un = unit(n), ul = unit(l), uv = unit(v);\n"
+    "  return lobeExact(blinnLambda(un, unit(ul + uv)), a);\n}";
+
+// The lobe is exp(-t) with t = -alpha log(1 - lambda), at least alpha lambda. Two errors:
+// - of lambda: |D| = sqrt(2 lambda) with an error d of D moves lambda by |D| d and the lobe by
+//   alpha |D| d exp(-t) <= sqrt(alpha) d sqrt(2t) exp(-t) <= 0.61 sqrt(alpha) d. D's components are
+//   sums of three terms of at most 2, rounded at each step: d <= 6.5e-7, so 4e-7 sqrt(alpha).
+// - of the power: t's relative error r, of log1m (6e-7, below) and two products, moves the lobe by
+//   t exp(-t) r <= 0.37 r; exp2(x) is off by 3 + 2 |x| in 2^-23 of its value at most (GLSL), with
+//   the value 2^-|x| by 3.6e-7. Together 1e-6 at most.
+double bound(double alpha) { return 1e-6 + 4e-7 * std::sqrt(alpha); }
+
+// Below exponent 1 the lobe ends at lambda = 1 with infinite slope, at 0 with a jump: there it is
+// as ill-conditioned as (1 - lambda)^alpha is, with lambda off by |D| d.
+double edge(double lambda, double alpha, double d) {
+  if (alpha >= 1 || lambda < 0.5) return 0;
+  const double off = std::sqrt(2 * lambda) * d, x = 1 - lambda;
+  if (x <= -off) return 0;
+  return std::pow(x + off, alpha) - (x > off ? std::pow(x - off, alpha) : 0.0);
+}
+
+double exactLobe(double lambda, double alpha) {
+  return lambda < 1 ? std::exp(alpha * std::log1p(-lambda)) : 0.0;
+}
+
+struct Directions {
+  Column n, l, v;
+  Columns columns(const Column& alpha) const { return {n, l, v, alpha}; }
+  static glm::dvec3 at(const Column& column, std::size_t row) {
+    return {column[3 * row], column[3 * row + 1], column[3 * row + 2]};
+  }
+  glm::dvec3 normal(std::size_t row) const { return at(n, row); }
+  glm::dvec3 light(std::size_t row) const { return at(l, row); }
+  glm::dvec3 view(std::size_t row) const { return at(v, row); }
+};
+
+glm::dvec3 randomUnit(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  for (;;) {
+    const glm::dvec3 v(normal(random), normal(random), normal(random));
+    if (glm::length(v) > 1e-3) return glm::normalize(v);
+  }
+}
+
+void push(Column& column, const glm::dvec3& v) {
+  for (int i = 0; i < 3; ++i) column.push_back(float(v[i]));
+}
+
+/// V around the peak: half of them with alpha lambda uniform in [0, 8], a quarter at lambda 0, 1
+/// and 2 and next to them, a quarter anywhere. Blinn's lobe has its peak at the same V. The vectors
+/// are rounded unit ones, scaled by up to e^spread.
+Directions directions(double alpha, std::size_t rows, bool isBlinn, double spread) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0, 1);
+  Directions d;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const glm::dvec3 n = randomUnit(random);
+    glm::dvec3 l = randomUnit(random);
+    if (glm::dot(n, l) < 0) l = -l;
+    if (i % 8 == 0) l = n;
+    const glm::dvec3 axis = isBlinn ? n : 2 * glm::dot(n, l) * n - l;
+    double lambda = 2 * u(random);
+    if (i % 4 < 2) lambda = std::min(8 * u(random) / std::max(alpha, 1e-9), 2.0);
+    if (i % 4 == 2) {
+      const double special[] = {0, 1, 2};
+      lambda = special[i / 4 % 3] + std::exp(-20 * u(random)) * (u(random) - 0.5);
+      lambda = std::clamp(lambda, 0.0, 2.0);
+    }
+    const glm::dvec3 side = glm::normalize(glm::cross(axis, randomUnit(random)));
+    const double c = 1 - lambda;
+    const glm::dvec3 at = c * axis + std::sqrt(std::max(1 - c * c, 0.0)) * side;
+    const glm::dvec3 v = isBlinn ? 2 * glm::dot(at, l) * at - l : at;
+    const auto scale = [&] { return std::exp(spread * (2 * u(random) - 1)); };
+    push(d.n, scale() * n);
+    push(d.l, scale() * l);
+    push(d.v, scale() * v);
+  }
+  return d;
+}
+
+class GlslLobe : public GlslTest {
+ protected:
+  std::optional<Probe> probe_;
+
+  void SetUp() override {
+    GlslTest::SetUp();
+    probe_.emplace(glslSources(), ProbeText{{"vector.glsl", "lobe.glsl"}, {}});
+  }
+
+  /// The lobe of these directions against that of the same, normalised in double first if `whole`.
+  void expectGeometry(const std::string& name, const char* function, const Directions& d,
+                      double alpha, bool isBlinn, bool whole) {
+    const Column exponent{float(alpha)};
+    const Columns columns = d.columns(exponent);
+    const Column got = probe_->run(function, columns);
+    std::vector<double> lambdas, conditions;
+    for (std::size_t row = 0; row < got.size(); ++row) {
+      glm::dvec3 n = d.normal(row), l = d.light(row), v = d.view(row);
+      if (whole) n = glm::normalize(n), l = glm::normalize(l), v = glm::normalize(v);
+      lambdas.push_back(isBlinn ? blinnLambda(n, l, v) : phongLambda(n, l, v));
+      conditions.push_back(isBlinn && whole ? 2 / glm::length(l + v) : 1);
+    }
+    const ErrorRecord record = measureErrors(
+        got, 1,
+        [&](std::size_t row, std::size_t) { return exactLobe(lambdas[row], double(exponent[0])); },
+        [&](std::size_t row, std::size_t) {
+          return bound(alpha) * conditions[row] +
+                 edge(lambdas[row], alpha, 6.5e-7 * conditions[row]);
+        });
+    expectWithin(record, name + " alpha " + std::to_string(alpha), columns, {3, 3, 3, 1});
+  }
+};
+
+}  // namespace
+
+TEST_P(GlslLobe, Log1mIsRelativelyExact) {
+  // Below 1/2: s is off by 2 roundings and the division's (2.5 in 2^-23, GLSL; 0.5 here), the
+  // series by 3 and what is left out (1.5e-7), two products: 5.5e-7. Above: 1 - x is exact, log2 is
+  // off by 3 in 2^-23 (GLSL), then a constant and a product: 4.8e-7. Subnormal numbers may
+  // be taken for 0, s = x / 2 among them.
+  const double relative = 6e-7;
+  Column x;
+  const std::int32_t one = floatOrder(1.0f), half = floatOrder(0.5f);
+  for (std::int32_t i = 0; i < one; i += 1021) x.push_back(floatAtOrder(i));
+  for (std::int32_t i = 1; i <= 1 << 18; ++i) {
+    x.push_back(floatAtOrder(one - i));
+    x.push_back(floatAtOrder(half - (1 << 17) + i));
+  }
+  for (std::int32_t i = floatOrder(0.01f); i < one; i += 61) x.push_back(floatAtOrder(i));
+  const auto truth = [&](std::size_t row, std::size_t) { return std::log1p(-double(x[row])); };
+  const ErrorRecord record = measureErrors(
+      probe_->run("float log1m(float)", {x}), 1, truth, [&](std::size_t row, std::size_t) {
+        return relative * std::abs(truth(row, 0)) + std::ldexp(1.0, -125);
+      });
+  expectWithin(record, "log1m", {x}, {1});
+}
+
+TEST_P(GlslLobe, PowerOfLambda) {
+  for (double alpha : exponents) {
+    Column lambda{0, stepFloat(1, -1), 1, stepFloat(1, 1), 2, 0.5f, stepFloat(0.5f, 1)};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> u(0, 1);
+    for (int i = 0; i < 50000; ++i) {
+      lambda.push_back(float(std::min(8 * u(random) / std::max(alpha, 1e-9), 2.0)));
+      lambda.push_back(float(2 * u(random)));
+      lambda.push_back(floatAtOrder(std::int32_t(floatOrder(1.0f) * u(random))));
+    }
+    const Column exponent{float(alpha)};
+    const Columns columns{lambda, exponent};
+    const Column got = probe_->run("float lobeExact(float, float)", columns);
+    const ErrorRecord record = measureErrors(
+        got, 1,
+        [&](std::size_t row, std::size_t) { return exactLobe(lambda[row], double(exponent[0])); },
+        [](std::size_t, std::size_t) { return 1e-6; });
+    expectWithin(record, "lobeExact(lambda) alpha " + std::to_string(alpha), columns, {1, 1});
+    for (float value : got) ASSERT_TRUE(value >= 0 && value <= 1) << value;
+  }
+}
+
+TEST_P(GlslLobe, FromRoundedUnitVectors) {
+  for (double alpha : exponents) {
+    expectGeometry("Phong", phong, directions(alpha, 30000, false, 0), alpha, false, false);
+    expectGeometry("Blinn", blinn, directions(alpha, 30000, true, 0), alpha, true, false);
+  }
+}
+
+TEST_P(GlslLobe, FromVectorsOfAnyLength) {
+  // Normalised by unit() here and in double there. unit() turns a vector by 1.5e-7 at most, which
+  // is within the same d: once for V and L, twice for N. The half vector turns by that over half
+  // the length of L + V, which is the cosine of incidence at the peak.
+  for (double alpha : exponents) {
+    expectGeometry("whole Phong", wholePhong, directions(alpha, 30000, false, 5), alpha, false,
+                   true);
+    expectGeometry("whole Blinn", wholeBlinn, directions(alpha, 30000, true, 5), alpha, true, true);
+  }
+}
+
+TEST_P(GlslLobe, SpecialCases) {
+  const float last = stepFloat(1, -1), infinity = std::numeric_limits<float>::infinity();
+  const Column lambda{0, 0, 0, last, last, 1, 1, 2, 2, infinity, infinity, 0.25f};
+  const Column alpha{0, 1, 1e6f, 0, 1e6f, 0, 1, 0, 1, 0, 1e6f, 0};
+  EXPECT_EQ(probe_->run("float lobeExact(float, float)", {lambda, alpha}),
+            (Column{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
+  // Exponent 0 gives 1 where the cosine is positive and 0 elsewhere, and nothing exceeds the peak,
+  // also where the cosine of rounded vectors does.
+  const Column cosine{0, -0.0f, -0.5f, -1, 1, 1, 1e-30f, 1e-30f, stepFloat(1, 1), 1.001f};
+  const Column power{0, 0, 2.5f, 0, 0, 1e6f, 0, 2, 1e6f, 1e6f};
+  EXPECT_EQ(probe_->run("float lobePow(float, float)", {cosine, power}),
+            (Column{0, 0, 0, 0, 1, 1, 1, 0, 1, 1}));
+}
+
+TEST_P(GlslLobe, Pow) {
+  for (double alpha : exponents) {
+    Column cosine{0, stepFloat(1, -1), 1};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> u(0, 1);
+    for (int i = 0; i < 50000; ++i) {
+      cosine.push_back(float(std::exp(-8 * u(random) / std::max(alpha, 1e-9))));
+      cosine.push_back(float(2 * u(random) - 1));
+    }
+    const Column exponent{float(alpha)};
+    const Columns columns{cosine, exponent};
+    const ErrorRecord record = measureErrors(
+        probe_->run("float lobePow(float, float)", columns), 1,
+        [&](std::size_t row, std::size_t) { return lobePow(cosine[row], double(exponent[0])); },
+        // log2 may be off by 2^-21 near 1 (GLSL), and the lobe by alpha log(2) of that.
+        [&](std::size_t, std::size_t) { return std::min(1e-6 + 3.4e-7 * alpha, 1.0); });
+    expectWithin(record, "lobePow alpha " + std::to_string(alpha), columns, {1, 1});
+  }
+}
+
+TEST_P(GlslLobe, HuntedWorstInput) {
+  const SearchResult power = huntWorst(
+      {{0, 2, {0.5f, 1}}, {0, 1e6f, {0.5f, 1, 2, 10, 1e3f}}},
+      [&](const std::vector<Column>& c) {
+        const Column got = probe_->run("float lobeExact(float, float)", {c[0], c[1]});
+        std::vector<double> errors;
+        for (std::size_t i = 0; i < got.size(); ++i)
+          errors.push_back(absoluteError(got[i], exactLobe(c[0][i], c[1][i])));
+        return errors;
+      },
+      1 << 15, 16);
+  EXPECT_LE(power.error, 1e-6) << describeRow({power.input}, {2}, 0);
+
+  const SearchResult log = huntWorst(
+      {{1e-37f, stepFloat(1, -1), {0.5f}}},
+      [&](const std::vector<Column>& c) {
+        const Column got = probe_->run("float log1m(float)", {c[0]});
+        std::vector<double> errors;
+        for (std::size_t i = 0; i < got.size(); ++i)
+          errors.push_back(std::abs(got[i] / std::log1p(-double(c[0][i])) - 1));
+        return errors;
+      },
+      1 << 15, 16);
+  EXPECT_LE(log.error, 6e-7) << describeRow({log.input}, {1}, 0);
+  if (printsErrors())
+    std::printf("hunted: lobeExact %.3g at %s\n        log1m %.3g at %s\n", power.error,
+                describeRow({power.input}, {2}, 0).c_str(), log.error,
+                describeRow({log.input}, {1}, 0).c_str());
+}
+
+GLINT_ON_SOFTWARE_BACKENDS(GlslLobe);
