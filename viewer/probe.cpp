@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "formulas.h"
@@ -176,7 +177,9 @@ Probe probePixel(const Scene& scene, const Bounds& bounds, const Picker& picker,
     probe.expectedCode[i] = encodeSrgb8(e * scale);
   }
   if (look.antiAliasing.mode != AntiAliasing::Mode::none)
-    probe.remark = "anti-aliased: the driver shades at another place within the pixel than its centre, and an edge is "
+    probe.remark =
+        "anti-aliased: the driver shades at another place within the pixel than its centre, and an "
+        "edge is "
         "a mean; without anti-aliasing the two agree to a few ulp";
   return probe;
 }
