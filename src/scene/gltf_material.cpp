@@ -133,9 +133,12 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   std::vector<Material> materials;
   const Cursor list = Cursor(document.json, messages).member("materials");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    materials.push_back(readMaterial(list.item(i), textures, messages));
+    Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
+    // Every material needs a name by which it can be edited.
+    if (material.name.empty()) material.name = "#" + std::to_string(i);
   }
   Material& standard = materials.emplace_back();
+  standard.name = "#default";
   standard.shading = shadingFromPbr({});
   return materials;
 }
