@@ -46,12 +46,16 @@ class Viewer:
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24",
-             "-nolisten", "tcp"],
+             "-nolisten", "tcp", "-noreset"],
             pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
-        number = os.read(read, 16).decode().strip()
+        number = b""
+        while not number.endswith(b"\n"):  # written in pieces
+            piece = os.read(read, 16)
+            assert piece, "Xvfb did not start"
+            number += piece
         os.close(read)
-        self.environment = dict(os.environ, DISPLAY=":" + number)
+        self.environment = dict(os.environ, DISPLAY=":" + number.decode().strip())
         self.process = None
         self.start()
 
@@ -59,7 +63,9 @@ class Viewer:
         self.process = subprocess.Popen(
             [VIEWER, os.path.basename(self.model), *self.options, *options], cwd=self.folder,
             env=self.environment, stderr=subprocess.PIPE, text=True)
-        wait_for("the window", lambda: self.xdotool("search", "--name", "glint", check=False))
+        wait_for("the window", lambda: not self.alive() or
+                 self.xdotool("search", "--name", "glint", check=False))
+        assert self.alive(), self.process.stderr.read()
         self.xdotool("mousemove", "500", "790")
         self.settled(shaded=True)
 

@@ -70,7 +70,9 @@ void App::finishLoading() {
     session_.say("read " + session_.model->path.string() +
                  (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
   });
-  if (!session_.model) modelState_ = {};
+  // A file that could not be read is tried again when it changes; another one is forgotten.
+  if (session_.model && session_.model->path != loadingPath_)
+    modelState_ = stateOf(session_.model->path);
 }
 
 void App::watch() {
@@ -269,7 +271,9 @@ void App::execute(Action command) {
       break;
     case Action::open:
       dialogs_.askPath("Open a model or a look",
-                       session_.model ? session_.model->path.parent_path().string() + "/" : "./",
+                       session_.model && session_.model->path.has_parent_path()
+                           ? session_.model->path.parent_path().string() + "/"
+                           : "./",
                        true, [this](const std::string& path) { open(path); });
       break;
     case Action::reload:

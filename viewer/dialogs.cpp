@@ -80,17 +80,18 @@ void Dialogs::drawPath() {
       std::sort(listed_.begin(), listed_.end());
       if (folder.has_parent_path() || folder == ".") listed_.insert(listed_.begin(), "../");
     }
-    ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12));
-    for (const std::string& name : listed_)
-      if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
-        fs::path chosen = fs::path(listedFolder_) / name;
-        if (name.back() == '/') {
-          text_ = fs::weakly_canonical(chosen, error).string() + "/";
-        } else {
-          text_ = chosen.lexically_normal().string();
+    if (ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12))) {
+      for (const std::string& name : listed_)
+        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
+          fs::path chosen = fs::path(listedFolder_) / name;
+          if (name.back() == '/') {
+            text_ = fs::weakly_canonical(chosen, error).string() + "/";
+          } else {
+            text_ = chosen.lexically_normal().string();
+          }
         }
-      }
-    ImGui::EndListBox();
+      ImGui::EndListBox();
+    }
   }
   const float button = ImGui::GetFontSize() * 7;
   const bool okay = ImGui::Button(existing_ ? "Open" : "Save", ImVec2(button, 0)) || entered;
