@@ -68,7 +68,8 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
 }
 
 glm::vec4 boundary(const FresnelConstants& c) {
-  return {float(c.e), float(c.nSquared), float(1 / c.n), float(c.r0)};
+  const double critical = c.e < 0 ? std::sqrt(-c.e) : 0.0;
+  return {float(c.e), float(c.nSquared), float(critical), float(critical - float(critical))};
 }
 
 MaterialBlock materialBlock(const Material& material, const Look& look) {
