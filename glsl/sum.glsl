@@ -18,12 +18,9 @@ void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 c
   vec3 between = isConstant ? constant : l + v;
 #if BLINN
   // Where L = -V the half vector is undefined and the light grazes: no highlight.
-  vec3 h = between;
-  if (!isConstant) {
-    float square = dot(between, between);
-    if (!(square > 1e-12)) return;
-    h = between / sqrt(square);
-  }
+  float square = dot(between, between);
+  if (!(square > 1e-12)) return;
+  vec3 h = isConstant ? between : between / sqrt(square);
 #if HIGHLIGHT == HIGHLIGHT_POW
   float lobe = lobePow(dot(n, h), material.strength.w);
 #else

@@ -83,7 +83,10 @@ std::function<Look()> addLookOptions(CLI::App& app) {
     Look materials;
     for (const auto& [p, option] : state->options) {
       if (option->count() == 0) continue;
-      if (p->name == "light") look.light.reset();
+      if (p->name == "light") {  // in place of the file's, and of its having none
+        look.light.reset();
+        look.noLights = false;
+      }
       Look& target = p->name == "material" ? materials : look;
       for (const std::string& text : option->results()) p->read(target, text);
     }

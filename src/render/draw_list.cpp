@@ -51,7 +51,9 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
       e.position = glm::vec4(glm::vec3(l), 0);
       // L + V for the one direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
       const glm::dvec3 between = l + glm::dvec3(0, 0, 1);
-      e.constant = glm::vec4(glm::vec3(blinn ? unit(between) : between), 0);
+      const bool opposed = !(glm::dot(between, between) > 1e-12);
+      const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
+      e.constant = glm::vec4(glm::vec3(blinn ? half : between), 0);
     } else {
       e.position = glm::vec4(eyePosition(light.position, camera, rotation), 1);
     }
@@ -114,8 +116,9 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return block;
 }
 
+// The sign of the determinant, of columns scaled so that their product neither under- nor overflows.
 bool isMirrored(const glm::dmat4& world) {
-  return glm::dot(glm::dvec3(world[0]), glm::cross(glm::dvec3(world[1]), glm::dvec3(world[2]))) < 0;
+  return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
 }
 
 double depthOf(const Mesh& mesh, const DrawBlock& block) {

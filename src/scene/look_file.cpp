@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 std::string optionText(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
   if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
   if (value.is_number()) return numberText(value.get<double>());
   if (value.is_array()) {

@@ -73,6 +73,8 @@ struct ShadingParameters {
 };
 
 struct Material {
+  /// Never empty: one without a name is called "#N", N its place in the file from 0, and glTF's
+  /// default material "#default".
   std::string name;
   ShadingParameters shading;
   double alpha = 1.0;         ///< multiplies the texture's and the vertex colour's, [0, 1]

@@ -1,0 +1,330 @@
+// Framing and projection against the formulas of the design.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "glint/image/error.h"
+#include "glint/scene/camera.h"
+#include "scenes.h"
+
+using glint::Bounds;
+using glint::Camera;
+using glint::cameraFor;
+using glint::Look;
+using glint::Scene;
+using glint::test::degrees;
+
+namespace {
+
+// Double arithmetic of some ten operations on numbers of about 1.
+constexpr double tight = 1e-14;
+
+Scene sphereAt(const glm::dvec3& center, double radius) {
+  return glint::test::sceneOf(
+      glint::test::sphere(32, 16), {},
+      glint::test::translation(center) * glint::test::scaling(glm::dvec3(radius)));
+}
+
+Camera framed(const Look& look, const Bounds& bounds) { return cameraFor(Scene{}, bounds, look); }
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
+}
+
+void expectSound(const Camera& camera) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(std::isfinite(camera.eye[i]));
+    for (int j = 0; j < 3; ++j)
+      EXPECT_NEAR(glm::dot(camera.axes[i], camera.axes[j]), i == j ? 1 : 0, tight);
+  }
+  EXPECT_NEAR(glm::dot(glm::cross(camera.axes[0], camera.axes[1]), camera.axes[2]), 1, tight);
+  EXPECT_GT(camera.near, 0);
+  EXPECT_GT(camera.far, camera.near);
+  EXPECT_TRUE(std::isfinite(camera.far));
+  EXPECT_GT(camera.halfHeight, 0);
+  EXPECT_TRUE(std::isfinite(camera.halfHeight));
+  EXPECT_EQ(camera.unit, std::exp2(std::round(std::log2(camera.unit))));
+  const glm::dmat4 p = glint::projection(camera, {0, 0}, {1, 1}, true);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) EXPECT_TRUE(std::isfinite(p[i][j]));
+}
+
+glm::dvec3 ndc(const glm::dmat4& m, const glm::dvec3& eye) {
+  const glm::dvec4 clip = m * glm::dvec4(eye, 1);
+  return glm::dvec3(clip) / clip.w;
+}
+
+}  // namespace
+
+TEST(Bounds, AreTheBoxesCentreAndTheFarthestVertex) {
+  const glm::dvec3 center(1, -2, 3);
+  const Bounds bounds = glint::boundsOf(sphereAt(center, 2));
+  expectNear(bounds.center, center, 1e-6);  // float positions
+  EXPECT_NEAR(bounds.radius, 2, 1e-6);
+  // A corner of a box is the farthest vertex; a vertex that no triangle uses does not count.
+  glint::Mesh mesh = glint::test::quad({0, 0, 1}, 1);
+  mesh.positions.emplace_back(100, 0, 0);
+  EXPECT_NEAR(glint::boundsOf(glint::test::sceneOf(mesh)).radius, std::sqrt(2), tight);
+}
+
+TEST(Bounds, OfNothingOrOnePointHaveNoRadius) {
+  EXPECT_EQ(glint::boundsOf(Scene{}).radius, 0);
+  glint::Mesh mesh = glint::test::quad();
+  mesh.indices = {1, 1, 1};
+  const Bounds bounds = glint::boundsOf(glint::test::sceneOf(mesh));
+  EXPECT_EQ(bounds.radius, 0);
+  expectNear(bounds.center, {2, -2, 0}, 0);
+}
+
+TEST(Bounds, NeitherOverflowNorUnderflow) {
+  for (double scale : {1e-200, 1e-20, 1e20, 1e200}) {
+    const Bounds bounds = glint::boundsOf(sphereAt({0, 0, 0}, scale));
+    EXPECT_NEAR(bounds.radius / scale, 1, 1e-6);
+  }
+}
+
+TEST(Framing, SeesTheSphereFromTheRightAndAbove) {
+  const Bounds bounds{{1, 2, 3}, 5};
+  const Camera camera = framed(Look{}, bounds);
+  const double distance = 5 / (0.9 * std::sin(15 * degrees));
+  const glm::dvec3 toEye(std::sin(30 * degrees) * std::cos(20 * degrees), std::sin(20 * degrees),
+                         std::cos(30 * degrees) * std::cos(20 * degrees));
+  expectNear(camera.eye, bounds.center + toEye * distance, 100 * tight);
+  expectNear(camera.axes[2], toEye, tight);
+  EXPECT_NEAR(camera.axes[0].y, 0, tight);  // level
+  EXPECT_GT(camera.axes[1].y, 0);
+  EXPECT_NEAR(camera.halfHeight, std::tan(15 * degrees), tight);
+  EXPECT_FALSE(camera.orthographic);
+  EXPECT_EQ(camera.aspect, 1);
+  expectSound(camera);
+}
+
+TEST(Framing, FitsTheSmallerSideOfThePicture) {
+  const Bounds bounds{{0, 0, 0}, 1};
+  Look look;
+  look.cameraViewAngle = 40;
+  look.resolution = {1600, 900};
+  EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.9 * std::sin(20 * degrees)),
+              10 * tight);
+  look.resolution = {300, 900};
+  // Across, the half angle's tangent is that of the vertical one times the aspect.
+  const double half = std::atan(std::tan(20 * degrees) / 3);
+  EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.9 * std::sin(half)), 100 * tight);
+  look.cameraZoomFactor = 0.45;
+  EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.45 * std::sin(half)), 100 * tight);
+}
+
+// In perspective the zoom factor is the sine ratio: the sphere's outline is seen at the angle whose
+// sine is r / distance = zoom sin(a'/2).
+TEST(Framing, KeepsTheSphereInsideThePicture) {
+  Look look;
+  const Camera camera = framed(look, {{0, 0, 0}, 1});
+  const double outline = std::asin(1 / glm::length(camera.eye));
+  EXPECT_LT(std::tan(outline), camera.halfHeight);
+  EXPECT_GT(std::tan(outline), 0.85 * camera.halfHeight);
+}
+
+TEST(Framing, OrthographicHalfHeightIsDistanceTimesTangent) {
+  Look look;
+  look.cameraOrthographic = true;
+  look.cameraPosition = glm::dvec3(0, 0, 7);
+  look.cameraFocalPoint = glm::dvec3(0, 0, 1);
+  look.cameraViewAngle = 50;
+  const Camera camera = framed(look, {{0, 0, 0}, 1});
+  EXPECT_TRUE(camera.orthographic);
+  EXPECT_NEAR(camera.halfHeight, 6 * std::tan(25 * degrees), 10 * tight);
+}
+
+// VTK's, and so F3D's: azimuth turns about the way up, to the camera's right; elevation upwards.
+TEST(Framing, AzimuthAndElevationTurnAsInF3d) {
+  Look look;
+  look.cameraPosition = glm::dvec3(1, 2, 3 + 4);
+  look.cameraFocalPoint = glm::dvec3(1, 2, 3);
+  const Bounds bounds{{1, 2, 3}, 1};
+  look.cameraAzimuthAngle = 90;
+  expectNear(framed(look, bounds).eye, {5, 2, 3}, 10 * tight);
+  look.cameraAzimuthAngle = 0;
+  look.cameraElevationAngle = 90;
+  expectNear(framed(look, bounds).eye, {1, 6, 3}, 10 * tight);
+  expectNear(framed(look, bounds).axes[1], {0, 0, -1}, 10 * tight);  // what was ahead is up
+  look.cameraElevationAngle = -30;
+  expectNear(framed(look, bounds).eye,
+             {1, 2 - 4 * std::sin(30 * degrees), 3 + 4 * std::cos(30 * degrees)}, 10 * tight);
+  // Both together are the default view.
+  look.cameraAzimuthAngle = 30;
+  look.cameraElevationAngle = 20;
+  const Camera turned = framed(look, bounds), standard = framed(Look{}, bounds);
+  for (int i = 0; i < 3; ++i) expectNear(turned.axes[i], standard.axes[i], 10 * tight);
+}
+
+TEST(Framing, DirectionLooksThatWay) {
+  Look look;
+  look.cameraDirection = glm::dvec3(0, -3, 0);
+  const Camera camera = framed(look, {{1, 1, 1}, 2});
+  expectNear(camera.axes[2], {0, 1, 0}, tight);
+  EXPECT_NEAR(camera.eye.x, 1, tight);
+  EXPECT_GT(camera.eye.y, 3);
+  look.cameraPosition = glm::dvec3(9, 9, 9);
+  expectNear(framed(look, {{1, 1, 1}, 2}).eye, {9, 9, 9}, 0);
+  expectNear(framed(look, {{1, 1, 1}, 2}).axes[2], {0, 1, 0}, tight);
+}
+
+TEST(Framing, UpIsUpwards) {
+  Look look;
+  look.cameraPosition = glm::dvec3(0, 0, 4);
+  look.cameraViewUp = glm::dvec3(1, 0, 0.3);
+  expectNear(framed(look, {{0, 0, 0}, 1}).axes[1], {1, 0, 0}, tight);
+}
+
+// G6: eye at the target, up along the view, no radius; and G7, G8: extreme angles and pictures.
+TEST(Framing, DegenerateInputsGiveSoundCameras) {
+  const Bounds bounds[] = {{{0, 0, 0}, 0},
+                           {{1, 2, 3}, 1},
+                           {{0, 0, 0}, 1e-30},
+                           {{1e20, 0, 0}, 1e20},
+                           {{1e7, 1e7, 1e7}, 1}};
+  for (const Bounds& b : bounds) {
+    Look look;
+    expectSound(framed(look, b));
+    look.cameraPosition = b.center;
+    expectSound(framed(look, b));  // inside the object, and at the focal point
+    look.cameraFocalPoint = b.center;
+    expectSound(framed(look, b));
+    for (const glm::dvec3 axis :
+         {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(1, 1, 1)}) {
+      Look along;
+      along.cameraDirection = axis;
+      along.cameraViewUp = axis;
+      expectSound(framed(along, b));
+      along.cameraViewUp = -axis;
+      along.cameraElevationAngle = 90;
+      expectSound(framed(along, b));
+    }
+    for (double angle : {1e-5, 0.001, 179.0, 179.9})
+      for (bool orthographic : {false, true})
+        for (glm::ivec2 resolution :
+             {glm::ivec2(1, 1), glm::ivec2(16384, 1), glm::ivec2(1, 16384)}) {
+          Look extreme;
+          extreme.cameraViewAngle = angle;
+          extreme.cameraOrthographic = orthographic;
+          extreme.resolution = resolution;
+          expectSound(framed(extreme, b));
+        }
+  }
+}
+
+TEST(Framing, ObjectsLieBetweenNearAndFar) {
+  for (double radius : {1e-20, 1.0, 1e20}) {
+    const Bounds bounds{glm::dvec3(3, 4, 5) * radius, radius};
+    const Camera camera = framed(Look{}, bounds);
+    const double center = glm::dot(camera.eye - bounds.center, camera.axes[2]);
+    EXPECT_LT(camera.near, center - radius);
+    EXPECT_GT(camera.far, center + radius);
+  }
+}
+
+TEST(Framing, FileCamerasStandAsTheFileSays) {
+  Scene scene = sphereAt({0, 0, 0}, 1);
+  glint::FileCamera file;
+  file.world = glint::test::translation({0, 0, 9}) *
+               glint::test::scaling(glm::dvec3(3));  // a camera's scale does not count
+  file.viewAngle = 0.7;
+  scene.cameras.push_back(file);
+  file.orthographic = true;
+  file.halfHeight = 2.5;
+  scene.cameras.push_back(file);
+  Look look;
+  look.cameraIndex = 0;
+  const Bounds bounds = glint::boundsOf(scene);
+  Camera camera = cameraFor(scene, bounds, look);
+  expectNear(camera.eye, {0, 0, 9}, 0);
+  expectNear(camera.axes[2], {0, 0, 1}, tight);
+  EXPECT_NEAR(camera.halfHeight, std::tan(0.35), tight);
+  EXPECT_FALSE(camera.orthographic);
+  look.cameraIndex = 1;
+  camera = cameraFor(scene, bounds, look);
+  EXPECT_TRUE(camera.orthographic);
+  EXPECT_NEAR(camera.halfHeight, 2.5, tight);
+  look.cameraIndex = 2;
+  try {
+    cameraFor(scene, bounds, look);
+    FAIL() << "camera 2 of 2";
+  } catch (const glint::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("--camera-index 2"));
+  }
+  EXPECT_THROW(cameraFor(Scene{}, {}, look), glint::InputError);
+}
+
+TEST(Projection, ReversedMapsNearToOneAndFarToZero) {
+  for (bool orthographic : {false, true}) {
+    Look look;
+    look.cameraOrthographic = orthographic;
+    look.clippingRange = glm::dvec2(0.25, 4000);
+    const Camera camera = framed(look, {{0, 0, 0}, 3});
+    const double near = camera.near / camera.unit, far = camera.far / camera.unit;
+    const glm::dmat4 reversed = glint::projection(camera, {0, 0}, {1, 1}, true);
+    const glm::dmat4 plain = glint::projection(camera, {0, 0}, {1, 1}, false);
+    // far times a relative rounding of 2^-53, divided by far: no worse than a few ulps of 1.
+    EXPECT_NEAR(ndc(reversed, {0, 0, -near}).z, 1, 1e-14);
+    EXPECT_NEAR(ndc(reversed, {0, 0, -far}).z, 0, 1e-14);
+    EXPECT_NEAR(ndc(plain, {0, 0, -near}).z, -1, 1e-11);
+    EXPECT_NEAR(ndc(plain, {0, 0, -far}).z, 1, 1e-11);
+    const double middle = 0.5 * (near + far);
+    EXPECT_GT(ndc(reversed, {0, 0, -middle}).z, ndc(reversed, {0, 0, -far}).z);
+  }
+}
+
+TEST(Projection, PictureEdgesAreTheViewAngles) {
+  Look look;
+  look.resolution = {200, 100};
+  look.cameraViewAngle = 60;
+  const Camera camera = framed(look, {{0, 0, 0}, 1});
+  const glm::dmat4 m = glint::projection(camera, {0, 0}, {1, 1}, true);
+  const double half = std::tan(30 * degrees);
+  expectNear(ndc(m, {2 * half * 5, half * 5, -5}) * glm::dvec3(1, 1, 0), {1, 1, 0}, tight);
+  expectNear(ndc(m, {-2 * half * 3, 0, -3}) * glm::dvec3(1, 1, 0), {-1, 0, 0}, tight);
+}
+
+TEST(Projection, OfTilesIsThatOfTheWhole) {
+  for (bool orthographic : {false, true}) {
+    Look look;
+    look.cameraOrthographic = orthographic;
+    look.resolution = {640, 360};
+    const Camera camera = framed(look, {{0, 0, 0}, 1});
+    const glm::dmat4 whole = glint::projection(camera, {0, 0}, {1, 1}, true);
+    for (const auto& [lower, upper] : {std::pair(glm::dvec2(0, 0), glm::dvec2(0.25, 0.5)),
+                                       std::pair(glm::dvec2(0.125, 0.4), glm::dvec2(0.9, 0.7)),
+                                       std::pair(glm::dvec2(0.999, 0.5), glm::dvec2(1, 1))}) {
+      const glm::dmat4 tile = glint::projection(camera, lower, upper, true);
+      for (const glm::dvec3 point :
+           {glm::dvec3(0.1, -0.2, -1), glm::dvec3(-0.5, 0.3, -0.7), glm::dvec3(0.2, 0.2, -1.4)}) {
+        const glm::dvec3 a = ndc(whole, point), b = ndc(tile, point);
+        for (int i = 0; i < 2; ++i) {
+          // Where the whole's coordinate lies between the tile's edges, from -1 to 1; rounding is
+          // magnified by the width of the picture over that of the tile.
+          const double size = upper[i] - lower[i];
+          EXPECT_NEAR(b[i], ((a[i] + 1) / 2 - lower[i]) / size * 2 - 1, 1e-14 / size);
+        }
+        EXPECT_EQ(a.z, b.z);
+      }
+    }
+  }
+}
+
+TEST(Camera, PowersOfTwoChangeNothingButTheUnit) {
+  const Bounds bounds{{0.3, -0.2, 0.5}, 1.7};
+  const Camera camera = framed(Look{}, bounds);
+  for (int k : {-120, -3, 1, 64}) {
+    const double s = std::exp2(k);
+    const Camera scaled = framed(Look{}, {bounds.center * s, bounds.radius * s});
+    EXPECT_EQ(scaled.eye, camera.eye * s);
+    EXPECT_EQ(scaled.axes, camera.axes);
+    EXPECT_EQ(scaled.unit, camera.unit * s);
+    EXPECT_EQ(scaled.near, camera.near * s);
+    EXPECT_EQ(scaled.far, camera.far * s);
+    EXPECT_EQ(glint::projection(scaled, {0, 0}, {1, 1}, true),
+              glint::projection(camera, {0, 0}, {1, 1}, true));
+  }
+}

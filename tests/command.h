@@ -1,0 +1,145 @@
+#pragma once
+
+// Runs the glint binary as a user would: arguments, environment, what it wrote and how it ended.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "gltf_text.h"
+
+namespace glint::test {
+
+struct Ran {
+  int status = -1;  ///< exit status; -1 if it did not exit by itself
+  int signal = 0;   ///< that ended it
+  bool timedOut = false;
+  std::string out, err;
+
+  std::vector<std::string> errorLines() const {
+    std::vector<std::string> lines;
+    std::istringstream in(err);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+  }
+};
+
+inline std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct CommandOptions {
+  std::vector<std::pair<std::string, std::string>> environment{};  ///< an empty value unsets
+  int timeoutSeconds = 60;
+  std::string folder{};    ///< to run in
+  bool closedOut = false;  ///< stdout is a pipe that nobody reads
+};
+
+/// Runs the binary and waits for it.
+inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOptions& options = {}) {
+  static int number = 0;
+  const std::string base = temporaryFolder() + "/run" + std::to_string(number++);
+  const std::string outPath = base + ".out", errPath = base + ".err";
+  int closed[2] = {-1, -1};
+  if (options.closedOut) {
+    EXPECT_EQ(pipe(closed), 0);
+    close(closed[0]);
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    setpgid(0, 0);
+    const int in = open("/dev/null", O_RDONLY);
+    const int out =
+        options.closedOut ? closed[1] : open(outPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int err = open(errPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(in, 0);
+    dup2(out, 1);
+    dup2(err, 2);
+    for (const auto& [name, value] : options.environment) {
+      if (value.empty())
+        unsetenv(name.c_str());
+      else
+        setenv(name.c_str(), value.c_str(), 1);
+    }
+    if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
+    std::vector<char*> argv{const_cast<char*>(GLINT_EXECUTABLE)};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    execv(GLINT_EXECUTABLE, argv.data());
+    _exit(127);
+  }
+  if (options.closedOut) close(closed[1]);
+  Ran ran;
+  const auto deadline =
+      std::chrono::steady_clock::now() + std::chrono::seconds(options.timeoutSeconds);
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > deadline && !ran.timedOut) {
+      ran.timedOut = true;
+      kill(child, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) ran.signal = WTERMSIG(status);
+  ran.out = contents(outPath);
+  ran.err = contents(errPath);
+  std::filesystem::remove(outPath);
+  std::filesystem::remove(errPath);
+  return ran;
+}
+
+/// An empty folder of its own for one test.
+class Folder {
+ public:
+  explicit Folder(const std::string& name) : path_(temporaryFolder() + "/" + name) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+  /// Names in it, hidden ones too, in order.
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+ private:
+  std::string path_;
+};
+
+inline const std::string shipped = GLINT_SOURCE_DIR "/models/";
+
+/// A small picture drawn fast.
+inline std::vector<std::string> quick(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--rendering-backend", "osmesa", "--anti-aliasing", "none"});
+  if (std::find(arguments.begin(), arguments.end(), "--resolution") == arguments.end())
+    arguments.insert(arguments.end(), {"--resolution", "40,30"});
+  return arguments;
+}
+
+}  // namespace glint::test

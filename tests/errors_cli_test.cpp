@@ -1,0 +1,313 @@
+// How glint refuses: the status, one line on stderr that says what, where and what to do, and
+// nothing left behind.
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include "command.h"
+#include "scenes.h"
+
+using glint::test::Folder;
+using glint::test::quick;
+using glint::test::Ran;
+using glint::test::runGlint;
+using glint::test::shipped;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+namespace {
+
+const std::string sphere = shipped + "sphere.glb";
+
+void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
+  EXPECT_EQ(ran.status, status) << ran.err;
+  EXPECT_EQ(ran.signal, 0);
+  const auto lines = ran.errorLines();
+  ASSERT_EQ(lines.size(), 1u) << ran.err;
+  EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
+  EXPECT_THAT(ran.out, IsEmpty());
+}
+
+}  // namespace
+
+TEST(Usage, CommandsAndOptionsThatDoNotExist) {
+  expectRefusal(runGlint({}), "see glint --help");
+  expectRefusal(runGlint({"rendre", "a.glb"}), "did you mean 'render'?");
+  expectRefusal(runGlint({"frobnicate"}), "see glint --help");
+  expectRefusal(runGlint({"--frobnicate"}), "--help");
+  Folder folder("unknown");
+  const std::pair<const char*, const char*> options[] = {
+      {"--shadin", "'--shading'"},
+      {"--resolutoin", "'--resolution'"},
+      {"--camera-positon", "'--camera-position'"},
+      {"--antialiasing", "'--anti-aliasing'"},
+      {"--save-lok", "'--save-look'"},
+      {"--outpt", "'--output'"}};
+  for (const auto& [wrong, right] : options) {
+    const std::string expected =
+        "unknown option '" + std::string(wrong) + "': did you mean " + right;
+    expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", wrong, "1"}), expected);
+    expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", wrong + std::string("=1")}),
+                  expected);
+  }
+  expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", "--qqqqqqqqq"}),
+                "see glint render --help");
+  expectRefusal(runGlint({"backends", "extra"}), "unexpected 'extra'");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Usage, MissingModelAndOutput) {
+  Folder folder("missing");
+  expectRefusal(runGlint({"render", "-o", folder / "a.png"}), "MODEL");
+  expectRefusal(runGlint({"render", sphere}), "--output");
+  expectRefusal(runGlint({"info"}), "MODEL");
+  expectRefusal(runGlint({"render", sphere, "-o"}), "-o");
+  expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", "--shading"}), "--shading");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+// Every option of the table with a bad value: named, with what is expected.
+TEST(Usage, BadValuesOfOptions) {
+  const std::vector<std::vector<std::string>> options = {{"--shading", "toon"},
+                                                         {"--highlight", "lyon:8"},
+                                                         {"--fresnel", "rational"},
+                                                         {"--blinn-factor", "-1"},
+                                                         {"--schlick-exponent", "x"},
+                                                         {"--material", "shine=1"},
+                                                         {"--ambient-light", "1,1"},
+                                                         {"--light", "sun:1,2,3"},
+                                                         {"--viewer", "far"},
+                                                         {"--medium-ior", "0"},
+                                                         {"--environment", "black"},
+                                                         {"--environment-rotation", "x"},
+                                                         {"--camera-position", "1,2"},
+                                                         {"--camera-focal-point", "a"},
+                                                         {"--camera-view-up", "0,0,0"},
+                                                         {"--camera-view-angle", "180"},
+                                                         {"--camera-direction", "0,0,0"},
+                                                         {"--camera-azimuth-angle", "x"},
+                                                         {"--camera-elevation-angle", "x"},
+                                                         {"--camera-zoom-factor", "0"},
+                                                         {"--camera-index", "-1"},
+                                                         {"--clipping-range", "2,1"},
+                                                         {"--resolution", "0,1"},
+                                                         {"--anti-aliasing", "msaa"},
+                                                         {"--background-color", "x"},
+                                                         {"--exposure", "99"},
+                                                         {"--bit-depth", "12"},
+                                                         {"--rendering-backend", "metal"},
+                                                         {"--bit-depth", "x"},
+                                                         {"--no-lights=maybe"}};
+  Folder folder("bad_values");
+  for (const auto& option : options) {
+    std::vector<std::string> arguments{"render", sphere, "-o", folder / "a.png"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    SCOPED_TRACE(testing::PrintToString(option));
+    // Two messages speak of the value instead.
+    const std::string name = option[0] == "--bit-depth" && option[1] == "12" ? "bits per channel"
+                             : option[0] == "--rendering-backend"
+                                 ? "no rendering backend is called"
+                                 : option[0].substr(0, option[0].find('='));
+    expectRefusal(runGlint(arguments), name);
+    if (option[0] != "--bit-depth" && option[0] != "--rendering-backend") {
+      arguments = {"info", sphere};
+      arguments.insert(arguments.end(), option.begin(), option.end());
+      expectRefusal(runGlint(arguments), name);
+    }
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Usage, ModelsThatCannotBeRead) {
+  Folder folder("unreadable");
+  expectRefusal(runGlint(quick({"render", folder / "none.glb", "-o", folder / "a.png"})),
+                "none.glb");
+  expectRefusal(runGlint(quick({"render", folder.path(), "-o", folder / "a.png"})), folder.path());
+  std::ofstream(folder / "text.glb") << "hello";
+  expectRefusal(runGlint(quick({"render", folder / "text.glb", "-o", folder / "a.png"})),
+                "text.glb");
+  std::ofstream(folder / "empty.gltf").flush();
+  expectRefusal(runGlint({"info", folder / "empty.gltf"}), "empty.gltf");
+  // A pipe that nobody writes must not hang.
+  mkfifo((folder / "pipe.glb").c_str(), 0600);
+  expectRefusal(runGlint(quick({"render", folder / "pipe.glb", "-o", folder / "a.png"}),
+                         {.timeoutSeconds = 20}),
+                "pipe.glb");
+  EXPECT_THAT(folder.names(), ElementsAre("empty.gltf", "pipe.glb", "text.glb"));
+}
+
+TEST(Usage, OutputsThatCannotBeWritten) {
+  Folder folder("outputs");
+  const auto to = [&](const std::string& name) {
+    return runGlint(quick({"render", sphere, "-o", name}));
+  };
+  expectRefusal(to(folder / "a.bmp"), "a.bmp: the ending tells no known format");
+  expectRefusal(to(folder / "a"), "ending");
+  expectRefusal(to(folder / "a.exr"), ".exr is not supported");
+  expectRefusal(to(folder / "none/a.png"), "none/a.png");
+  expectRefusal(to("/proc/a.png"), "/proc/a.png");
+  std::filesystem::create_directory(folder / "folder.png");
+  expectRefusal(to(folder / "folder.png"), "folder.png");
+  expectRefusal(to(folder / "{name}.png"), "unknown {name}");
+  expectRefusal(to(""), "ending");
+  EXPECT_THAT(folder.names(), ElementsAre("folder.png"));
+  EXPECT_THAT(std::filesystem::directory_iterator(folder / "folder.png"),
+              std::filesystem::directory_iterator());
+  if (geteuid() != 0) {  // root may write anywhere
+    Folder locked("locked");
+    chmod(locked.path().c_str(), 0500);
+    expectRefusal(to(locked / "a.png"), "a.png");
+    EXPECT_THAT(locked.names(), IsEmpty());
+  }
+}
+
+TEST(Usage, AnOlderPictureSurvivesAFailure) {
+  Folder folder("older");
+  std::ofstream(folder / "a.png") << "older";
+  expectRefusal(runGlint(quick({"render", sphere, "-o", folder / "a.png", "--camera-index", "5"})),
+                "--camera-index 5");
+  expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", "--rendering-backend", "osmesa",
+                          "--anti-aliasing", "msaa:8"}),
+                "ssaa:3");
+  EXPECT_EQ(glint::test::contents(folder / "a.png"), "older");
+  EXPECT_THAT(folder.names(), ElementsAre("a.png"));
+}
+
+TEST(Usage, TwoThingsForStdoutAndTwoPicturesOfOneName) {
+  expectRefusal(runGlint({"render", sphere, "-o", "-", "--json", "-"}), "--json -");
+  Folder folder("same");
+  expectRefusal(runGlint({"render", sphere, shipped + "torus.glb", "-o", folder / "a.png"}),
+                "{model} or {n}");
+  expectRefusal(runGlint({"render", sphere, sphere, "-o", folder / "{model}.png"}), "{n}");
+  expectRefusal(runGlint({"render", sphere, shipped + "torus.glb", "-o", "-"}), "both");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Usage, LooksThatCannotBeRead) {
+  Folder folder("looks");
+  const auto with = [&](const std::string& text) {
+    std::ofstream(folder / "look.json") << text;
+    return runGlint(
+        quick({"render", sphere, "-o", folder / "a.png", "--look", folder / "look.json"}));
+  };
+  expectRefusal(with("{"), "look.json: not a look file");
+  expectRefusal(with("{}"), "glint-look");
+  expectRefusal(with(R"({"glint-look": 1, "shadin": "flat"})"), "unknown key \"shadin\"");
+  expectRefusal(with(R"({"glint-look": 1, "shading": "toon"})"), "\"shading\"");
+  expectRefusal(with("{\"glint-look\": 1, \"\n\x1b[31m\": 1}"), "look.json");
+  expectRefusal(
+      runGlint(quick({"render", sphere, "-o", folder / "a.png", "--look", folder / "none"})),
+      "none");
+  expectRefusal(runGlint(quick({"render", sphere, "-o", folder / "a.png", "--save-look",
+                                folder / "none/look.json"})),
+                "none/look.json");
+  EXPECT_THAT(folder.names(), ElementsAre("look.json"));
+}
+
+TEST(Usage, MaterialsAndCamerasThatTheModelLacks) {
+  Folder folder("lacks");
+  expectRefusal(
+      runGlint(quick({"render", sphere, "-o", folder / "a.png", "--material", "gold:exponent=5"})),
+      "no material 'gold'");
+  expectRefusal(runGlint(quick({"render", sphere, "-o", folder / "a.png", "--camera-index", "0"})),
+                "--camera-index 0");
+  expectRefusal(runGlint({"info", sphere, "--material", "gold:exponent=5"}), "no material 'gold'");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Usage, SamplesAndSizesThatTheDriverLacks) {
+  Folder folder("driver");
+  expectRefusal(runGlint({"render", sphere, "-o", folder / "a.png", "--rendering-backend", "osmesa",
+                          "--anti-aliasing", "msaa:8"}),
+                "--anti-aliasing ssaa:3");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Usage, ShaderFoldersThatDoNotServe) {
+  Folder folder("glsl");
+  expectRefusal(
+      runGlint(quick({"render", sphere, "-o", folder / "a.png", "--glsl", folder / "no"})),
+      "--glsl");
+  expectRefusal(
+      runGlint(quick({"render", sphere, "-o", folder / "a.png", "--glsl", folder.path()})),
+      "none of glint's shader files");
+  std::ofstream(folder / "phong.glsl") << "vec3 shade(vec4 base) { return undeclared; }\n";
+  const Ran ran =
+      runGlint(quick({"render", sphere, "-o", folder / "a.png", "--glsl", folder.path()}));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("phong"), HasSubstr("undeclared")));
+  EXPECT_THAT(folder.names(), ElementsAre("phong.glsl"));
+}
+
+// One of three models is broken: the others are drawn, and the status tells.
+TEST(Usage, OneBrokenModelDoesNotStopTheOthers) {
+  Folder folder("three");
+  std::ofstream(folder / "broken.glb") << "broken";
+  const Ran ran = runGlint(quick({"render", shipped + "torus.glb", folder / "broken.glb", sphere,
+                                  "-o", folder / "{model}.png", "--json", folder / "report.json"}));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("broken.glb"));
+  EXPECT_THAT(folder.names(), ElementsAre("broken.glb", "report.json", "sphere.png", "torus.png"));
+  const auto report = nlohmann::json::parse(glint::test::contents(folder / "report.json"));
+  ASSERT_EQ(report["pictures"].size(), 3u);
+  EXPECT_EQ(report["pictures"][0]["status"], 0);
+  EXPECT_EQ(report["pictures"][1]["status"], 2);
+  EXPECT_EQ(report["pictures"][2]["status"], 0);
+  EXPECT_THAT(report["pictures"][1]["error"].get<std::string>(), HasSubstr("broken.glb"));
+}
+
+namespace {
+
+class FakeDrivers : public testing::TestWithParam<const char*> {};
+
+}  // namespace
+
+// No context: status 3, and for each backend the reason in a line. libOSMesa.so.6, an older name,
+// may be the real one: then `auto` draws by it, and is not asked.
+TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
+  const std::string drivers = GLINT_BINARY_DIR "/tests/fake/" + std::string(GetParam());
+  const glint::test::CommandOptions options{.environment = {{"LD_LIBRARY_PATH", drivers}}};
+  Folder folder("fake");
+  for (const char* backend : {"egl", "egl-software", "osmesa"}) {
+    const Ran ran = runGlint({"render", sphere, "-o", folder / "a.png", "--resolution", "8,8",
+                              "--rendering-backend", backend},
+                             options);
+    SCOPED_TRACE(backend);
+    if (backend == std::string("osmesa") && ran.status == 0) {
+      std::filesystem::remove(folder / "a.png");
+      continue;  // libOSMesa.so.6 served
+    }
+    expectRefusal(ran, "", 3);
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+
+  const Ran list = runGlint({"backends"}, options);
+  EXPECT_THAT(list.out, AllOf(HasSubstr("egl "), HasSubstr("egl-software "), HasSubstr("osmesa "),
+                              HasSubstr("no ")));
+  const Ran automatic =
+      runGlint({"render", sphere, "-o", folder / "a.png", "--resolution", "8,8"}, options);
+  if (list.status == 0) {
+    EXPECT_EQ(automatic.status, 0);
+    EXPECT_THAT(automatic.err, HasSubstr("warning")) << "EGL was passed over in silence";
+    return;
+  }
+  EXPECT_EQ(list.status, 3);
+  EXPECT_EQ(automatic.status, 3);
+  const auto lines = automatic.errorLines();
+  ASSERT_EQ(lines.size(), 3u) << automatic.err;  // a heading and one line for each backend
+  EXPECT_THAT(lines[1], HasSubstr("egl: "));
+  EXPECT_THAT(lines[2], HasSubstr("osmesa: "));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, FakeDrivers,
+                         testing::Values("no-symbols", "no-context", "old-version"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });

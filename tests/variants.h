@@ -1,0 +1,105 @@
+#pragma once
+
+// A broad sample of the variants that scenes can ask for.
+
+#include <set>
+
+#include "glint/render/variant.h"
+#include "scenes.h"
+
+namespace glint::test {
+
+struct VariantInputs {
+  Mesh mesh;
+  Material material;
+  glm::dmat4 world{1};
+  Look look;
+  bool orthographic = false;
+
+  Variant variant() const { return variantFor(mesh, material, world, look, orthographic); }
+};
+
+/// A lit triangle mesh under the default light in perspective, without anything special.
+inline VariantInputs plainInputs(Shading program = Shading::phong) {
+  VariantInputs in;
+  in.mesh = quad();
+  in.mesh.texcoords = {std::vector<glm::vec2>(in.mesh.positions.size())};
+  in.material = materialOf(1, 0.8, 0.5, 20);
+  in.look.shading = program;
+  in.look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  return in;
+}
+
+inline constexpr Shading everyShading[] = {Shading::flat, Shading::gouraud, Shading::phong,
+                                           Shading::blinnPhong, Shading::environment};
+
+inline Light lightOf(Light::Type type) {
+  Light light = directional({1, 2, 3});
+  light.type = type;
+  light.position = {1, 2, 3};
+  return light;
+}
+
+/// Single features and pairs of neighbours, under each program: some hundred variants.
+inline std::set<Variant> sampledVariants() {
+  using Change = void (*)(VariantInputs&);
+  static constexpr Change changes[] = {
+      [](VariantInputs&) {},
+      [](VariantInputs& in) { in.material.unlit = true; },
+      [](VariantInputs& in) { in.look.noLights = true; },
+      [](VariantInputs& in) { in.material.shading.diffuse = 0; },
+      [](VariantInputs& in) { in.material.shading.specular = 0; },
+      [](VariantInputs& in) {
+        in.look.light = {lightOf(Light::Type::directional), lightOf(Light::Type::directional),
+                         lightOf(Light::Type::point), lightOf(Light::Type::spot)};
+      },
+      [](VariantInputs& in) { in.look.light = {lightOf(Light::Type::point)}; },
+      [](VariantInputs& in) { in.look.light = {lightOf(Light::Type::spot)}; },
+      [](VariantInputs& in) {
+        in.look.light = std::vector<Light>(128, lightOf(Light::Type::spot));
+      },
+      [](VariantInputs& in) { in.look.highlight = Highlight::pow; },
+      [](VariantInputs& in) { in.orthographic = true; },
+      [](VariantInputs& in) {
+        in.world = scaling({1, 1, 10});
+      },
+      [](VariantInputs& in) { in.mesh.normalsMayCancel = true; },
+      [](VariantInputs& in) { in.look.twoSided = true; },
+      [](VariantInputs& in) { in.mesh.colors.assign(4, glm::vec4(1)); },
+      [](VariantInputs& in) { in.material.colorTexture = Texture{}; },
+      [](VariantInputs& in) { in.material.emission = glm::dvec3(1); },
+      [](VariantInputs& in) {
+        in.material.emission = glm::dvec3(1);
+        in.material.emissionTexture = Texture{};
+      },
+      [](VariantInputs& in) { in.material.alphaMode = AlphaMode::mask; },
+      [](VariantInputs& in) { in.material.alphaMode = AlphaMode::blend; },
+      [](VariantInputs& in) { in.look.antiAliasing = {}; },
+      [](VariantInputs& in) { in.look.environment = Environment::sky; },
+      [](VariantInputs& in) { in.look.environment = Environment::white; },
+      [](VariantInputs& in) { in.look.fresnel = Fresnel::textbook; },
+      [](VariantInputs& in) { in.look.fresnel = Fresnel::schlick; },
+      [](VariantInputs& in) { in.material.shading.metalness = 1; },
+      [](VariantInputs& in) { in.material.shading.metalness = 0.5; },
+      [](VariantInputs& in) { in.material.transmission = 0.5; },
+  };
+  constexpr std::size_t count = std::size(changes);
+  std::set<Variant> variants;
+  for (Shading program : everyShading)
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t step : {std::size_t(0), std::size_t(1), std::size_t(5), std::size_t(12)}) {
+        VariantInputs in = plainInputs(program);
+        changes[i](in);
+        changes[(i + step) % count](in);
+        variants.insert(in.variant());
+      }
+  // Everything at once.
+  for (Shading program : everyShading) {
+    VariantInputs in = plainInputs(program);
+    for (std::size_t i = 5; i < count; ++i) changes[i](in);
+    variants.insert(in.variant());
+  }
+  return variants;
+}
+
+}  // namespace glint::test
