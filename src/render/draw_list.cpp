@@ -117,7 +117,8 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return block;
 }
 
-// The sign of the determinant, of columns scaled so that their product neither under- nor overflows.
+// The sign of the determinant, of columns scaled so that their product neither under- nor
+// overflows.
 bool isMirrored(const glm::dmat4& world) {
   return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
 }
