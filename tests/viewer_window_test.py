@@ -57,7 +57,11 @@ class Viewer:
         os.close(read)
         self.environment = dict(os.environ, DISPLAY=":" + number.decode().strip())
         self.process = None
-        self.start()
+        try:
+            self.start()
+        except BaseException:
+            self.end()
+            raise
 
     def start(self, *options):
         self.process = subprocess.Popen(
@@ -76,9 +80,12 @@ class Viewer:
         if kind:
             self.screenshot("/tmp/glint-window-failure.png")
             print("the screen is in /tmp/glint-window-failure.png", file=sys.stderr)
-        if self.process.poll() is None:
+        self.end()
+
+    def end(self):
+        if self.process and self.process.poll() is None:
             self.process.kill()
-        self.process.wait()
+            self.process.wait()
         self.server.send_signal(signal.SIGTERM)
         self.server.wait()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,6 +1,8 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
