@@ -87,7 +87,9 @@ TEST(Presets, AreWithinTheRangesOfTheParameters) {
       EXPECT_GE(values.*p.value, p.min) << preset.name << " " << p.name;
       EXPECT_LE(values.*p.value, p.max) << preset.name << " " << p.name;
     }
-    if (preset.metal) EXPECT_EQ(values.metalness, 1) << preset.name;
+    if (preset.metal) {
+      EXPECT_EQ(values.metalness, 1) << preset.name;
+    }
   }
 }
 
