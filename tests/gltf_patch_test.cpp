@@ -143,7 +143,7 @@ TEST(PatchGltf, OtherChunksOfAGlbStayAsTheyAre) {
 }
 
 TEST(PatchGltf, RefusesWhatItDoesNotUnderstand) {
-  for (const std::string text :
+  for (const std::string& text :
        {std::string(), std::string("[]"), std::string("{\"asset\":"), std::string("glTF"),
         std::string("glTF\2\0\0\0\xff\xff\xff\xff\xff\xff\xff\xffJSON{}", 22)}) {
     EXPECT_THROW(patched(text, {}), InputError) << text;

@@ -184,4 +184,16 @@ TEST(ReferenceTexture, MasksDiscard) {
       EXPECT_EQ(pixel(image, x, y).a, (x < 2) == (y < 2)) << x << "," << y;
 }
 
+TEST(ReferenceTexture, IsNotReadWithoutCoordinates) {
+  glint::Material plain;
+  plain.unlit = true;
+  plain.shading.color = {0.25, 0.5, 1};
+  plain.colorTexture = glint::Texture{};
+  Scene scene = sceneOf({{rectangle({-2, -2}, {2, 2}), plain}});
+  scene.images.emplace_back();
+  Look look = plainLook(4, 4);
+  lookAlongZ(scene, look, 2);
+  EXPECT_EQ(glm::dvec3(pixel(draw(scene, look), 1, 1)), plain.shading.color);
+}
+
 }  // namespace

@@ -53,8 +53,11 @@ TEST(FresnelPlot, SchlicksErrorForGlass) {
 
 TEST(WidthPlot, SmallHighlightsAreFourTimesInThePlane) {
   const WidthPlot plot = widthPlot(10000);
-  for (const auto& p : plot.inPlane.points)
-    if (p.x < 60) EXPECT_NEAR(p.y, 4, 0.02) << p.x;
+  for (const auto& p : plot.inPlane.points) {
+    if (p.x < 60) {
+      EXPECT_NEAR(p.y, 4, 0.02) << p.x;
+    }
+  }
   for (const auto& p : plot.across.points) {
     const double c = std::cos(p.x * 3.141592653589793 / 180);
     EXPECT_NEAR(p.y, 4 * c * c, 0.02) << p.x;

@@ -82,7 +82,8 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
         if (!(v >= 0 && u + v <= 1)) continue;
         const double distance = glm::dot(e2, q) / det;
         if (!(distance > 0 && distance < nearest)) continue;
-        const bool back = (det < 0) != (determinant < 0);
+        // In the space of the mesh: a mirrored instance keeps its faces.
+        const bool back = det < 0;
         if (back && !both) continue;
         nearest = distance;
         Hit hit;

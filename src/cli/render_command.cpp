@@ -1,4 +1,7 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -64,6 +67,31 @@ Loaded load(const std::string& path, const Look& look) {
   return loaded;
 }
 
+/// A line on a terminal that says how far a picture is, if it takes more than a second.
+class Progress {
+ public:
+  Progress(const std::string& output, int rows)
+      : output_(output), rows_(rows), terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_) std::cerr << "\r\033[K";
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void add(int rows) {
+    done_ += rows;
+    if (!terminal_ || since(start_) < 1000) return;
+    shown_ = true;
+    std::cerr << "\r" << output_ << ": " << 100LL * done_ / rows_ << " %\033[K" << std::flush;
+  }
+
+ private:
+  const std::string& output_;
+  int rows_, done_ = 0;
+  bool terminal_, shown_ = false;
+  Clock::time_point start_ = Clock::now();
+};
+
 /// A picture in the making, by GL or, where there is no renderer, by the reference.
 class Bands {
  public:
@@ -124,10 +152,12 @@ void drawPicture(Renderer* renderer, Loaded& loaded, const Look& look, const Ren
   const auto writer = openPictureWriter(output, look.resolution.x, look.resolution.y, file);
   double encode = 0;
   Image rows;
+  Progress progress(output, look.resolution.y);
   while (bands.draw(rows)) {
     const auto start = Clock::now();
     writer->write(rows);
     encode += since(start);
+    progress.add(rows.height);
   }
   const auto start = Clock::now();
   writer->finish();

@@ -21,7 +21,6 @@ auto mean(const Footprint& f, Get get) {
 
 glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::vec2> texcoords,
                          const Footprint& f) {
-  if (texcoords.empty()) return sampler.sample(glm::dvec2(0), glm::dvec2(0), glm::dvec2(0));
   const auto get = [&](std::uint32_t i) { return glm::dvec2(texcoords[i]); };
   const glm::dvec2 uv = mean(f, get);
   // d(sum / weight) = (d sum - uv d weight) / weight

@@ -139,13 +139,14 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
   item.blended = from.blended;
   item.mirrored = from.mirrored;
   item.faces = from.faces;
-  if (material.colorTexture) {
+  // The variant says what is read, and so decoded: no texture without coordinates for it.
+  if (from.variant.colorTexture) {
     item.colorTexture = samplerFor(*material.colorTexture, images);
     item.colorTexcoords = texcoordsOf(*item.mesh, *material.colorTexture);
   }
   if (item.surface.unlit) return item;
   item.emission = material.emission;
-  if (material.emissionTexture && item.emission != glm::dvec3(0.0)) {
+  if (from.variant.emissionTexture) {
     item.emissionTexture = samplerFor(*material.emissionTexture, images);
     item.emissionTexcoords = texcoordsOf(*item.mesh, *material.emissionTexture);
   }

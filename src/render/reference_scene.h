@@ -32,11 +32,11 @@ struct Item {
   double alphaCutoff = 0;
   FaceSide faces = FaceSide::both;
   std::optional<TextureSampler> colorTexture, emissionTexture;
-  std::span<const glm::vec2> colorTexcoords, emissionTexcoords;  ///< empty counts as (0, 0)
+  std::span<const glm::vec2> colorTexcoords, emissionTexcoords;  ///< of the textures above
 };
 
-/// A scene before the camera, in double throughout. Of the draw list it takes the order, the camera
-/// and which faces show. Scene and images must outlive it.
+/// A scene before the camera, in double throughout. Of the draw list it takes the order, the
+/// camera, which faces show and which textures are read. Scene and images must outlive it.
 struct Stage {
   Stage(const Scene& scene, const DecodedImages& images, const DrawList& list, const Look& look);
 

@@ -10,7 +10,8 @@ namespace glint::reference {
 
 /// A texture sampled by GL's rules (OpenGL 3.3, section 3.8) in double. Texels are decoded from
 /// sRGB one by one, before filtering; alpha is linear. Level of detail log2 of the longer of the
-/// two footprint axes in texels of the full size; above 0 the texture is minified.
+/// two footprint axes in texels of the full size; above 0 the texture is minified, whatever
+/// the filters (GL 3.3 moves the switch to 0.5 for some of them, which is not followed).
 ///
 /// The smaller levels are those of the picture's definition (glint/image/mipmaps.h), rounded to 8
 /// bits as the driver gets them, so that they count as texture and not as an error of filtering.

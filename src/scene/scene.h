@@ -30,7 +30,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
   /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
   bool normalsMayCancel = false;
-  int material = 0;                    ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
 };
 
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
