@@ -454,8 +454,8 @@ def main():
 
 
 if __name__ == "__main__":
-    GLINT, VIEWER, MODELS = sys.argv[1:4]
+    GLINT, VIEWER, MODELS = (os.path.abspath(path) for path in sys.argv[1:4])
     TEAPOT = os.path.join(MODELS, "teapot.glb")
     SPHERE = os.path.join(MODELS, "sphere.glb")
-    GLSL = os.path.join(os.path.dirname(os.path.abspath(MODELS)), "glsl")
+    GLSL = os.path.join(os.path.dirname(MODELS), "glsl")
     sys.exit(main())
