@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace glint {
 
@@ -39,22 +40,24 @@ void Dialogs::close() {
 void Dialogs::draw() {
   if (kind_ == Kind::none) return;
   const std::string id = title_ + "###dialog";
-  if (appearing_) ImGui::OpenPopup(id.c_str());
+  // What the answer does may open the next dialog: the flags are this one's no more then.
+  const bool appearing = std::exchange(appearing_, false);
+  if (appearing) ImGui::OpenPopup(id.c_str());
   const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(center, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   if (!ImGui::BeginPopupModal(id.c_str(), nullptr,
                               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
     return;
+  const bool enter = std::exchange(enter_, false) && !appearing;
+  const bool escape = std::exchange(escape_, false);
   if (kind_ == Kind::path)
-    drawPath();
+    drawPath(escape);
   else
-    drawQuestion();
-  enter_ = escape_ = false;
-  appearing_ = false;
+    drawQuestion(enter, escape);
   ImGui::EndPopup();
 }
 
-void Dialogs::drawPath() {
+void Dialogs::drawPath(bool escape) {
   const float width = std::min(ImGui::GetFontSize() * 34, ImGui::GetIO().DisplaySize.x * 0.8f);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(width);
@@ -96,7 +99,7 @@ void Dialogs::drawPath() {
   const float button = ImGui::GetFontSize() * 7;
   const bool okay = ImGui::Button(existing_ ? "Open" : "Save", ImVec2(button, 0)) || entered;
   ImGui::SameLine();
-  const bool cancel = ImGui::Button("Cancel", ImVec2(button, 0)) || escape_;
+  const bool cancel = ImGui::Button("Cancel", ImVec2(button, 0)) || escape;
   std::error_code error;
   if (okay && !text_.empty() && !fs::is_directory(text_, error)) {
     const PathAction action = std::move(pathAction_);
@@ -108,14 +111,14 @@ void Dialogs::drawPath() {
   }
 }
 
-void Dialogs::drawQuestion() {
+void Dialogs::drawQuestion(bool enter, bool escape) {
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
   ImGui::TextUnformatted(text_.c_str());
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   int chosen = -1;
-  if (!appearing_ && enter_) chosen = 0;
-  if (escape_) chosen = int(answers_.size()) - 1;
+  if (enter) chosen = 0;
+  if (escape) chosen = int(answers_.size()) - 1;
   for (std::size_t i = 0; i < answers_.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     const float least = ImGui::GetFontSize() * 6;

@@ -30,8 +30,8 @@ class Dialogs {
  private:
   enum class Kind { none, path, question };
   void close();
-  void drawPath();
-  void drawQuestion();
+  void drawPath(bool escape);
+  void drawQuestion(bool enter, bool escape);
 
   Kind kind_ = Kind::none;
   bool appearing_ = false, existing_ = false, enter_ = false, escape_ = false;
