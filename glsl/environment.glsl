@@ -40,7 +40,7 @@ vec3 shade(vec4 base) {
   float t = material.surface.y;
 #endif
   // Along the surface and against the normal; total reflection leaves nothing to refract.
-  vec3 along = boundary.ratio * (cosine * n - v);
+  vec3 along = (cosine * n - v) / sqrt(boundary.square);
   vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
   radiance += t * ((1.0 - f) * base.rgb * environmentToward(along + inward) - sum);
 #endif

@@ -163,8 +163,9 @@ TEST_P(OnBackend, ReadsSomeRows) {
 TEST_P(OnBackend, RefusesMoreSamplesThanTheDriverHas) {
   const int most = glint::maxSamples();
   EXPECT_EQ(most, 4);
-  EXPECT_EQ(message([] { glint::RenderTarget target(8, 8, 8); }),
-            "--anti-aliasing msaa:8: this driver has at most 4 samples: use --anti-aliasing ssaa:3");
+  EXPECT_EQ(
+      message([] { glint::RenderTarget target(8, 8, 8); }),
+      "--anti-aliasing msaa:8: this driver has at most 4 samples: use --anti-aliasing ssaa:3");
   EXPECT_THROW(glint::RenderTarget(8, 8, 16), glint::InputError);
   EXPECT_THROW(glint::RenderTarget(8, 8, 0), glint::InputError);
   glint::checkGl("asking for samples");

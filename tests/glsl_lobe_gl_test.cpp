@@ -116,7 +116,7 @@ class GlslLobe : public GlslTest {
 
   void SetUp() override {
     GlslTest::SetUp();
-    probe_.emplace(GlslSources{}, ProbeText{{"vector.glsl", "lobe.glsl"}, {}});
+    probe_.emplace(glslSources(), ProbeText{{"vector.glsl", "lobe.glsl"}, {}});
   }
 
   /// The lobe of these directions against that of the same, normalised in double first if `whole`.
@@ -265,7 +265,7 @@ TEST_P(GlslLobe, HuntedWorstInput) {
       },
       1 << 15, 16);
   EXPECT_LE(log.error, 6e-7) << describeRow({log.input}, {1}, 0);
-  if (std::getenv("GLINT_PROBE_PRINT"))
+  if (printsErrors())
     std::printf("hunted: lobeExact %.3g at %s\n        log1m %.3g at %s\n", power.error,
                 describeRow({power.input}, {2}, 0).c_str(), log.error,
                 describeRow({log.input}, {1}, 0).c_str());

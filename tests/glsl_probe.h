@@ -29,6 +29,13 @@ using Columns = std::vector<std::span<const float>>;
 
 inline constexpr double ulp1 = 1.0 / (1 << 24);  ///< the rounding of a float, relative: 2^-24
 
+/// The shaders under test: those built in, or a folder of edited ones in GLINT_GLSL, so that one
+/// can see which test a change breaks without building anything.
+inline GlslSources glslSources() {
+  const char* folder = std::getenv("GLINT_GLSL");
+  return folder ? GlslSources(folder) : GlslSources();
+}
+
 class GlslTest : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
@@ -48,6 +55,9 @@ inline std::string backendTestName(const testing::TestParamInfo<Backend>& info) 
                            testing::Values(glint::Backend::osmesa, glint::Backend::eglSoftware), \
                            glint::backendTestName)
 
+/// Whether tests print the errors that they measure: with GLINT_PROBE_PRINT in the environment.
+inline bool printsErrors() { return std::getenv("GLINT_PROBE_PRINT") != nullptr; }
+
 /// Fails if a value is above its bound, with the input that is worst against it. `floats` are
 /// those of a row of each column.
 inline void expectWithin(const ErrorRecord& record, const std::string& what, const Columns& columns,
@@ -55,7 +65,7 @@ inline void expectWithin(const ErrorRecord& record, const std::string& what, con
   EXPECT_GT(record.values, 0u) << what;
   EXPECT_EQ(record.outside, 0u) << what << ": " << record.summary() << " at "
                                 << describeRow(columns, floats, record.ofBound.row);
-  if (std::getenv("GLINT_PROBE_PRINT"))
+  if (printsErrors())
     std::printf("%-44s %s\n    abs %s\n    bound %s\n", what.c_str(), record.summary().c_str(),
                 describeRow(columns, floats, record.absolute.row).c_str(),
                 describeRow(columns, floats, record.ofBound.row).c_str());

@@ -43,7 +43,7 @@ glm::dvec3 at(const Column& column, std::size_t row) {
 class GlslVector : public GlslTest {
  protected:
   ErrorRecord errors(const char* function, const Column& v) {
-    Probe probe({}, {{"vector.glsl"}, {}});
+    Probe probe(glslSources(), {{"vector.glsl"}, {}});
     return measureErrors(
         probe.run(function, {v}), 3,
         [&](std::size_t row, std::size_t i) { return safeNormalize(at(v, row))[int(i)]; },
@@ -67,7 +67,7 @@ TEST_P(GlslVector, SafeUnitOfEveryLength) {
 }
 
 TEST_P(GlslVector, HardLengths) {
-  Probe probe({}, {{"vector.glsl"}, {}});
+  Probe probe(glslSources(), {{"vector.glsl"}, {}});
   const auto safe = [&](const Column& v) { return probe.run("vec3 safeUnit(vec3)", {v}); };
   // A1, A8, C11: no direction.
   EXPECT_EQ(safe({0, 0, 0, -0.0f, 0, 0}), (Column{0, 0, 0, 0, 0, 0}));
@@ -91,7 +91,7 @@ TEST_P(GlslVector, HardLengths) {
 }
 
 TEST_P(GlslVector, HuntedWorstInput) {
-  Probe probe({}, {{"vector.glsl"}, {}});
+  Probe probe(glslSources(), {{"vector.glsl"}, {}});
   for (const char* function : {"vec3 unit(vec3)", "vec3 safeUnit(vec3)"}) {
     const SearchResult worst = huntWorst(
         {{-1, 1, {0, 1e-10f}}, {0.01f, 1, {0.5f}}, {-1, 1, {0}}},
@@ -108,7 +108,7 @@ TEST_P(GlslVector, HuntedWorstInput) {
         },
         1 << 14, 16);
     EXPECT_LE(worst.error, tolerance) << function << describeRow({worst.input}, {3}, 0);
-    if (std::getenv("GLINT_PROBE_PRINT"))
+    if (printsErrors())
       std::printf("hunted: %s %.3g at %s\n", function, worst.error,
                   describeRow({worst.input}, {3}, 0).c_str());
   }

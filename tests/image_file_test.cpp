@@ -147,8 +147,8 @@ TEST_P(File, MissingFolderAndFolderAreRefused) {
   EXPECT_THAT(messageOf([&] { OutputFile file("", GetParam()); }), HasSubstr("No such file"));
 }
 
-// Root may write everywhere: as long as this lives, root acts as the user nobody, who owns the given
-// files. Anybody else stays who they are.
+// Root may write everywhere: as long as this lives, root acts as the user nobody, who owns the
+// given files. Anybody else stays who they are.
 class AsNobody {
  public:
   explicit AsNobody(const std::vector<std::string>& files) : user_(::geteuid()) {

@@ -212,6 +212,12 @@ const Case cases[] = {
      [](Variant& v, Shading) { v.vertexColors = true; }},
     {"colour texture", [](VariantInputs& in) { in.material.colorTexture.emplace(); },
      [](Variant& v, Shading) { v.colorTexture = true; }},
+    {"colour texture without coordinates",
+     [](VariantInputs& in) {
+       in.material.colorTexture.emplace();
+       in.mesh.texcoords.clear();
+     },
+     [](Variant&, Shading) {}},
     {"emission",
      [](VariantInputs& in) {
        in.material.emission = {0, 0, 1e-9};
@@ -373,7 +379,7 @@ TEST(ImagesRead, AreThoseOfTheVariants) {
   glint::Material material = glint::test::materialOf(1, 1, 0, 1);
   material.colorTexture = glint::Texture{1, 0, {}};
   material.emissionTexture = glint::Texture{3, 0, {}};
-  glint::Scene scene = glint::test::sceneOf(glint::test::quad(), material);
+  glint::Scene scene = glint::test::sceneOf(plainInputs().mesh, material);
   scene.images.resize(5);
   EXPECT_THAT(glint::imagesRead(scene, {}), testing::ElementsAre(1));  // no emission to multiply
   scene.materials[0].emission = glm::dvec3(1);

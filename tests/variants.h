@@ -23,6 +23,7 @@ struct VariantInputs {
 inline VariantInputs plainInputs(Shading program = Shading::phong) {
   VariantInputs in;
   in.mesh = quad();
+  in.mesh.texcoords = {std::vector<glm::vec2>(in.mesh.positions.size())};
   in.material = materialOf(1, 0.8, 0.5, 20);
   in.look.shading = program;
   in.look.antiAliasing = {AntiAliasing::Mode::none, 1};

@@ -18,6 +18,7 @@ enum ExitStatus : int { done = 0, differs = 1, unusable = 2, noContext = 3, noBa
 /// exit status. Errors are exceptions.
 using Command = std::function<int()>;
 Command addRender(CLI::App&);
+Command addView(CLI::App&);
 Command addInfo(CLI::App&);
 Command addBackends(CLI::App&);
 

@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.formatter(std::make_shared<glint::HelpFormatter>());
   std::pair<const char*, glint::Command> commands[] = {{"render", glint::addRender(app)},
+                                                       {"view", glint::addView(app)},
                                                        {"info", glint::addInfo(app)},
                                                        {"backends", glint::addBackends(app)}};
   try {

@@ -1,4 +1,7 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -11,6 +14,7 @@
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
@@ -31,6 +35,8 @@ struct RenderOptions {
   std::vector<std::string> models;
   std::string output, backend = "auto", json, glsl;
   int bitDepth = 8;
+  bool antiAliasingGiven = false;
+  bool usesReference() const { return backend == "reference"; }
 };
 
 /// A model read and decoded, or why it could not be.
@@ -61,12 +67,84 @@ Loaded load(const std::string& path, const Look& look) {
   return loaded;
 }
 
+/// A line on a terminal that says how far a picture is, if it takes more than a second.
+class Progress {
+ public:
+  Progress(const std::string& output, int rows)
+      : output_(output), rows_(rows), terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_) std::cerr << "\r\033[K";
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void add(int rows) {
+    done_ += rows;
+    if (!terminal_ || since(start_) < 1000) return;
+    shown_ = true;
+    std::cerr << "\r" << output_ << ": " << 100LL * done_ / rows_ << " %\033[K" << std::flush;
+  }
+
+ private:
+  const std::string& output_;
+  int rows_, done_ = 0;
+  bool terminal_, shown_ = false;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// A picture in the making, by GL or, where there is no renderer, by the reference.
+class Bands {
+ public:
+  Bands(Renderer* renderer, Loaded& loaded, const Look& look) : look_(look) {
+    if (!renderer) {
+      const auto start = Clock::now();
+      reference_.emplace(loaded.scene, loaded.images, loaded.bounds, look);
+      times_.draw = since(start);
+    } else {
+      scene_.emplace(loaded.scene, std::move(loaded.images));
+      picture_.emplace(
+          renderer->begin(*scene_, makeDrawList(loaded.scene, loaded.bounds, look), look));
+    }
+  }
+
+  /// Draws the next rows from the top; false if there are none left.
+  bool draw(Image& rows) {
+    if (picture_) {
+      if (band_ == picture_->bandCount()) return false;
+      picture_->drawBand(rows);
+      ++band_;
+      return true;
+    }
+    const int first = reference_->rowsDone();
+    if (first == look_.resolution.y) return false;
+    const auto start = Clock::now();
+    reference_->drawRows(first, std::min(reference_->bandRows(), look_.resolution.y - first), rows);
+    times_.draw += since(start);
+    return true;
+  }
+
+  const DrawList& list() const { return picture_ ? picture_->list() : reference_->list(); }
+  const RenderTimes& times() const { return picture_ ? picture_->times() : times_; }
+  int samples() const {
+    if (look_.antiAliasing.mode == AntiAliasing::Mode::ssaa)
+      return look_.antiAliasing.count * look_.antiAliasing.count;
+    return picture_ ? picture_->samples() : 1;
+  }
+
+ private:
+  const Look& look_;
+  std::optional<ReferenceRenderer> reference_;
+  std::optional<GpuScene> scene_;
+  std::optional<Renderer::Picture> picture_;
+  int band_ = 0;
+  RenderTimes times_;
+};
+
 /// Draws one loaded model into its file; fills its entry of the report.
-void drawPicture(Renderer& renderer, Loaded& loaded, const Look& look, const RenderOptions& options,
+void drawPicture(Renderer* renderer, Loaded& loaded, const Look& look, const RenderOptions& options,
                  const std::string& output, Json& entry) {
   const auto opened = Clock::now();
-  GpuScene scene(loaded.scene, std::move(loaded.images));
-  auto picture = renderer.begin(scene, makeDrawList(loaded.scene, loaded.bounds, look), look);
+  Bands bands(renderer, loaded, look);
   PictureOptions file;
   file.bitDepth = options.bitDepth;
   file.alpha = look.noBackground;
@@ -74,11 +152,12 @@ void drawPicture(Renderer& renderer, Loaded& loaded, const Look& look, const Ren
   const auto writer = openPictureWriter(output, look.resolution.x, look.resolution.y, file);
   double encode = 0;
   Image rows;
-  for (int band = 0; band < picture.bandCount(); ++band) {
-    picture.drawBand(rows);
+  Progress progress(output, look.resolution.y);
+  while (bands.draw(rows)) {
     const auto start = Clock::now();
     writer->write(rows);
     encode += since(start);
+    progress.add(rows.height);
   }
   const auto start = Clock::now();
   writer->finish();
@@ -87,14 +166,11 @@ void drawPicture(Renderer& renderer, Loaded& loaded, const Look& look, const Ren
     loaded.scene.warnings.push_back(output + ": " + std::to_string(writer->nanPixels()) +
                                     " pixels are not numbers and are shown black: please report "
                                     "this model");
-  const RenderTimes& times = picture.times();
-  entry["triangles"] = triangleCount(loaded.scene, picture.list());
-  entry["draws"] = picture.list().items.size();
-  entry["samples"] =
-      picture.samples() * look.antiAliasing.count *
-      (look.antiAliasing.mode == AntiAliasing::Mode::ssaa ? look.antiAliasing.count : 1);
-  if (look.antiAliasing.mode == AntiAliasing::Mode::msaa) entry["samples"] = picture.samples();
-  entry["variants"] = variantsJson(loaded.scene, picture.list(), look);
+  const RenderTimes& times = bands.times();
+  entry["triangles"] = triangleCount(loaded.scene, bands.list());
+  entry["draws"] = bands.list().items.size();
+  entry["samples"] = bands.samples();
+  entry["variants"] = variantsJson(loaded.scene, bands.list(), look);
   entry["ms"] = {
       {"load", loaded.loadTime}, {"decode", loaded.decodeTime},
       {"context", 0.0},          {"compile", times.compile},
@@ -106,30 +182,39 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
   const auto started = Clock::now();
   if (options.output == "-" && options.json == "-")
     throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
-  const Backend backend = backendFromName(options.backend);
+  const bool reference = options.usesReference();
+  const Backend backend = reference ? Backend::automatic : backendFromName(options.backend);
   PictureOptions file;
   file.bitDepth = options.bitDepth;
   const std::vector<std::string> outputs = outputNames(options.output, options.models);
   for (const std::string& output : outputs) checkPictureName(output, file);
-  const Look look = makeLook();
+  Look look = makeLook();
+  if (reference) {
+    if (!options.antiAliasingGiven && look.antiAliasing == AntiAliasing{})
+      look.antiAliasing.mode = AntiAliasing::Mode::none;
+    checkReferenceAntiAliasing(look.antiAliasing);
+  }
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 
   // Loading the driver and reading the first model take about as long: side by side.
-  auto opening = openContextAsync(backend);
+  std::future<std::unique_ptr<Context>> opening;
+  if (!reference) opening = openContextAsync(backend);
   auto next = std::async(std::launch::async, load, options.models[0], std::cref(look));
   next.wait();
   const auto waited = Clock::now();
-  const auto context = opening.get();
-  context->makeCurrent();
+  const auto context = reference ? nullptr : opening.get();
+  std::optional<Renderer> renderer;
+  Json report{{"glint", GLINT_VERSION}, {"backend", "reference"}};
+  if (context) {
+    context->makeCurrent();
+    if (!context->remark().empty()) printWarning(context->remark());
+    const GlStrings gl = glStrings();
+    report["backend"] = backendName(context->backend());
+    report["gl"] = {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}};
+    renderer.emplace(std::move(sources));
+  }
   const double contextTime = since(waited);
-  if (!context->remark().empty()) printWarning(context->remark());
-
-  const GlStrings gl = glStrings();
-  Json report{{"glint", GLINT_VERSION},
-              {"backend", backendName(context->backend())},
-              {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
-              {"pictures", Json::array()}};
-  Renderer renderer(std::move(sources));
+  report["pictures"] = Json::array();
   int status = done;
   for (std::size_t i = 0; i < options.models.size(); ++i) {
     Loaded loaded = next.get();
@@ -138,7 +223,7 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
     Json entry{{"model", options.models[i]}, {"output", outputs[i]}, {"status", int(done)}};
     if (loaded.error.empty()) {
       try {
-        drawPicture(renderer, loaded, look, options, outputs[i], entry);
+        drawPicture(renderer ? &*renderer : nullptr, loaded, look, options, outputs[i], entry);
       } catch (const InputError& error) {
         loaded.error = error.what();
       }
@@ -179,8 +264,9 @@ Command addRender(CLI::App& app) {
       ->type_name("BITS");
   command
       ->add_option("--rendering-backend", options->backend,
-                   "what to draw with; auto tries egl, then osmesa [default: auto]")
-      ->type_name("auto|egl|egl-software|osmesa")
+                   "what to draw with; auto tries egl, then osmesa; reference is double precision "
+                   "on the CPU, without GL [default: auto]")
+      ->type_name("auto|egl|egl-software|osmesa|reference")
       ->take_last();
   command->add_option("--json", options->json, "write a report of the run; - is stdout")
       ->type_name("FILE");
@@ -188,7 +274,11 @@ Command addRender(CLI::App& app) {
       ->add_option("--glsl", options->glsl, "take shader files from this folder where it has them")
       ->type_name("DIR");
   auto look = addLookOptions(*command);
-  return [options, look] { return render(*options, look); };
+  const CLI::Option* antiAliasing = command->get_option("--anti-aliasing");
+  return [options, look, antiAliasing] {
+    options->antiAliasingGiven = antiAliasing->count() > 0;
+    return render(*options, look);
+  };
 }
 
 }  // namespace glint

@@ -158,7 +158,7 @@ OutputFile::OutputFile(const std::string& path, Staging staging) : path_(path) {
     if (S_ISDIR(status.st_mode)) fail(EISDIR);
     // Replacing needs no permission on the old file; one that is write-protected stays all the
     // same.
-    if (::access(path.c_str(), W_OK) != 0) fail(errno);
+    if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
     if (!S_ISREG(status.st_mode)) {
       file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
       if (file_ < 0) fail(errno);

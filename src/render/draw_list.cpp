@@ -68,7 +68,8 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
 }
 
 glm::vec4 boundary(const FresnelConstants& c) {
-  return {float(c.e), float(c.nSquared), float(1 / c.n), float(c.r0)};
+  const double critical = c.e < 0 ? std::sqrt(-c.e) : 0.0;
+  return {float(c.e), float(c.nSquared), float(critical), float(critical - float(critical))};
 }
 
 MaterialBlock materialBlock(const Material& material, const Look& look) {
@@ -116,7 +117,8 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return block;
 }
 
-// The sign of the determinant, of columns scaled so that their product neither under- nor overflows.
+// The sign of the determinant, of columns scaled so that their product neither under- nor
+// overflows.
 bool isMirrored(const glm::dmat4& world) {
   return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
 }

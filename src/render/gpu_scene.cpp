@@ -112,14 +112,21 @@ TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name
 }  // namespace
 
 DecodedImages decodeImages(Scene& scene, const Look& look) {
+  return decodeImages(scene, look, [](int) { return false; });
+}
+
+DecodedImages decodeImages(Scene& scene, const Look& look,
+                           const std::function<bool(int image)>& present) {
   std::vector<std::pair<int, std::future<DecodedImage>>> tasks;
-  for (int i : imagesRead(scene, look))
+  for (int i : imagesRead(scene, look)) {
+    if (present(i)) continue;
     tasks.emplace_back(i, std::async(std::launch::async, [&scene, i] {
                          const EncodedImage& image = scene.images[std::size_t(i)];
                          DecodedImage decoded{decodeTexture(image.bytes, image.name), {}};
                          if (readsMipLevels(scene, i)) decoded.mipLevels = mipLevels(decoded.image);
                          return decoded;
                        }));
+  }
   DecodedImages images;
   for (auto& [i, task] : tasks) {
     try {

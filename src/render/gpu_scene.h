@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -24,6 +25,9 @@ using DecodedImages = std::map<int, DecodedImage>;
 /// and its materials lose the texture.
 DecodedImages decodeImages(Scene&, const Look&);
 
+/// The same of those that `present` says are not there yet, for a look that has changed.
+DecodedImages decodeImages(Scene&, const Look&, const std::function<bool(int image)>& present);
+
 /// A scene's meshes and textures in the driver's memory, each put there when first needed. Lives
 /// and dies in one context; the scene must outlive it.
 class GpuScene {
@@ -42,6 +46,10 @@ class GpuScene {
 
   /// Binds the texture and its sampler to a unit.
   void bindTexture(const Texture&, GLuint unit);
+
+  /// Whether an image has been given, be it that it was not uploaded yet.
+  bool hasImage(int image) const { return images_.contains(image) || textures_.contains(image); }
+  void addImages(DecodedImages images) { images_.merge(images); }
 
   const Scene& scene() const { return *scene_; }
 

@@ -13,7 +13,8 @@
 namespace glint {
 namespace {
 
-constexpr int targetWidth = 1024, targetHeight = 4096;  // 4 M evaluations a batch
+// Evaluations of a batch: few enough that inputs and results stay in the caches of a CPU.
+constexpr int targetWidth = 1024, targetHeight = 256;
 
 constexpr const char* vertexText = R"(#version 330 core
 void main() {  // one triangle that covers the target
@@ -103,6 +104,7 @@ struct Probe::Objects {
   int width = std::min(targetWidth, int(limit(GL_MAX_RENDERBUFFER_SIZE)));
   int maxRows = std::min(targetHeight, int(limit(GL_MAX_RENDERBUFFER_SIZE)));
   std::size_t maxFloats = std::size_t(limit(GL_MAX_TEXTURE_BUFFER_SIZE));
+  std::vector<float> padded;  // results of three floats as they come, with a fourth
 
   void bindTarget(int floats, int rows);
 };
@@ -272,7 +274,6 @@ void Probe::run(std::string_view text, const std::vector<std::span<const float>>
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   f.program.use();
 
-  std::vector<float> padded;  // results of three floats come with a fourth
   for (std::size_t first = 0; first < rows; first += batch) {
     const std::size_t count = std::min(batch, rows - first);
     for (std::size_t a = 0; a < columns.size(); ++a) {
@@ -298,8 +299,8 @@ void Probe::run(std::string_view text, const std::vector<std::span<const float>>
     const std::size_t readFloats = resultFloats == 3 ? 4 : resultFloats;
     float* out = &results[first * resultFloats];
     if (resultFloats == 3) {
-      padded.resize(count * readFloats);
-      out = padded.data();
+      gl.padded.resize(std::max(gl.padded.size(), count * readFloats));
+      out = gl.padded.data();
     }
     const int fullRows = int(count / width), rest = int(count % width);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -309,7 +310,7 @@ void Probe::run(std::string_view text, const std::vector<std::span<const float>>
                    out + std::size_t(fullRows) * width * readFloats);
     if (resultFloats == 3)
       for (std::size_t i = 0; i < count; ++i)
-        std::copy_n(&padded[4 * i], 3, &results[3 * (first + i)]);
+        std::copy_n(&gl.padded[4 * i], 3, &results[3 * (first + i)]);
   }
   checkGl("probe");
 }

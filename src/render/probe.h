@@ -51,7 +51,7 @@ class Probe {
   /// One column for each argument: its floats (of a struct: all members') row after row. All have
   /// the same number of rows, except that a column of a single row is used for every row.
   ///
-  /// Returns the results' floats, row after row. Rows are evaluated in batches of up to 4 M.
+  /// Returns the results' floats, row after row. Rows are evaluated in batches of up to 2^18.
   /// Programs are kept, so that a function is compiled once. Throws Error: a prototype that cannot
   /// be read, columns that do not fit it, the driver's compiler messages (with file and line), GL
   /// errors.

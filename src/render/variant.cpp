@@ -11,6 +11,12 @@ bool perPixel(Shading shading) {
          shading == Shading::environment;
 }
 
+// The texture is read only where the mesh has the coordinates for it.
+bool readsTexture(const Mesh& mesh, const std::optional<Texture>& texture) {
+  return texture && std::size_t(texture->texcoord) < mesh.texcoords.size() &&
+         !mesh.texcoords[std::size_t(texture->texcoord)].empty();
+}
+
 double transparencyOf(const Material& material, Shading shading) {
   return shading == Shading::environment ? material.transmission : 0.0;
 }
@@ -48,7 +54,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
   v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
   v.vertexColors = !mesh.colors.empty();
-  v.colorTexture = material.colorTexture.has_value();
+  v.colorTexture = readsTexture(mesh, material.colorTexture);
   v.alphaMask = material.alphaMode == AlphaMode::mask;
   v.alphaBlend = material.alphaMode == AlphaMode::blend;
   if (v.unlit) {
@@ -56,7 +62,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
     return v;
   }
   v.emission = material.emission != glm::dvec3(0.0);
-  v.emissionTexture = v.emission && material.emissionTexture.has_value();
+  v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
 
   const bool pixels = perPixel(look.shading);
   const ShadingParameters& s = material.shading;

@@ -15,8 +15,8 @@ namespace glint {
 enum class PixelOutput {
   radiance,
   position,  ///< xyz: eye space, w: 1
-  normal,    ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
-  color,     ///< C of the pixel and alpha: factor, vertex colour and texture
+  normal,  ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
+  color,   ///< C of the pixel and alpha: factor, vertex colour and texture
   emission,  ///< rgb, w: 1
 };
 
@@ -59,8 +59,8 @@ struct FeatureReason {
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
 
-/// The variant that writes an attribute of the same pixels; per-pixel programs only have normals and
-/// positions.
+/// The variant that writes an attribute of the same pixels; per-pixel programs only have normals
+/// and positions.
 Variant attributeVariant(Variant, PixelOutput);
 
 /// Why a variant is as it is, in the order of its members.

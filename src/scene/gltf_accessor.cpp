@@ -8,27 +8,28 @@
 namespace glint::gltf {
 namespace {
 
-int bytesOf(int componentType) {
-  return tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
+std::size_t bytesOf(int componentType) {
+  return static_cast<std::size_t>(
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
 }
 
 /// Calls `use` with a value of the C++ type of a glTF component type.
 template <typename Use>
 void withComponent(int componentType, const Use& use) {
-  switch (componentType) {
-    case 5120:
-      return use(std::int8_t());
-    case 5121:
-      return use(std::uint8_t());
-    case 5122:
-      return use(std::int16_t());
-    case 5123:
-      return use(std::uint16_t());
-    case 5125:
-      return use(std::uint32_t());
-    default:
-      return use(float());
-  }
+  if (componentType == 5120) use(std::int8_t());
+  if (componentType == 5121) use(std::uint8_t());
+  if (componentType == 5122) use(std::int16_t());
+  if (componentType == 5123) use(std::uint16_t());
+  if (componentType == 5125) use(std::uint32_t());
+  if (componentType == 5126) use(float());
+}
+
+/// The same for the types that indices have.
+template <typename Use>
+void withIndex(int componentType, const Use& use) {
+  if (componentType == 5121) use(std::uint8_t());
+  if (componentType == 5123) use(std::uint16_t());
+  if (componentType == 5125) use(std::uint32_t());
 }
 
 template <typename Component>
@@ -49,7 +50,7 @@ AccessorView openAccessor(const Document& document, int index, const std::string
   view.componentType = accessor.componentType;
   view.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
   view.normalized = accessor.normalized;
-  const auto bytes = static_cast<std::size_t>(bytesOf(view.componentType) * view.components);
+  const auto bytes = bytesOf(view.componentType) * static_cast<std::size_t>(view.components);
   view.stride = bytes;
 
   const auto dataOf = [&](int viewIndex, std::size_t offset) {
@@ -78,7 +79,7 @@ AccessorView openAccessor(const Document& document, int index, const std::string
       dataOf(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
   const unsigned char* values =
       dataOf(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
-  withComponent(sparse.indices.componentType, [&](auto type) {
+  withIndex(sparse.indices.componentType, [&](auto type) {
     using Index = decltype(type);
     for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
       const auto target = static_cast<std::size_t>(load<Index>(indices + i * sizeof(Index)));
@@ -134,7 +135,7 @@ template std::vector<glm::dvec4> gather(const AccessorView&, const VertexList&, 
 
 std::vector<std::uint32_t> readIndices(const AccessorView& view) {
   std::vector<std::uint32_t> indices(view.count);
-  withComponent(view.componentType, [&](auto type) {
+  withIndex(view.componentType, [&](auto type) {
     using Component = decltype(type);
     for (std::size_t i = 0; i < view.count; ++i) {
       indices[i] = static_cast<std::uint32_t>(load<Component>(view.data + i * view.stride));

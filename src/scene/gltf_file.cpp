@@ -87,12 +87,12 @@ std::string percentDecoded(std::string_view text) {
 /// RFC 4648; false on a character that is not of its alphabet. White space is skipped.
 bool decodeBase64(std::string_view text, std::vector<unsigned char>& bytes) {
   static const auto values = [] {
-    std::array<signed char, 256> table;
+    std::array<int, 256> table;
     table.fill(-1);
     const std::string_view alphabet =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < alphabet.size(); ++i) {
-      table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
+      table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
     }
     return table;
   }();

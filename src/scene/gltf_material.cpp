@@ -1,10 +1,11 @@
 #include "glint/scene/gltf_material.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "glint/scene/parameters.h"
 #include "glint/scene/pbr_conversion.h"
 
 namespace glint::gltf {
@@ -16,19 +17,6 @@ ShadingParameters shadingFromPbr(const PbrParameters& pbr) {
   const ConvertedParameters c = convertPbr(pbr);
   return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1)};
 }
-
-struct Key {
-  std::string_view name;
-  double ShadingParameters::*value;
-  double least;
-  double most;
-};
-constexpr std::array keys = {Key{"ambient", &ShadingParameters::ambient, 0, largestFactor},
-                             Key{"diffuse", &ShadingParameters::diffuse, 0, largestFactor},
-                             Key{"specular", &ShadingParameters::specular, 0, largestFactor},
-                             Key{"exponent", &ShadingParameters::exponent, 0, largestFactor},
-                             Key{"metalness", &ShadingParameters::metalness, 0, 1},
-                             Key{"ior", &ShadingParameters::ior, 1e-3, 1e3}};
 
 /// Takes what `extras.glint` says. It is the user's own text, so that no fault in it is an error.
 void readExtras(const Json& material, const std::string& label, ShadingParameters& shading,
@@ -66,11 +54,13 @@ void readExtras(const Json& material, const std::string& label, ShadingParameter
       }
       continue;
     }
-    const auto key = std::ranges::find(keys, std::string_view(it.key()), &Key::name);
+    const auto keys = materialParameters();
+    const auto key = std::ranges::find(keys, std::string_view(it.key()), &MaterialParameter::name);
     if (key == keys.end()) {
-      messages.warn(place + "." + name + " is not known and is ignored");
+      messages.warn(
+          std::string(place).append(".").append(name).append(" is not known and is ignored"));
     } else {
-      take(name, *it, shading.*key->value, key->least, key->most);
+      take(name, *it, shading.*key->value, key->min, key->max);
     }
   }
 }
@@ -102,8 +92,7 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   }
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
-  material.shading =
-      shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
+  material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
 
   const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
   material.shading.color = glm::dvec3(color);
@@ -144,9 +133,12 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   std::vector<Material> materials;
   const Cursor list = Cursor(document.json, messages).member("materials");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    materials.push_back(readMaterial(list.item(i), textures, messages));
+    Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
+    // Every material needs a name by which it can be edited.
+    if (material.name.empty()) material.name = "#" + std::to_string(i);
   }
   Material& standard = materials.emplace_back();
+  standard.name = "#default";
   standard.shading = shadingFromPbr({});
   return materials;
 }

@@ -270,6 +270,7 @@ void Builder::finishNormals() {
     warn(std::to_string(mended) + " of " + std::to_string(mesh.normals.size()) +
          " normals are zero or not finite, replaced by the faces' normals");
   }
+  if (mesh.topology == Topology::triangles) mesh.normalsMayCancel = normalsMayCancel(mesh);
 }
 
 std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Material>& materials) {

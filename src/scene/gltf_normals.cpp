@@ -97,4 +97,14 @@ std::size_t mendNormals(Mesh& mesh) {
   return broken.size();
 }
 
+bool normalsMayCancel(const Mesh& mesh) {
+  // Pairwise cosines above -0.4 leave every mean longer than sqrt((1 - 2 * 0.4) / 3) = 0.25.
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const glm::vec3 &a = mesh.normals[mesh.indices[i]], &b = mesh.normals[mesh.indices[i + 1]],
+                    &c = mesh.normals[mesh.indices[i + 2]];
+    if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < -0.4F) return true;
+  }
+  return false;
+}
+
 }  // namespace glint::gltf

@@ -24,4 +24,7 @@ void makeFlat(Mesh& mesh);
 /// had to be replaced.
 std::size_t mendNormals(Mesh& mesh);
 
+/// Whether a mean of the three normals of some triangle may vanish, or nearly so.
+bool normalsMayCancel(const Mesh& mesh);
+
 }  // namespace glint::gltf

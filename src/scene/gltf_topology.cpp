@@ -22,10 +22,6 @@ void dropDegenerate(std::vector<std::uint32_t>& indices, std::size_t corners) {
 
 }  // namespace
 
-std::size_t cornersOf(Topology topology) {
-  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
-}
-
 Elements listElements(int mode, std::vector<std::uint32_t> v) {
   Elements elements;
   elements.topology = mode == points      ? Topology::points

@@ -18,7 +18,9 @@ struct Elements {
 };
 
 /// Vertices of one element: 1, 2 or 3.
-std::size_t cornersOf(Topology topology);
+constexpr std::size_t cornersOf(Topology topology) {
+  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+}
 
 /// Turns a glTF primitive of any mode (0 to 6) into a list, with the winding that section 3.7.2.1
 /// of the standard gives to strips and fans. Lines and triangles that name a vertex twice are left

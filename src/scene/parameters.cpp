@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "glint/image/error.h"
 #include "look_text.h"
@@ -18,25 +19,40 @@ Json toJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 // The kinds of parameters. Each takes the member of Look that it reads and saves.
 
-Parameter number(std::string name, std::string unit, double min, double max, double Look::*member,
+template <typename Value>
+void finish(Parameter& p, ParameterKind kind, Value Look::*member) {
+  p.kind = kind;
+  p.reset = [=](Look& look) { look.*member = Look{}.*member; };
+}
+
+template <typename Value>
+Json toJson(const std::optional<Value>& v) {
+  if (!v) return Json();
+  if constexpr (std::is_same_v<Value, glm::dvec3>)
+    return toJson(*v);
+  else
+    return Json(*v);
+}
+
+Parameter parameter(std::string name, std::string value, std::string help,
+                    std::function<void(Look&, const std::string&)> read,
+                    std::function<Json(const Look&)> save, double min = 0, double max = 0) {
+  return {std::move(name), {}, std::move(value), std::move(help), false, min, max, std::move(read),
+          std::move(save)};
+}
+
+// Value is double or std::optional<double>.
+template <typename Value>
+Parameter number(std::string name, std::string unit, double min, double max, Value Look::*member,
                  std::string help) {
   auto read = [=](Look& look, const std::string& text) {
     look.*member = parseNumber(text, min, max, "--" + name);
   };
-  return {name, {},    unit,
-          help, false, min,
-          max,  read,  [=](const Look& look) { return Json(look.*member); }};
-}
-
-Parameter number(std::string name, std::string unit, double min, double max,
-                 std::optional<double> Look::*member, std::string help) {
-  auto read = [=](Look& look, const std::string& text) {
-    look.*member = parseNumber(text, min, max, "--" + name);
-  };
-  return {
-      name, {},    unit,
-      help, false, min,
-      max,  read,  [=](const Look& look) { return look.*member ? Json(*(look.*member)) : Json(); }};
+  auto save = [=](const Look& look) { return Json(toJson(std::optional(look.*member))); };
+  Parameter p = parameter(name, unit, help, read, save, min, max);
+  finish(p, ParameterKind::number, member);
+  p.slider = {min, max, false};
+  return p;
 }
 
 Parameter flag(std::string name, bool Look::*member, std::string help) {
@@ -45,8 +61,10 @@ Parameter flag(std::string name, bool Look::*member, std::string help) {
       throw InputError("--" + name + ": '" + text + "' is not true or false");
     look.*member = text == "true";
   };
-  return {
-      name, {}, {}, help, false, 0, 0, read, [=](const Look& look) { return Json(look.*member); }};
+  Parameter p =
+      parameter(name, {}, help, read, [=](const Look& look) { return Json(look.*member); });
+  finish(p, ParameterKind::flag, member);
+  return p;
 }
 
 template <typename Enum, std::size_t n>
@@ -57,10 +75,10 @@ Parameter choice(std::string name, const std::array<std::string_view, n>& names,
   auto read = [=](Look& look, const std::string& text) {
     look.*member = Enum(parseChoice(text, names, "--" + name));
   };
-  return {name, {},    value,
-          help, false, 0,
-          0,    read,  [=](const Look& look) {
-            return Json(names[std::size_t(look.*member)]); }};
+  Parameter p = parameter(name, value, help, read,
+                          [=](const Look& look) { return Json(names[std::size_t(look.*member)]); });
+  finish(p, ParameterKind::choice, member);
+  return p;
 }
 
 Parameter vector(std::string name, double limit, std::optional<glm::dvec3> Look::*member,
@@ -68,20 +86,16 @@ Parameter vector(std::string name, double limit, std::optional<glm::dvec3> Look:
   auto read = [=](Look& look, const std::string& text) {
     look.*member = parseVector(text, -limit, limit, "--" + name);
   };
-  return {name,
-          {},
-          "x,y,z",
-          help,
-          false,
-          -limit,
-          limit,
-          read,
-          [=](const Look& look) {
-            return look.*member ? toJson(*(look.*member)) : Json(); }};
+  Parameter p = parameter(
+      name, "x,y,z", help, read, [=](const Look& look) { return toJson(look.*member); }, -limit,
+      limit);
+  finish(p, ParameterKind::vector, member);
+  return p;
 }
 
 Parameter direction(std::string name, std::optional<glm::dvec3> Look::*member, std::string help) {
   Parameter p = vector(std::move(name), 1e6, member, std::move(help));
+  p.kind = ParameterKind::direction;
   p.read = [read = p.read, name = p.name, member](Look& look, const std::string& text) {
     read(look, text);
     if (*(look.*member) == glm::dvec3(0.0))
@@ -94,15 +108,26 @@ Parameter color(std::string name, glm::dvec3 Look::*member, std::string help) {
   auto read = [=](Look& look, const std::string& text) {
     look.*member = parseColor(text, "--" + name);
   };
-  return {name, {},    "r,g,b|#rrggbb",
-          help, false, 0,
-          1e6,  read,  [=](const Look& look) { return toJson(look.*member); }};
+  Parameter p = parameter(
+      name, "r,g,b|#rrggbb", help, read, [=](const Look& look) { return toJson(look.*member); }, 0,
+      1e6);
+  finish(p, ParameterKind::color, member);
+  return p;
+}
+
+Parameter slider(Parameter p, double min, double max, bool logarithmic, double unset = 0,
+                 std::string_view symbol = {}) {
+  p.slider = {min, max, logarithmic};
+  p.unset = unset;
+  p.symbol = symbol;
+  return p;
 }
 
 Parameter custom(std::string name, std::string value, std::string help,
                  std::function<void(Look&, const std::string&)> read,
                  std::function<Json(const Look&)> save) {
-  return {name, {}, value, help, false, 0, 0, std::move(read), std::move(save)};
+  return parameter(std::move(name), std::move(value), std::move(help), std::move(read),
+                   std::move(save));
 }
 
 Parameter lights() {
@@ -126,6 +151,7 @@ Parameter lights() {
         return list;
       });
   p.repeatable = true;
+  p.reset = [](Look& look) { look.light.reset(); };
   return p;
 }
 
@@ -150,6 +176,13 @@ Parameter materials() {
       "repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
+  p.reset = [](Look& look) { look.material.clear(); };
+  return p;
+}
+
+template <typename Value>
+Parameter resetting(Parameter p, Value Look::*member) {
+  finish(p, ParameterKind::text, member);
   return p;
 }
 
@@ -179,10 +212,12 @@ std::vector<Parameter> makeTable() {
        choice("fresnel", fresnelNames, &Look::fresnel,
               "form of the reflectance in environment: exact without cancellation, the textbook's, "
               "or Schlick's approximation"),
-       number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
-              "Blinn's exponent as a multiple of Phong's"),
-       number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
-              "exponent of Schlick's approximation"),
+       slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
+                     "Blinn's exponent as a multiple of Phong's"),
+              0, 16, false),
+       slider(number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
+                     "exponent of Schlick's approximation"),
+              0, 20, false),
        materials(),
        flag("two-sided", &Look::twoSided,
             "draw the back faces of every material, lit by the normal turned to the viewer; "
@@ -193,12 +228,14 @@ std::vector<Parameter> makeTable() {
            lights(), flag("no-lights", &Look::noLights, "ambient light alone"),
            choice("viewer", viewerNames, &Look::viewer,
                   "infinite: one direction to the viewer for the whole picture, as in the notes"),
-           number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
-                  "index of refraction of what the viewer is in (the notes' n1)"),
+           slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
+                         "index of refraction of what the viewer is in (the notes' n1)"),
+                  1, 3, false, 1, "n1"),
            choice("environment", environmentNames, &Look::environment,
                   "what the program environment reflects and refracts"),
-           number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
-                  "turns the environment about +Y"),
+           slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
+                         "turns the environment about +Y"),
+                  -180, 180, false),
            flag("environment-background", &Look::environmentBackground,
                 "show the environment behind the model")});
   section(
@@ -206,52 +243,71 @@ std::vector<Parameter> makeTable() {
       {vector("camera-position", 1e30, &Look::cameraPosition, "where the eye is"),
        vector("camera-focal-point", 1e30, &Look::cameraFocalPoint, "what the camera looks at"),
        direction("camera-view-up", &Look::cameraViewUp, "which way is up; +Y unless given"),
-       number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
-              "vertical; 30 unless given"),
+       slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
+                     "vertical; 30 unless given"),
+              1, 120, false, 30),
        direction("camera-direction", &Look::cameraDirection,
                  "the way the camera looks, if not given by position and focal point"),
-       number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
-              "then turns the camera about the focal point, to its right"),
-       number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
-              "then turns the camera about the focal point, upwards"),
-       number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
-              "share of the picture that the model's bounding sphere fills, where the camera's "
-              "position is not given"),
+       slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
+                     "then turns the camera about the focal point, to its right"),
+              -180, 180, false),
+       slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
+                     "then turns the camera about the focal point, upwards"),
+              -90, 90, false),
+       slider(
+           number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
+                  "share of the picture that the model's bounding sphere fills, where the camera's "
+                  "position is not given"),
+           0.05, 20, true),
        flag("camera-orthographic", &Look::cameraOrthographic,
             "parallel projection; the picture's half height is the distance to the focal point "
             "times tan(view angle / 2)"),
-       custom(
-           "camera-index", "N", "use camera N of the file, from 0",
-           [](Look& look, const std::string& text) {
-             look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
-           },
-           [](const Look& look) { return look.cameraIndex ? Json(*look.cameraIndex) : Json(); }),
-       custom(
-           "clipping-range", "NEAR,FAR",
-           "distances along the view between which things are drawn; from the scene unless given",
-           [](Look& look, const std::string& text) { look.clippingRange = parseRange(text); },
-           [](const Look& look) {
-             return look.clippingRange ? Json::array({look.clippingRange->x, look.clippingRange->y})
-                                       : Json();
-           })});
-  section(
-      "Picture",
-      {custom(
-           "resolution", "W,H", "width and height in pixels",
-           [](Look& look, const std::string& text) { look.resolution = parseResolution(text); },
-           [](const Look& look) {
-             return Json::array({look.resolution.x, look.resolution.y});
-           }),
-       custom(
-           "anti-aliasing", "none|msaa:N|ssaa:N",
-           "msaa: N samples of coverage a pixel; ssaa: N x N pixels shaded for each of the "
-           "picture's; resolved in linear light",
-           [](Look& look, const std::string& text) { look.antiAliasing = parseAntiAliasing(text); },
-           [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
-       color("background-color", &Look::backgroundColor, "behind the model"),
-       flag("no-background", &Look::noBackground, "transparent instead"),
-       number("exposure", "EV", -64, 64, &Look::exposure,
-              "multiplies the picture by 2^EV before it is encoded")});
+       resetting(custom(
+                     "camera-index", "N", "use camera N of the file, from 0",
+                     [](Look& look, const std::string& text) {
+                       look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
+                     },
+                     [](const Look& look) {
+                       return look.cameraIndex ? Json(*look.cameraIndex) : Json();
+                     }),
+                 &Look::cameraIndex),
+       resetting(
+           custom(
+               "clipping-range", "NEAR,FAR",
+               "distances along the view between which things are drawn; from the scene unless "
+               "given",
+               [](Look& look, const std::string& text) { look.clippingRange = parseRange(text); },
+               [](const Look& look) {
+                 return look.clippingRange
+                            ? Json::array({look.clippingRange->x, look.clippingRange->y})
+                            : Json();
+               }),
+           &Look::clippingRange)});
+  section("Picture",
+          {resetting(custom(
+                         "resolution", "W,H", "width and height in pixels",
+                         [](Look& look, const std::string& text) {
+                           look.resolution = parseResolution(text);
+                         },
+                         [](const Look& look) {
+                           return Json::array({look.resolution.x, look.resolution.y});
+                         }),
+                     &Look::resolution),
+           resetting(
+               custom(
+                   "anti-aliasing", "none|msaa:N|ssaa:N",
+                   "msaa: N samples of coverage a pixel; ssaa: N x N pixels shaded for each of the "
+                   "picture's; resolved in linear light",
+                   [](Look& look, const std::string& text) {
+                     look.antiAliasing = parseAntiAliasing(text);
+                   },
+                   [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
+               &Look::antiAliasing),
+           color("background-color", &Look::backgroundColor, "behind the model"),
+           flag("no-background", &Look::noBackground, "transparent instead"),
+           slider(number("exposure", "EV", -64, 64, &Look::exposure,
+                         "multiplies the picture by 2^EV before it is encoded"),
+                  -8, 8, false)});
   return table;
 }
 
@@ -262,17 +318,62 @@ std::span<const Parameter> lookParameters() {
   return table;
 }
 
+std::vector<std::string> Parameter::choices() const {
+  std::vector<std::string> words(1);
+  for (char c : value) {
+    if (c == '|')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  return words;
+}
+
 std::span<const MaterialParameter> materialParameters() {
   using P = ShadingParameters;
   using E = MaterialEdit;
   static const MaterialParameter table[] = {
-      {"ambient", "m_a: share of the ambient light", 0, 1e6, &P::ambient, &E::ambient},
-      {"diffuse", "m_d: strength of diffuse reflection", 0, 1e6, &P::diffuse, &E::diffuse},
-      {"specular", "m_s: strength of the highlight", 0, 1e6, &P::specular, &E::specular},
-      {"exponent", "m_sp: Phong's exponent", 0, 1e6, &P::exponent, &E::exponent},
-      {"metalness", "m_sm: 1 colours the highlight, 0 leaves it white", 0, 1, &P::metalness,
-       &E::metalness},
-      {"ior", "n: index of refraction", 1e-3, 1e3, &P::ior, &E::ior},
+      {"ambient",
+       "m_a: share of the ambient light",
+       0,
+       1e6,
+       &P::ambient,
+       &E::ambient,
+       "m_a",
+       {0, 2, false}},
+      {"diffuse",
+       "m_d: strength of diffuse reflection",
+       0,
+       1e6,
+       &P::diffuse,
+       &E::diffuse,
+       "m_d",
+       {0, 2, false}},
+      {"specular",
+       "m_s: strength of the highlight",
+       0,
+       1e6,
+       &P::specular,
+       &E::specular,
+       "m_s",
+       {0, 2, false}},
+      {"exponent",
+       "m_sp: Phong's exponent",
+       0,
+       1e6,
+       &P::exponent,
+       &E::exponent,
+       "m_sp",
+       {0, 10000, true}},
+      {"metalness",
+       "m_sm: 1 colours the highlight, 0 leaves it white",
+       0,
+       1,
+       &P::metalness,
+       &E::metalness,
+       "m_sm",
+       {0, 1, false}},
+      {"ior", "n: index of refraction", 1e-3, 1e3, &P::ior, &E::ior, "n", {0.5, 4, false}},
   };
   return table;
 }

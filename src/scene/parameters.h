@@ -12,6 +12,23 @@
 
 namespace glint {
 
+/// How a panel edits a parameter.
+enum class ParameterKind {
+  number,     ///< a slider
+  flag,       ///< a tick
+  choice,     ///< one of Parameter::choices()
+  vector,     ///< three numbers
+  direction,  ///< three numbers, not all zero
+  color,      ///< linear
+  text,       ///< the option's text
+};
+
+/// The part of a number's range that a slider covers; typed values may go beyond.
+struct SliderRange {
+  double min = 0.0, max = 1.0;
+  bool logarithmic = false;
+};
+
 /// One parameter of a look. This table is the only place that knows a parameter's name, unit,
 /// range, default and help: command line, look files, help and panel are made from it.
 struct Parameter {
@@ -26,6 +43,15 @@ struct Parameter {
   std::function<void(Look&, const std::string& text)> read;
   /// The value for a look file; null where the look leaves it open.
   std::function<nlohmann::ordered_json(const Look&)> save;
+  ParameterKind kind = ParameterKind::text;
+  SliderRange slider = {};       ///< of a number
+  double unset = 0.0;            ///< of a number that a look may leave open: what stands then
+  std::string_view symbol = {};  ///< in the notes; empty if they have none
+  /// Sets the default in a look.
+  std::function<void(Look&)> reset = {};
+
+  /// The words of a choice, from `value`.
+  std::vector<std::string> choices() const;
 };
 
 /// All parameters of a look, in the order of help.
@@ -37,6 +63,8 @@ struct MaterialParameter {
   double min, max;
   double ShadingParameters::*value;
   std::optional<double> MaterialEdit::*edit;
+  std::string_view symbol = {};  ///< in the notes
+  SliderRange slider = {};
 };
 
 /// Ambient, diffuse, specular, exponent, metalness and ior; `color` stands beside them.

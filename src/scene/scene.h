@@ -30,7 +30,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
   /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
   bool normalsMayCancel = false;
-  int material = 0;                    ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
 };
 
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
@@ -73,6 +73,8 @@ struct ShadingParameters {
 };
 
 struct Material {
+  /// Never empty: one without a name is called "#N", N its place in the file from 0, and glTF's
+  /// default material "#default".
   std::string name;
   ShadingParameters shading;
   double alpha = 1.0;         ///< multiplies the texture's and the vertex colour's, [0, 1]

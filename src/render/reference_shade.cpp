@@ -1,0 +1,113 @@
+#include "glint/render/reference_shade.h"
+
+#include "glint/shading/safe.h"
+#include "glint/shading/sum.h"
+
+namespace glint::reference {
+namespace {
+
+bool usesBlinn(Program program) {
+  return program == Program::blinnPhong || program == Program::environment;
+}
+
+double dielectricReflectance(const Surface& surface, const FresnelConstants& boundary,
+                             bool entering, double cosine) {
+  switch (surface.fresnel) {
+    case FresnelForm::exact:
+      return fresnelExact(cosine, boundary);
+    case FresnelForm::textbook:
+      return entering ? fresnelTextbook(cosine, surface.mediumIor, surface.ior)
+                      : fresnelTextbook(cosine, surface.ior, surface.mediumIor);
+    case FresnelForm::schlick:
+      return schlick(cosine, boundary, surface.schlickExponent);
+  }
+  return 0.0;
+}
+
+void addEnvironment(const Frame& frame, const Surface& surface, const Attributes& a,
+                    const glm::dvec3& N, Terms& terms) {
+  const glm::dvec3 V = toViewer(frame, a.position), C(a.base);
+  const double cosine = glm::dot(N, V);
+  const bool entering = a.front || !surface.twoSided;
+  const FresnelConstants& boundary = entering ? surface.sides.entering : surface.sides.leaving;
+  const double m = surface.metalness;
+  glm::dvec3 F(0.0);
+  if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
+  if (m > 0) F += m * metalReflectance(cosine, C);
+  const auto radianceFrom = [&](const glm::dvec3& direction) {
+    return environmentRadiance(frame.environment, frame.environmentFromEye * direction);
+  };
+  terms.reflection = F * radianceFrom(reflect(-V, N));
+  const double opacity = surface.blend ? a.base.a : 1.0;
+  terms.transparency = 1 - (1 - surface.transmission) * opacity;
+  if (terms.transparency == 0) return;
+  const double n1 = entering ? surface.mediumIor : surface.ior;
+  const double n2 = entering ? surface.ior : surface.mediumIor;
+  if (const auto direction = refract(-V, N, n1, n2))
+    terms.refraction = terms.transparency * (1.0 - F) * C * radianceFrom(*direction);
+}
+
+}  // namespace
+
+glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position) {
+  const glm::dvec3 V = frame.constantView ? glm::dvec3(0, 0, 1) : safeNormalize(-position);
+  return V == glm::dvec3(0.0) ? glm::dvec3(0, 0, 1) : V;
+}
+
+Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& position,
+              const glm::dvec3& normal) {
+  SumParameters p;
+  p.ambient = surface.ambient;
+  p.diffuse = surface.diffuse;
+  p.specular = surface.specular;
+  p.exponent = surface.exponent;
+  p.blinnFactor = surface.blinnFactor;
+  p.highlight = surface.lobe == LobeForm::pow ? Highlight::pow : Highlight::exact;
+  const glm::dvec3 V = toViewer(frame, position);
+  const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
+  LightTerms sum = ambientLight(p, frame.ambientLight);
+  for (const Light& light : frame.lights) {
+    if (light.type == Light::Type::directional) {
+      sum += oneLight(p, normal, light.place, V, light.intensity);
+      continue;
+    }
+    const glm::dvec3 L = safeNormalize(light.place - position);
+    double share = 1;
+    if (light.type == Light::Type::spot)
+      share = spotFalloff(glm::dot(-L, light.axis), light.cosInner, light.cosOuter);
+    if (share > 0) sum += oneLight(p, normal, L, V, share * light.intensity);
+  }
+  Terms terms;
+  terms.matte = sum.matte;
+  terms.specular = sum.specular;
+  return terms;
+}
+
+glm::dvec3 shadingNormal(const Surface& surface, const Attributes& a) {
+  const glm::dvec3 N = glm::dot(a.normal, a.normal) > 1e-6 ? safeNormalize(a.normal) : a.faceNormal;
+  return surface.twoSided && !a.front ? -N : N;
+}
+
+Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
+  Terms terms;
+  const glm::dvec3 C(a.base);
+  if (surface.unlit) {
+    terms.radiance = C;
+    return terms;
+  }
+  const bool carried = surface.program == Program::flat || surface.program == Program::gouraud;
+  const glm::dvec3 N = carried ? glm::dvec3(0.0) : shadingNormal(surface, a);
+  if (carried) {
+    terms.matte = a.matte;
+    terms.specular = a.specular;
+  } else {
+    terms = lightAt(frame, surface, a.position, N);
+  }
+  terms.sum = sumColor({terms.matte, terms.specular}, C, surface.metalness);
+  if (surface.program == Program::environment) addEnvironment(frame, surface, a, N, terms);
+  terms.radiance =
+      (1 - terms.transparency) * terms.sum + terms.reflection + terms.refraction + a.emission;
+  return terms;
+}
+
+}  // namespace glint::reference

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "glint/shading/environment_map.h"
+#include "glint/shading/fresnel.h"
+
+// The shading of the reference renderer: double precision, by the formulas of src/shading alone.
+// Everything is in eye space: the eye at the origin, looking along -Z.
+namespace glint::reference {
+
+struct Light {
+  enum class Type { directional, point, spot };
+  Type type = Type::directional;
+  glm::dvec3 place{0.0};  ///< directional: unit, to the light; otherwise where it is
+  glm::dvec3 axis{0.0};   ///< spot: unit, along its axis
+  double cosInner = 1.0, cosOuter = 0.0;
+  glm::dvec3 intensity{1.0};
+};
+
+/// What a picture's pixels have in common.
+struct Frame {
+  std::vector<Light> lights;
+  glm::dvec3 ambientLight{0.0};
+  bool constantView = false;  ///< to the viewer is +Z everywhere: orthographic or infinite viewer
+  BuiltinEnvironment environment = BuiltinEnvironment::studio;
+  glm::dmat3 environmentFromEye{1.0};
+};
+
+enum class Program { flat, gouraud, phong, blinnPhong, environment };
+enum class LobeForm { exact, pow };
+enum class FresnelForm { exact, textbook, schlick };
+
+/// A material under a look.
+struct Surface {
+  Program program = Program::phong;
+  bool unlit = false;
+  bool twoSided = false;  ///< back faces turn the normal
+  LobeForm lobe = LobeForm::exact;
+  FresnelForm fresnel = FresnelForm::exact;
+  double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0;
+  double blinnFactor = 4, schlickExponent = 5;
+  double ior = 1.5, mediumIor = 1;
+  FresnelSides sides;  ///< of ior and mediumIor
+  double transmission = 0;
+  bool blend = false;  ///< 1 - alpha adds to the transparency of the program environment
+};
+
+/// What reaches shading at one point: all of a pixel's error that is not in here is shading error.
+struct Attributes {
+  int item = -1;                ///< of the draw list; -1 where there is nothing
+  std::uint32_t primitive = 0;  ///< triangle, line or point of the item's mesh
+  bool front = true;            ///< the side that is seen
+  glm::dvec3 barycentrics{0.0};
+  double depth = 0;  ///< 1 at the near plane, 0 at the far one
+  /// Of triangles: from the sample to the nearest edge, in samples. A driver that snaps vertices to
+  /// 1/256 of a sample may put samples closer than 1/256 on the other side.
+  double edgeDistance = 0;
+  glm::dvec3 position{0.0};    ///< interpolated
+  glm::dvec3 normal{0.0};      ///< interpolated, neither renormalised nor turned
+  glm::dvec3 faceNormal{0.0};  ///< unit, of the front side
+  glm::dvec4 base{1.0};        ///< C and alpha: material, vertex colour and texture
+  glm::dvec3 emission{0.0};    ///< material and texture
+  /// flat and gouraud: the light carried from face or vertices, what C and what S multiply.
+  glm::dvec3 matte{0.0}, specular{0.0};
+};
+
+/// The parts of a pixel's radiance.
+struct Terms {
+  glm::dvec3 matte{0.0}, specular{0.0};  ///< the light that C and that S multiply
+  glm::dvec3 sum{0.0};                   ///< C matte + S specular
+  glm::dvec3 reflection{0.0};            ///< F E(reflect)
+  glm::dvec3 refraction{0.0};            ///< t (1 - F) C E(refract)
+  double transparency = 0;               ///< t: 1 - t of the sum is left
+  /// (1 - t) sum + reflection + refraction + emission, or C of what is unlit.
+  glm::dvec3 radiance{0.0};
+};
+
+/// Unit, to the viewer; +Z at the eye itself.
+glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position);
+
+/// The light at a point with unit normal; sets `matte` and `specular` of the result. Flat shading
+/// and Gouraud shading use the lobe of Phong.
+Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& position,
+              const glm::dvec3& normal);
+
+/// Evaluates the surface's program. The attributes may come from anywhere: from the reference's own
+/// rasterisation or from what a GL driver interpolated.
+Terms shade(const Frame& frame, const Surface& surface, const Attributes& attributes);
+
+/// The normal that shading uses: `normal` renormalised, the face's where it all but vanishes
+/// (squared length at most 1e-6), turned on back faces of two-sided surfaces.
+glm::dvec3 shadingNormal(const Surface& surface, const Attributes& attributes);
+
+}  // namespace glint::reference

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "glint/image/texture.h"
+#include "glint/scene/scene.h"
+
+namespace glint::reference {
+
+/// A texture sampled by GL's rules (OpenGL 3.3, section 3.8) in double. Texels are decoded from
+/// sRGB one by one, before filtering; alpha is linear. Level of detail log2 of the longer of the
+/// two footprint axes in texels of the full size; above 0 the texture is minified, whatever
+/// the filters (GL 3.3 moves the switch to 0.5 for some of them, which is not followed).
+///
+/// The smaller levels are those of the picture's definition (glint/image/mipmaps.h), rounded to 8
+/// bits as the driver gets them, so that they count as texture and not as an error of filtering.
+/// Without them the full size serves for every level.
+class TextureSampler {
+ public:
+  /// The pixels must outlive it. An empty picture samples as white.
+  TextureSampler(const ByteImage& base, std::span<const ByteImage> smaller, const Sampler&);
+
+  /// Linear RGB and alpha at `at`, whose change from pixel to pixel is `dx` and `dy`.
+  glm::dvec4 sample(const glm::dvec2& at, const glm::dvec2& dx, const glm::dvec2& dy) const;
+
+  /// The same with the level of detail given.
+  glm::dvec4 sampleLevel(const glm::dvec2& at, double levelOfDetail) const;
+
+ private:
+  glm::dvec4 fetch(const ByteImage& level, double x, double y) const;
+  glm::dvec4 filter(int level, Filter, const glm::dvec2& at) const;
+  const ByteImage& level(int i) const;
+
+  const ByteImage* base_;
+  std::span<const ByteImage> smaller_;
+  Sampler sampler_;
+};
+
+}  // namespace glint::reference

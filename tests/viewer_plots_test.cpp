@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "glint/viewer/compose.h"
+#include "glint/viewer/plots.h"
+
+namespace glint {
+namespace {
+
+TEST(LobePlot, PeaksAtTheMirrorDirection) {
+  SumInput input;
+  input.exponent = 30;
+  for (const bool blinn : {false, true}) {
+    input.blinn = blinn;
+    const LobePlot plot = lobePlot(input, 40);
+    const auto peak = std::max_element(plot.exact.points.begin(), plot.exact.points.end(),
+                                       [](const auto& a, const auto& b) { return a.y < b.y; });
+    EXPECT_NEAR(peak->x, 40, 1e-6);
+    EXPECT_NEAR(peak->y, 1, 1e-12);
+    EXPECT_EQ(plot.largestDifference, 0);  // the chosen form is the exact one
+  }
+}
+
+TEST(LobePlot, ShowsHowFarAnApproximationIsOff) {
+  SumInput input;
+  input.exponent = 64;
+  input.highlight = "gaussian";
+  // 0.134 / alpha, stated above gaussian() in src/shading/lobe.h.
+  const double error = lobePlot(input, 0).largestDifference;
+  EXPECT_GT(error, 0.8 * 0.134 / 64);
+  EXPECT_LT(error, 1.05 * 0.134 / 64);
+}
+
+TEST(FresnelPlot, KnowsTheAnglesOfGlass) {
+  const FresnelPlot in = fresnelPlot("exact", 1, 1.5, 5);
+  EXPECT_NEAR(in.normalIncidence, 0.04, 1e-12);
+  EXPECT_NEAR(in.brewster, 56.309932474020215, 1e-9);  // atan 1.5
+  EXPECT_FALSE(in.critical);
+  const FresnelPlot out = fresnelPlot("exact", 1.5, 1, 5);
+  ASSERT_TRUE(out.critical);
+  EXPECT_NEAR(*out.critical, 41.810314895778596, 1e-9);  // asin 1/1.5
+  EXPECT_NEAR(out.exact.points.back().y, 1, 1e-12);
+}
+
+TEST(FresnelPlot, SchlicksErrorForGlass) {
+  // The largest error of Schlick's form for n = 1.5 is about 0.036.
+  const double error = fresnelPlot("schlick", 1, 1.5, 5).largestDifference;
+  EXPECT_GT(error, 0.02);
+  EXPECT_LT(error, 0.05);
+}
+
+TEST(WidthPlot, SmallHighlightsAreFourTimesInThePlane) {
+  const WidthPlot plot = widthPlot(10000);
+  for (const auto& p : plot.inPlane.points) {
+    if (p.x < 60) {
+      EXPECT_NEAR(p.y, 4, 0.02) << p.x;
+    }
+  }
+  for (const auto& p : plot.across.points) {
+    const double c = std::cos(p.x * 3.141592653589793 / 180);
+    EXPECT_NEAR(p.y, 4 * c * c, 0.02) << p.x;
+  }
+}
+
+struct TwoPictures {
+  // 4 x 1 pixels.
+  std::vector<std::uint8_t> a{10, 20, 30, 255, 10, 20, 30, 255, 10, 20, 30, 255, 10, 20, 30, 255};
+  std::vector<std::uint8_t> b{13, 20, 30, 255, 10, 10, 30, 255, 10, 20, 30, 255, 9, 20, 30, 255};
+  CodePicture pictureA{4, 1, a.data()}, pictureB{4, 1, b.data()};
+};
+
+TEST(Compose, AloneIsTheVeryBytes) {
+  const TwoPictures t;
+  EXPECT_EQ(compose(t.pictureA, nullptr, {}, false), t.a);
+  Document d;
+  d.compare = CompareMode::blink;
+  EXPECT_EQ(compose(t.pictureA, &t.pictureB, d, false), t.b);
+}
+
+TEST(Compose, SplitTakesEachPixelOfOneOfThem) {
+  const TwoPictures t;
+  Document d;
+  d.compare = CompareMode::split;
+  d.divider = 0.5;
+  const auto out = compose(t.pictureA, &t.pictureB, d, false);
+  EXPECT_TRUE(std::equal(out.begin(), out.begin() + 8, t.a.begin()));
+  EXPECT_TRUE(std::equal(out.begin() + 8, out.end(), t.b.begin() + 8));
+  d.divider = 0;
+  EXPECT_EQ(compose(t.pictureA, &t.pictureB, d, false), t.b);
+  d.divider = 1;
+  EXPECT_EQ(compose(t.pictureA, &t.pictureB, d, false), t.a);
+}
+
+TEST(Compose, DifferenceIsMultipliedAndClamped) {
+  const TwoPictures t;
+  Document d;
+  d.compare = CompareMode::difference;
+  d.amplification = 30;
+  const auto out = compose(t.pictureA, &t.pictureB, d, false);
+  EXPECT_EQ(out[0], 90);
+  EXPECT_EQ(out[5], 255);
+  EXPECT_EQ(out[8], 0);
+  EXPECT_EQ(out[12], 30);
+  EXPECT_EQ(out[3], 255);
+  const CompareNumbers n = compareNumbers(t.pictureA, t.pictureB);
+  EXPECT_EQ(n.largest, 10);
+  EXPECT_EQ(n.pixels, 3u);
+  EXPECT_NEAR(n.mean, 14.0 / 12, 1e-12);
+}
+
+TEST(Compose, MarksWhatIsClipped) {
+  Image linear{3, 1, {0.5f, 0.5f, 0.5f, 1, 1.5f, 0, 0, 1, NAN, 0, 0, 1}};
+  std::vector<std::uint8_t> codes(12, 200);
+  EXPECT_EQ(markClipped(codes, linear, 0), 2u);
+  EXPECT_EQ(codes[0], 100);
+  EXPECT_EQ(codes[4], 255);
+  EXPECT_EQ(codes[6], 30);
+  EXPECT_EQ(codes[10], 255);
+  std::vector<std::uint8_t> brighter(12, 200);
+  EXPECT_EQ(markClipped(brighter, linear, 2), 3u);  // 0.5 times 4
+}
+
+}  // namespace
+}  // namespace glint

@@ -1,0 +1,131 @@
+#include "dialogs.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace glint {
+
+namespace fs = std::filesystem;
+
+void Dialogs::askPath(std::string title, std::string path, bool existing, PathAction action) {
+  kind_ = Kind::path;
+  appearing_ = true;
+  existing_ = existing;
+  enter_ = escape_ = false;
+  title_ = std::move(title);
+  text_ = std::move(path);
+  pathAction_ = std::move(action);
+  listedFolder_.clear();
+  listed_.clear();
+}
+
+void Dialogs::ask(std::string title, std::string question, std::vector<Answer> answers) {
+  kind_ = Kind::question;
+  appearing_ = true;
+  enter_ = escape_ = false;
+  title_ = std::move(title);
+  text_ = std::move(question);
+  answers_ = std::move(answers);
+}
+
+void Dialogs::close() {
+  kind_ = Kind::none;
+  ImGui::CloseCurrentPopup();
+}
+
+void Dialogs::draw() {
+  if (kind_ == Kind::none) return;
+  const std::string id = title_ + "###dialog";
+  if (appearing_) ImGui::OpenPopup(id.c_str());
+  const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(center, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  if (!ImGui::BeginPopupModal(id.c_str(), nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  if (kind_ == Kind::path)
+    drawPath();
+  else
+    drawQuestion();
+  enter_ = escape_ = false;
+  appearing_ = false;
+  ImGui::EndPopup();
+}
+
+void Dialogs::drawPath() {
+  const float width = std::min(ImGui::GetFontSize() * 34, ImGui::GetIO().DisplaySize.x * 0.8f);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(width);
+  const bool entered = ImGui::InputText(
+      "##path", &text_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  if (existing_) {
+    std::error_code error;
+    const fs::path typed(text_);
+    const fs::path folder = fs::is_directory(typed, error) ? typed
+                            : typed.has_parent_path()      ? typed.parent_path()
+                                                           : fs::path(".");
+    if (folder.string() != listedFolder_) {
+      listedFolder_ = folder.string();
+      listed_.clear();
+      for (const auto& each : fs::directory_iterator(folder, error)) {
+        const std::string ending = each.path().extension().string();
+        std::error_code ignored;
+        if (each.is_directory(ignored))
+          listed_.push_back(each.path().filename().string() + "/");
+        else if (ending == ".glb" || ending == ".gltf" || ending == ".json")
+          listed_.push_back(each.path().filename().string());
+      }
+      std::sort(listed_.begin(), listed_.end());
+      if (folder.has_parent_path() || folder == ".") listed_.insert(listed_.begin(), "../");
+    }
+    if (ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12))) {
+      for (const std::string& name : listed_)
+        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
+          fs::path chosen = fs::path(listedFolder_) / name;
+          if (name.back() == '/') {
+            text_ = fs::weakly_canonical(chosen, error).string() + "/";
+          } else {
+            text_ = chosen.lexically_normal().string();
+          }
+        }
+      ImGui::EndListBox();
+    }
+  }
+  const float button = ImGui::GetFontSize() * 7;
+  const bool okay = ImGui::Button(existing_ ? "Open" : "Save", ImVec2(button, 0)) || entered;
+  ImGui::SameLine();
+  const bool cancel = ImGui::Button("Cancel", ImVec2(button, 0)) || escape_;
+  std::error_code error;
+  if (okay && !text_.empty() && !fs::is_directory(text_, error)) {
+    const PathAction action = std::move(pathAction_);
+    const std::string path = text_;
+    close();
+    action(path);
+  } else if (cancel) {
+    close();
+  }
+}
+
+void Dialogs::drawQuestion() {
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+  ImGui::TextUnformatted(text_.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  int chosen = -1;
+  if (!appearing_ && enter_) chosen = 0;
+  if (escape_) chosen = int(answers_.size()) - 1;
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    const float least = ImGui::GetFontSize() * 6;
+    const float fits = ImGui::CalcTextSize(answers_[i].text.c_str()).x + ImGui::GetFontSize();
+    if (ImGui::Button(answers_[i].text.c_str(), ImVec2(std::max(least, fits), 0))) chosen = int(i);
+  }
+  if (chosen < 0) return;
+  const auto action = answers_[std::size_t(chosen)].action;
+  close();
+  if (action) action();
+}
+
+}  // namespace glint

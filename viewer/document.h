@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "glint/scene/look.h"
+
+namespace glint {
+
+enum class CompareMode { off, split, blink, difference };
+
+/// What a person edits in the window, as a value: everything that undo brings back.
+struct Document {
+  Look a;                 ///< what is drawn; its resolution is that of the window, not this one
+  std::optional<Look> b;  ///< the look kept for comparison
+  CompareMode compare = CompareMode::off;
+  double divider = 0.5;         ///< of the split: share of the picture's width that shows A
+  double amplification = 16.0;  ///< of the difference
+  bool operator==(const Document&) const = default;
+};
+
+/// Undo and redo without limit. It is not told of edits: it sees them by comparison, so that none
+/// can be forgotten, and takes all that happens in one gesture (a drag, a typed number) as one
+/// step.
+class History {
+ public:
+  explicit History(Document start = {}) : settled_(std::move(start)) {}
+
+  /// To be called after every frame. While `gesture` is true nothing becomes a step yet.
+  void settle(const Document& now, bool gesture);
+
+  bool canUndo() const { return !undo_.empty(); }
+  bool canRedo() const { return !redo_.empty(); }
+  std::size_t undoSteps() const { return undo_.size(); }
+
+  /// Takes back the last step; an edit that is not settled yet is one. False if there is none.
+  bool undo(Document& now);
+  bool redo(Document& now);
+
+ private:
+  Document settled_;
+  std::vector<Document> undo_, redo_;
+};
+
+/// The look without what only moves the camera, and without the resolution: what counts as an edit
+/// when the window is closed.
+Look withoutCamera(const Look&);
+
+}  // namespace glint

@@ -1,0 +1,204 @@
+#include "interface.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "widgets.h"
+
+namespace glint {
+namespace {
+
+constexpr const char* fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                 "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                 "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+
+void loadFont(float scale) {
+  // Latin, Greek, and the signs for perpendicular and parallel.
+  static const ImWchar ranges[] = {0x20, 0xff, 0x370, 0x3ff, 0x2010, 0x2030, 0x2220, 0x22af, 0};
+  ImGuiIO& io = ImGui::GetIO();
+  for (const char* path : fonts) {
+    std::FILE* file = std::fopen(path, "rb");
+    if (!file) continue;
+    std::fclose(file);
+    io.Fonts->AddFontFromFileTTF(path, std::round(14 * scale), nullptr, ranges);
+    return;
+  }
+  widgets::style().greek = false;
+  ImFontConfig config;
+  config.SizePixels = 13 * std::max(1.0f, std::round(scale));
+  io.Fonts->AddFontDefault(&config);
+}
+
+void chooseColors() {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& s = ImGui::GetStyle();
+  s.WindowRounding = 0;
+  s.FrameRounding = 3;
+  s.GrabRounding = 3;
+  s.TabRounding = 3;
+  s.PopupRounding = 4;
+  s.WindowBorderSize = 0;
+  s.FramePadding = ImVec2(6, 3);
+  s.ItemSpacing = ImVec2(6, 5);
+  s.WindowPadding = ImVec2(10, 8);
+  s.ScrollbarSize = 12;
+  const auto grey = [](float v, float a = 1) { return ImVec4(v, v, v * 1.04f, a); };
+  const ImVec4 accent(0.26f, 0.48f, 0.80f, 1.0f), bright(0.34f, 0.58f, 0.92f, 1.0f);
+  s.Colors[ImGuiCol_WindowBg] = grey(0.13f);
+  s.Colors[ImGuiCol_PopupBg] = grey(0.16f, 0.99f);
+  s.Colors[ImGuiCol_FrameBg] = grey(0.20f);
+  s.Colors[ImGuiCol_FrameBgHovered] = grey(0.26f);
+  s.Colors[ImGuiCol_FrameBgActive] = grey(0.30f);
+  s.Colors[ImGuiCol_Button] = grey(0.25f);
+  s.Colors[ImGuiCol_ButtonHovered] = grey(0.33f);
+  s.Colors[ImGuiCol_ButtonActive] = accent;
+  s.Colors[ImGuiCol_SliderGrab] = accent;
+  s.Colors[ImGuiCol_SliderGrabActive] = bright;
+  s.Colors[ImGuiCol_CheckMark] = bright;
+  s.Colors[ImGuiCol_Header] = grey(0.24f);
+  s.Colors[ImGuiCol_HeaderHovered] = grey(0.31f);
+  s.Colors[ImGuiCol_HeaderActive] = accent;
+  s.Colors[ImGuiCol_Tab] = grey(0.18f);
+  s.Colors[ImGuiCol_TabHovered] = bright;
+  s.Colors[ImGuiCol_TabActive] = accent;
+  s.Colors[ImGuiCol_TitleBgActive] = grey(0.20f);
+  s.Colors[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.45f);
+}
+
+const char* getClipboard(void* window) {
+  static std::string text;
+  text = static_cast<Window*>(window)->clipboard();
+  return text.c_str();
+}
+
+void setClipboard(void* window, const char* text) {
+  static_cast<Window*>(window)->setClipboard(text);
+}
+
+}  // namespace
+
+Interface::Interface(Window& window, double scale) : window_(window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.BackendPlatformName = "glint";
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.GetClipboardTextFn = getClipboard;
+  io.SetClipboardTextFn = setClipboard;
+  io.ClipboardUserData = &window;
+  const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                           {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                           {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                           {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                           {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                                           {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                                           {ImGuiKey_Home, GLFW_KEY_HOME},
+                                           {ImGuiKey_End, GLFW_KEY_END},
+                                           {ImGuiKey_Insert, GLFW_KEY_INSERT},
+                                           {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                           {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                           {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                           {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                           {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                           {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                           {ImGuiKey_A, GLFW_KEY_A},
+                                           {ImGuiKey_C, GLFW_KEY_C},
+                                           {ImGuiKey_V, GLFW_KEY_V},
+                                           {ImGuiKey_X, GLFW_KEY_X},
+                                           {ImGuiKey_Y, GLFW_KEY_Y},
+                                           {ImGuiKey_Z, GLFW_KEY_Z}};
+  for (const auto& [key, code] : keys) io.KeyMap[key] = code;
+  chooseColors();
+  loadFont(float(scale));
+  ImGui::GetStyle().ScaleAllSizes(float(scale));
+  widgets::style().scale = float(scale);
+  io.Fonts->Build();
+  widgets::style().labelWidth = io.Fonts->Fonts[0]->FontSize * 9.4f;
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::feed(const std::deque<InputEvent>& events) {
+  using Kind = InputEvent::Kind;
+  ImGuiIO& io = ImGui::GetIO();
+  for (const InputEvent& e : events) {
+    switch (e.kind) {
+      case Kind::motion:
+        io.MousePos = ImVec2(float(e.x), float(e.y));
+        break;
+      case Kind::button:
+        if (e.code >= 0 && e.code < 5) io.MouseDown[e.code] = e.down;
+        break;
+      case Kind::scroll:
+        io.MouseWheelH += float(e.x);
+        io.MouseWheel += float(e.y);
+        break;
+      case Kind::key:
+        if (e.code >= 0 && e.code < 512) io.KeysDown[e.code] = e.down;
+        break;
+      case Kind::character:
+        io.AddInputCharacter(unsigned(e.code));
+        break;
+      case Kind::drop:
+        break;
+      case Kind::focus:
+        io.AddFocusEvent(e.down);
+        if (!e.down) {
+          std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+          std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+        }
+        break;
+    }
+    if (e.kind == Kind::key || e.kind == Kind::button) {
+      // The state of the modifiers as the event has it; their own events come with the old state.
+      const auto held = [&](int bit, int left, int right) {
+        return (e.modifiers & bit) != 0 || io.KeysDown[left] || io.KeysDown[right];
+      };
+      io.KeyCtrl = held(GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+      io.KeyShift = held(GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+      io.KeyAlt = held(GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+      if (e.kind == Kind::key && !e.down) {
+        if (e.code == GLFW_KEY_LEFT_CONTROL || e.code == GLFW_KEY_RIGHT_CONTROL)
+          io.KeyCtrl = io.KeysDown[GLFW_KEY_LEFT_CONTROL] || io.KeysDown[GLFW_KEY_RIGHT_CONTROL];
+        if (e.code == GLFW_KEY_LEFT_SHIFT || e.code == GLFW_KEY_RIGHT_SHIFT)
+          io.KeyShift = io.KeysDown[GLFW_KEY_LEFT_SHIFT] || io.KeysDown[GLFW_KEY_RIGHT_SHIFT];
+        if (e.code == GLFW_KEY_LEFT_ALT || e.code == GLFW_KEY_RIGHT_ALT)
+          io.KeyAlt = io.KeysDown[GLFW_KEY_LEFT_ALT] || io.KeysDown[GLFW_KEY_RIGHT_ALT];
+      }
+    }
+  }
+}
+
+void Interface::begin(double seconds) {
+  ImGuiIO& io = ImGui::GetIO();
+  const glm::ivec2 size = window_.size(), pixels = window_.framebufferSize();
+  io.DisplaySize = ImVec2(float(size.x), float(size.y));
+  if (size.x > 0 && size.y > 0)
+    io.DisplayFramebufferScale =
+        ImVec2(float(pixels.x) / float(size.x), float(pixels.y) / float(size.y));
+  io.DeltaTime = float(std::clamp(seconds, 1e-4, 1.0));
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Interface::end(bool draw) {
+  if (!draw) {
+    ImGui::EndFrame();
+    return;
+  }
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace glint

@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "app.h"
+#include "glint/cli/commands.h"
+#include "glint/cli/heap.h"
+#include "glint/cli/help.h"
+#include "glint/gl/context.h"
+#include "glint/image/error.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "glint-viewer shows a model in a window: edit materials, lights and camera, compare two\n"
+      "looks, see the lobe and the Fresnel curve; what is shown is what glint render draws.",
+      "glint view");
+  app.formatter(std::make_shared<glint::HelpFormatter>());
+  glint::AppOptions options;
+  std::string model, glsl;
+  app.add_option("MODEL", model,
+                 "a glTF 2.0 model, .gltf or .glb; one can be dropped on the window");
+  app.add_option("--glsl", glsl,
+                 "take shader files from this folder where it has them; changes show at once")
+      ->type_name("DIR");
+  app.add_option("--scale", options.scale,
+                 "size of text and widgets; that of the screen unless given")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.5, 4.0));
+  const auto makeLook = glint::addLookOptions(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "glint: " << glint::usageMessage(app, error, argc, argv) << "\n";
+    return glint::unusable;
+  }
+  options.model = model;
+  options.glsl = glsl;
+  if (const CLI::Option* look = app.get_option("--look"); look->count() > 0)
+    options.look = look->as<std::string>();
+  const glint::Look look = makeLook();
+  glint::Window window("glint", {1372, 800});
+  glint::App viewer(window, look, options);
+  viewer.run();
+  return glint::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  glint::adviseHeap();
+  try {
+    return run(argc, argv);
+  } catch (const glint::ContextError& error) {
+    std::cerr << "glint: " << error.what() << "\n";
+    return glint::noContext;
+  } catch (const glint::Error& error) {
+    std::cerr << "glint: " << error.what() << "\n";
+    return glint::unusable;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "glint: out of memory: give a smaller model or window\n";
+    return glint::unusable;
+  } catch (const std::exception& error) {
+    std::cerr << "glint: internal error: " << error.what() << ": please report this\n";
+    return glint::unusable;
+  }
+}

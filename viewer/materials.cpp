@@ -1,0 +1,108 @@
+#include "materials.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "glint/image/error.h"
+#include "glint/scene/look_text.h"
+
+namespace glint {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<int> drawnMaterials(const Scene& scene) {
+  std::set<int> used;
+  for (const Instance& i : scene.instances) used.insert(scene.meshes[std::size_t(i.mesh)].material);
+  return {used.begin(), used.end()};
+}
+
+std::string materialKey(const Scene& scene, int index) {
+  return index < 0 ? "" : scene.materials[std::size_t(index)].name;
+}
+
+std::string materialLabel(const Scene& scene, int index) {
+  const std::string key = materialKey(scene, index);
+  return key.empty() ? "all materials" : key;
+}
+
+ShadingParameters effectiveParameters(const Scene& scene, const Look& look, int index) {
+  if (index >= 0) return editedMaterial(scene.materials[std::size_t(index)], look).shading;
+  const std::vector<int> drawn = drawnMaterials(scene);
+  Material first = scene.materials[std::size_t(drawn.empty() ? 0 : drawn.front())];
+  first.name.clear();  // the edits of all materials alone
+  return editedMaterial(first, look).shading;
+}
+
+void setParameters(Look& look, const std::string& key, const ShadingParameters& values) {
+  if (key.empty()) look.material.clear();  // what one material says would stand above it
+  MaterialEdit& edit = look.material[key];
+  for (const MaterialParameter& p : materialParameters()) edit.*p.edit = values.*p.value;
+  edit.color = values.color;
+}
+
+namespace {
+
+void dropEmpty(Look& look) {
+  std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
+}
+
+}  // namespace
+
+void resetParameter(Look& look, const std::string& key, const MaterialParameter& p) {
+  for (auto& [name, edit] : look.material)
+    if (key.empty() || name == key) (edit.*p.edit).reset();
+  dropEmpty(look);
+}
+
+void resetColor(Look& look, const std::string& key) {
+  for (auto& [name, edit] : look.material)
+    if (key.empty() || name == key) edit.color.reset();
+  dropEmpty(look);
+}
+
+void resetMaterial(Look& look, const std::string& key) {
+  if (key.empty())
+    look.material.clear();
+  else
+    look.material.erase(key);
+}
+
+std::string materialText(const ShadingParameters& values) {
+  Json json = Json::object();
+  for (const MaterialParameter& p : materialParameters())
+    json[std::string(p.name)] = values.*p.value;
+  json["color"] = {values.color.r, values.color.g, values.color.b};
+  return Json{{"glint", json}}.dump();
+}
+
+void pasteMaterial(Look& look, const std::string& key, const std::string& text) {
+  Look changed = look;
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) {
+    if (text.find('=') == std::string::npos || text.find('\n') != std::string::npos)
+      throw InputError(
+          "the clipboard holds no material: copy one here, or text such as "
+          "{\"exponent\": 40} or exponent=40,color=#c04020");
+    parseMaterialEdit(changed, key.empty() ? text : key + ":" + text);
+  } else {
+    const Json* from = json.is_object() && json.contains("extras") ? &json["extras"] : &json;
+    if (from->is_object() && from->contains("glint")) from = &(*from)["glint"];
+    if (!from->is_object() || from->empty())
+      throw InputError("the clipboard's JSON holds no parameters of a material");
+    for (const auto& [name, value] : from->items()) {
+      std::string number;
+      if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
+          value[2].is_number())
+        for (const Json& each : value)
+          number += (number.empty() ? "" : ",") + numberText(each.get<double>());
+      else if (value.is_string())
+        number = value.get<std::string>();
+      else if (value.is_number())
+        number = numberText(value.get<double>());
+      setMaterialEdit(changed, key, name, number);
+    }
+  }
+  look = std::move(changed);
+}
+
+}  // namespace glint

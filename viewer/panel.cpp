@@ -1,0 +1,260 @@
+#include "panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "camera_control.h"
+#include "glint/image/error.h"
+#include "glint/scene/look_text.h"
+#include "materials.h"
+#include "presets.h"
+#include "widgets.h"
+
+namespace glint {
+
+using widgets::style;
+
+bool actionButton(PanelContext& context, Action command, const char* text, float width) {
+  const bool pressed = ImGui::Button(text, ImVec2(width, 0));
+  const ActionInfo& info = infoOf(command);
+  widgets::tooltip(std::string(info.help) + " (" + keyText(info) + ")");
+  if (pressed) context.run(command);
+  return pressed;
+}
+
+void drawSection(PanelContext& context, const std::string& section,
+                 std::initializer_list<std::string_view> without) {
+  Session& session = context.session;
+  for (const Parameter& p : lookParameters()) {
+    if (p.section != section) continue;
+    if (std::find(without.begin(), without.end(), p.name) != without.end()) continue;
+    try {
+      widgets::parameter(p, session.document.a);
+    } catch (const InputError& error) {
+      session.fail(error.what());
+    }
+  }
+}
+
+namespace {
+
+void materialList(Session& session) {
+  static std::string filter;
+  const Scene& scene = session.model->scene;
+  const std::vector<int> drawn = drawnMaterials(scene);
+  if (drawn.size() > 8) {
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##find", "find a material by name", &filter);
+  } else {
+    filter.clear();
+  }
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float lines = float(std::clamp<std::size_t>(drawn.size() + 1, 2, 6));
+  if (!ImGui::BeginListBox("##materials", ImVec2(-1, line * lines + 4 * style().scale))) return;
+  const auto entry = [&](int index) {
+    const std::string name = materialLabel(scene, index);
+    if (!filter.empty() && index >= 0 && name.find(filter) == std::string::npos) return;
+    const bool edited = session.document.a.material.contains(materialKey(scene, index));
+    const std::string text = name + (edited ? "  (edited)" : "") + "##" + std::to_string(index);
+    if (session.hovered == index)
+      ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 214, 120, 255));
+    if (ImGui::Selectable(text.c_str(), session.material == index)) session.material = index;
+    if (session.hovered == index) ImGui::PopStyleColor();
+  };
+  entry(-1);
+  for (const int index : drawn) entry(index);
+  ImGui::EndListBox();
+}
+
+void materialSliders(Session& session) {
+  const Scene& scene = session.model->scene;
+  Look& look = session.document.a;
+  const std::string key = materialKey(scene, session.material);
+  const ShadingParameters values = effectiveParameters(scene, look, session.material);
+  const auto found = look.material.find(key);
+  const MaterialEdit edits = found == look.material.end() ? MaterialEdit{} : found->second;
+
+  widgets::label("color", edits.color.has_value());
+  glm::dvec3 color = values.color;
+  if (widgets::color("##color", color)) look.material[key].color = color;
+  if (widgets::doubleClicked()) resetColor(look, key);
+  widgets::tooltip("the material's colour, shown in sRGB (" + numberText(values.color.r) + ", " +
+                   numberText(values.color.g) + ", " + numberText(values.color.b) +
+                   " in linear light); multiplies its texture\nsymbol C\nClick the square for a "
+                   "picker");
+  for (const MaterialParameter& p : materialParameters()) {
+    const std::string name(p.name);
+    widgets::label(name, (edits.*p.edit).has_value());
+    double value = values.*p.value;
+    if (widgets::slider(("##" + name).c_str(), value, p.slider, p.min, p.max)) {
+      if (key.empty())  // what single materials say would stand above it
+        for (auto& each : look.material) (each.second.*p.edit).reset();
+      look.material[key].*p.edit = value;
+    }
+    if (widgets::doubleClicked()) resetParameter(look, key, p);
+    widgets::tooltip(widgets::parameterTooltip(std::string(p.help), {}, {}, p.min, p.max));
+  }
+}
+
+void materialButtons(PanelContext& context) {
+  Session& session = context.session;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::BeginCombo("##preset", "Preset", ImGuiComboFlags_HeightLarge)) {
+    std::string_view group;
+    for (const Preset& preset : presets()) {
+      if (preset.group != group) {
+        group = preset.group;
+        ImGui::TextDisabled("%s", std::string(group).c_str());
+      }
+      if (ImGui::Selectable(std::string(preset.name).c_str()))
+        setParameters(session.document.a, materialKey(session.model->scene, session.material),
+                      presetParameters(preset));
+    }
+    ImGui::EndCombo();
+  }
+  widgets::tooltip(
+      "a material from the classic published tables (teapots.c, Silicon Graphics), in the notes' "
+      "parameters");
+  ImGui::SameLine();
+  actionButton(context, Action::copyMaterial, "Copy", width);
+  ImGui::SameLine();
+  actionButton(context, Action::pasteMaterial, "Paste", width);
+  ImGui::SameLine();
+  actionButton(context, Action::resetMaterial, "Reset", width);
+}
+
+}  // namespace
+
+void drawShadingTab(PanelContext& context) {
+  Session& session = context.session;
+  drawSection(context, "Shading", {"material"});
+  ImGui::Separator();
+  if (!session.model) return;
+  materialList(session);
+  materialSliders(session);
+  materialButtons(context);
+  ImGui::Separator();
+  drawPlots(context);
+}
+
+void drawCameraTab(PanelContext& context) {
+  Session& session = context.session;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  const auto row = [&](std::initializer_list<std::pair<Action, const char*>> buttons) {
+    bool first = true;
+    for (const auto& [command, text] : buttons) {
+      if (!first) ImGui::SameLine();
+      first = false;
+      actionButton(context, command, text, width);
+    }
+  };
+  row({{Action::front, "Front"},
+       {Action::right, "Right"},
+       {Action::top, "Top"},
+       {Action::isometric, "Isometric"}});
+  row({{Action::back, "Back"},
+       {Action::left, "Left"},
+       {Action::bottom, "Bottom"},
+       {Action::fit, "Fit"}});
+  row({{Action::resetCamera, "Reset"},
+       {Action::orthographic, "Parallel"},
+       {Action::nextCamera, "File's"}});
+  ImGui::Separator();
+  std::optional<Pose> pose;
+  if (session.model) {
+    try {
+      Look look = session.document.a;
+      look.resolution = context.resolution;
+      pose = poseOf(session.model->scene, session.model->bounds, look);
+    } catch (const InputError&) {
+    }
+  }
+  for (const Parameter& p : lookParameters()) {
+    if (p.section != "Camera") continue;
+    std::optional<glm::dvec3> shown;
+    if (pose) {
+      if (p.name == "camera-position") shown = pose->position;
+      if (p.name == "camera-focal-point") shown = pose->focalPoint;
+      if (p.name == "camera-view-up") shown = pose->up;
+      if (p.name == "camera-direction") {
+        const glm::dvec3 ahead = pose->focalPoint - pose->position;
+        const double length = glm::length(ahead);
+        if (length > 0) shown = ahead / length;
+      }
+    }
+    try {
+      widgets::parameter(p, session.document.a, shown);
+    } catch (const InputError& error) {
+      session.fail(error.what());
+    }
+  }
+  if (session.model && !session.model->scene.cameras.empty()) {
+    ImGui::Separator();
+    ImGui::TextDisabled("Cameras of the file");
+    for (std::size_t i = 0; i < session.model->scene.cameras.size(); ++i) {
+      const std::string& name = session.model->scene.cameras[i].name;
+      const std::string text = std::to_string(i) + "  " + (name.empty() ? "camera" : name);
+      if (ImGui::Selectable(text.c_str(), session.document.a.cameraIndex == int(i))) {
+        resetCamera(session.document.a);
+        session.document.a.cameraIndex = int(i);
+      }
+    }
+  }
+}
+
+void drawPictureTab(PanelContext& context) {
+  Session& session = context.session;
+  static glm::ivec2 typed{0};
+  static bool typing = false;
+  if (!typing) typed = context.resolution;
+  widgets::label("resolution");
+  ImGui::InputInt2("##resolution", &typed.x);
+  typing = ImGui::IsItemActive();
+  if (ImGui::IsItemDeactivatedAfterEdit())
+    context.resizePicture(glm::clamp(typed, glm::ivec2(16), glm::ivec2(16384)));
+  widgets::tooltip("width and height of the picture in pixels; typed values resize the window");
+  drawSection(context, "Picture", {"resolution"});
+  ImGui::Separator();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  actionButton(context, Action::screenshot, "Save picture", width);
+  ImGui::SameLine();
+  actionButton(context, Action::screenshotAs, "Save picture as...", width);
+  ImGui::TextDisabled("Overlays (never in saved pictures)");
+  const auto overlay = [&](Overlay which, Action command, const char* text) {
+    bool on = session.overlay == which;
+    if (ImGui::Checkbox(text, &on)) context.run(command);
+    widgets::tooltip(std::string(infoOf(command).help) + " (" + keyText(infoOf(command)) + ")");
+  };
+  overlay(Overlay::wireframe, Action::wireframe, "edges");
+  ImGui::SameLine(width + 2 * gap);
+  overlay(Overlay::normals, Action::normals, "normals");
+  overlay(Overlay::facing, Action::facing, "facing");
+  ImGui::SameLine(width + 2 * gap);
+  overlay(Overlay::clipped, Action::clipped, "clipped pixels");
+}
+
+void drawPanel(PanelContext& context) {
+  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
+  const auto tab = [&](const char* name, void (*draw)(PanelContext&)) {
+    if (!ImGui::BeginTabItem(name)) return;
+    ImGui::BeginChild("tab", ImVec2(0, 0));
+    draw(context);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  };
+  tab("Shading", drawShadingTab);
+  tab("Lights", drawLightsTab);
+  tab("Camera", drawCameraTab);
+  tab("Picture", drawPictureTab);
+  tab("Compare", drawCompareTab);
+  tab("Info", drawInfoTab);
+  ImGui::EndTabBar();
+}
+
+}  // namespace glint

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "actions.h"
+#include "picture.h"
+#include "probe.h"
+#include "session.h"
+
+namespace glint {
+
+/// What the panel shows and what it can ask for.
+struct PanelContext {
+  Session& session;
+  const DrawnPicture* picture = nullptr;  ///< null until one is drawn
+  glm::ivec2 resolution{1};               ///< of the picture in the window
+  bool preview = false;                   ///< a smaller one is shown while something moves
+  const Probe* probe = nullptr;           ///< of the pixel under the cursor, or null
+  double uiMilliseconds = 0;              ///< the last frame of the panel
+  std::function<void(Action)> run = {};
+  std::function<void(glm::ivec2)> resizePicture = {};
+};
+
+/// All tabs, within the current ImGui window.
+void drawPanel(PanelContext&);
+
+// The tabs.
+void drawShadingTab(PanelContext&);
+void drawLightsTab(PanelContext&);
+void drawCameraTab(PanelContext&);
+void drawPictureTab(PanelContext&);
+void drawCompareTab(PanelContext&);
+void drawInfoTab(PanelContext&);
+
+/// The plots of the selected material, below its sliders.
+void drawPlots(PanelContext&);
+
+/// The parameters of a section of the table, but for those named, which have widgets of their own.
+void drawSection(PanelContext&, const std::string& section,
+                 std::initializer_list<std::string_view> without = {});
+
+/// A button for a command, with its help and key as tooltip. `width` 0 fits the text.
+bool actionButton(PanelContext&, Action, const char* text, float width = 0);
+
+}  // namespace glint

@@ -1,0 +1,196 @@
+#include <imgui.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "compose.h"
+#include "glint/scene/parameters.h"
+#include "materials.h"
+#include "panel.h"
+#include "widgets.h"
+
+namespace glint {
+namespace {
+
+using widgets::style;
+
+void row(const char* name, const char* format, ...) IM_FMTARGS(2);
+void row(const char* name, const char* format, ...) {
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(style().labelWidth * 0.75f);
+  va_list arguments;
+  va_start(arguments, format);
+  ImGui::TextV(format, arguments);
+  va_end(arguments);
+}
+
+void vectorRow(const char* name, const glm::dvec3& v) {
+  row(name, "%.5f  %.5f  %.5f", v.x, v.y, v.z);
+}
+
+void probeRows(const Session& session, const Probe& probe) {
+  row("pixel", "%d, %d", probe.pixel.x, probe.pixel.y);
+  if (probe.hit) {
+    row("material", "%s", materialLabel(session.model->scene, probe.hit->material).c_str());
+    vectorRow("N", probe.N);
+    vectorRow("V", probe.V);
+    row(style().greek ? "N\u00b7V" : "N.V", "%.6f%s", probe.nv,
+        probe.hit->backFace ? "  (back face)" : "");
+    row(style().greek ? "R(\u03b8)" : "R(theta)", "%.6g", probe.reflectance);
+    vectorRow("ambient", probe.ambient);
+    if (probe.emission != glm::dvec3(0.0)) vectorRow("emission", probe.emission);
+    int n = 0;
+    for (const LightProbe& light : probe.lights) {
+      ImGui::TextUnformatted(("Light " + std::to_string(++n) + " (" + light.name + ")").c_str());
+      vectorRow("  L", light.L);
+      row(style().greek ? "  N\u00b7L  R\u00b7V  N\u00b7H" : "  N.L R.V N.H", "%.5f  %.5f  %.5f",
+          light.nl, light.rv, light.nh);
+      vectorRow("  diffuse", light.diffuse);
+      vectorRow("  specular", light.specular);
+    }
+  }
+  ImGui::Spacing();
+  row("shown", "%.6f  %.6f  %.6f", double(probe.shown.r), double(probe.shown.g),
+      double(probe.shown.b));
+  row("  as sRGB", "%d  %d  %d", probe.code[0], probe.code[1], probe.code[2]);
+  if (probe.computed) {
+    row("in double", "%.6f  %.6f  %.6f", probe.expected.r, probe.expected.g, probe.expected.b);
+    row("  off by", "%+.1f  %+.1f  %+.1f ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
+    row("  levels", "%+d  %+d  %+d of 255", probe.code[0] - probe.expectedCode[0],
+        probe.code[1] - probe.expectedCode[1], probe.code[2] - probe.expectedCode[2]);
+  }
+  if (!probe.remark.empty()) ImGui::TextWrapped("%s", probe.remark.c_str());
+}
+
+void variantRows(const Scene& scene, const DrawnPicture& picture) {
+  std::set<Variant> seen;
+  for (const DrawItem& item : picture.list.items) {
+    if (!seen.insert(item.variant).second) continue;
+    const std::string title = std::string(shadingName(item.variant.program)) + " " +
+                              std::to_string(seen.size()) + "##" + std::to_string(seen.size());
+    if (!ImGui::TreeNodeEx(title.c_str(), seen.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0))
+      continue;
+    const Mesh& mesh = scene.meshes[std::size_t(item.mesh)];
+    const Material material =
+        editedMaterial(scene.materials[std::size_t(item.material)], picture.look);
+    for (const FeatureReason& reason :
+         reasonsFor(item.variant, mesh, material, picture.look, picture.list.camera.orthographic)) {
+      ImGui::PushStyleColor(ImGuiCol_Text, reason.present
+                                               ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
+                                               : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+      ImGui::TextWrapped("%s %s: %s", reason.present ? "+" : "-", reason.feature.c_str(),
+                         reason.reason.c_str());
+      ImGui::PopStyleColor();
+    }
+    ImGui::TreePop();
+  }
+}
+
+}  // namespace
+
+void drawCompareTab(PanelContext& context) {
+  Document& document = context.session.document;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float half = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  actionButton(context, Action::keepAsB, "Keep as B", half);
+  ImGui::SameLine();
+  actionButton(context, Action::swapAB, "Exchange A and B", half);
+  if (!document.b) {
+    ImGui::TextWrapped(
+        "Keep the look as B, then go on editing A: the two stand side by side, in turn, or as "
+        "their difference. To compare two programs or forms of one look, keep it and choose "
+        "another here or in the tab Shading.");
+    return;
+  }
+  ImGui::Separator();
+  const std::pair<CompareMode, Action> modes[] = {
+      {CompareMode::off, Action::compareOff},
+      {CompareMode::split, Action::compareSplit},
+      {CompareMode::blink, Action::compareBlink},
+      {CompareMode::difference, Action::compareDifference}};
+  const char* const names[] = {"A alone", "side by side", "B in place of A", "difference"};
+  for (int i = 0; i < 4; ++i) {
+    if (ImGui::RadioButton(names[i], document.compare == modes[i].first))
+      document.compare = modes[i].first;
+    widgets::tooltip(std::string(infoOf(modes[i].second).help) + " (" +
+                     keyText(infoOf(modes[i].second)) + ")");
+  }
+  if (document.compare == CompareMode::split) {
+    widgets::label("divider");
+    widgets::slider("##divider", document.divider, {0, 1, false}, 0, 1);
+    if (widgets::doubleClicked()) document.divider = 0.5;
+  }
+  if (document.compare == CompareMode::difference) {
+    widgets::label("times");
+    widgets::slider("##times", document.amplification, {1, 256, true}, 1, 256);
+    if (widgets::doubleClicked()) document.amplification = 16;
+    widgets::tooltip("the difference of the 8-bit values is multiplied by this");
+  }
+  ImGui::Separator();
+  ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
+  for (const Parameter& p : lookParameters()) {
+    if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel") continue;
+    ImGui::PushID("b");
+    widgets::parameter(p, *document.b);
+    ImGui::PopID();
+  }
+  ImGui::Separator();
+  ImGui::TextDisabled("What differs");
+  bool any = false;
+  for (const Parameter& p : lookParameters()) {
+    if (p.name == "resolution") continue;
+    const auto a = p.save(document.a), b = p.save(*document.b);
+    if (a == b) continue;
+    any = true;
+    ImGui::TextWrapped("%s: %s | %s", p.name.c_str(), a.is_null() ? "-" : a.dump().c_str(),
+                       b.is_null() ? "-" : b.dump().c_str());
+  }
+  if (!any) ImGui::TextUnformatted("nothing: A and B are the same look");
+}
+
+void drawInfoTab(PanelContext& context) {
+  Session& session = context.session;
+  if (session.model && ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen)) {
+    if (context.probe)
+      probeRows(session, *context.probe);
+    else
+      ImGui::TextDisabled("move the mouse over the picture");
+  }
+  if (session.model && ImGui::CollapsingHeader("Model", ImGuiTreeNodeFlags_DefaultOpen)) {
+    const Scene& scene = session.model->scene;
+    std::size_t triangles = 0;
+    for (const Instance& i : scene.instances) {
+      const Mesh& mesh = scene.meshes[std::size_t(i.mesh)];
+      if (mesh.topology == Topology::triangles) triangles += mesh.indices.size() / 3;
+    }
+    ImGui::TextWrapped("%s", session.model->path.string().c_str());
+    row("triangles", "%zu", triangles);
+    row("pieces", "%zu", scene.instances.size());
+    row("radius", "%.5g", session.model->bounds.radius);
+    vectorRow("centre", session.model->bounds.center);
+    row("read in", "%.0f ms", session.model->loadTime);
+  }
+  if (context.picture && ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
+    const DrawnPicture& p = *context.picture;
+    row("picture", "%d x %d%s", p.look.resolution.x, p.look.resolution.y,
+        context.preview ? " (while moving)" : "");
+    row("samples", "%d a pixel", p.samples);
+    row("all", "%.1f ms", p.milliseconds);
+    row("compile", "%.1f ms", p.times.compile);
+    row("draw", "%.1f ms", p.times.draw);
+    row("read back", "%.1f ms", p.times.read);
+    row("panel", "%.1f ms", context.uiMilliseconds);
+    if (p.notNumbers > 0) row("not numbers", "%zu pixels", p.notNumbers);
+  }
+  if (context.picture && session.model &&
+      ImGui::CollapsingHeader("Shaders and why", ImGuiTreeNodeFlags_DefaultOpen))
+    variantRows(session.model->scene, *context.picture);
+  if (ImGui::CollapsingHeader("Log", ImGuiTreeNodeFlags_DefaultOpen)) {
+    if (session.log.empty()) ImGui::TextDisabled("nothing to tell");
+    for (const std::string& line : session.log) ImGui::TextWrapped("%s", line.c_str());
+  }
+}
+
+}  // namespace glint

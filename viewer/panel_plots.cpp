@@ -1,0 +1,259 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "glint/scene/parameters.h"
+#include "materials.h"
+#include "panel.h"
+#include "plots.h"
+#include "widgets.h"
+
+namespace glint {
+namespace {
+
+using widgets::style;
+
+constexpr ImU32 exactColor = IM_COL32(240, 190, 80, 255);
+constexpr ImU32 chosenColor = IM_COL32(90, 170, 255, 255);
+constexpr ImU32 sColor = IM_COL32(130, 220, 130, 255);
+constexpr ImU32 pColor = IM_COL32(225, 120, 190, 255);
+
+/// Axes on a rectangle of the panel.
+class Plot {
+ public:
+  Plot(glm::dvec2 low, glm::dvec2 high, float height) : low_(low), high_(high) {
+    const float text = ImGui::GetTextLineHeight();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::Dummy(ImVec2(width, height * style().scale));
+    hovered_ = ImGui::IsItemHovered();
+    begin_ = ImVec2(corner.x + 2.2f * text, corner.y + 0.4f * text);
+    end_ = ImVec2(corner.x + width - 0.6f * text, corner.y + height * style().scale - 1.3f * text);
+    draw_ = ImGui::GetWindowDrawList();
+    draw_->AddRectFilled(begin_, end_, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  }
+
+  ImVec2 at(glm::dvec2 p) const {
+    const glm::dvec2 share = (p - low_) / (high_ - low_);
+    return ImVec2(begin_.x + float(share.x) * (end_.x - begin_.x),
+                  end_.y - float(std::clamp(share.y, -0.01, 1.01)) * (end_.y - begin_.y));
+  }
+
+  void gridX(double x, const char* text) const {
+    const ImVec2 p = at({x, low_.y});
+    draw_->AddLine(ImVec2(p.x, begin_.y), ImVec2(p.x, end_.y), gridColor());
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    draw_->AddText(ImVec2(p.x - size.x / 2, end_.y + 1), textColor(), text);
+  }
+  void gridY(double y, const char* text) const {
+    const ImVec2 p = at({low_.x, y});
+    draw_->AddLine(ImVec2(begin_.x, p.y), ImVec2(end_.x, p.y), gridColor());
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    draw_->AddText(ImVec2(begin_.x - size.x - 4, p.y - size.y / 2), textColor(), text);
+  }
+  void markX(double x, ImU32 color) const {
+    const ImVec2 p = at({x, low_.y});
+    draw_->AddLine(ImVec2(p.x, begin_.y), ImVec2(p.x, end_.y), color, style().scale);
+  }
+  void curve(const Curve& c, ImU32 color, float width = 1.6f) const {
+    std::vector<ImVec2> points;
+    for (const glm::dvec2& p : c.points)
+      if (std::isfinite(p.y)) points.push_back(at(p));
+    draw_->PushClipRect(begin_, end_, true);
+    draw_->AddPolyline(points.data(), int(points.size()), color, 0, width * style().scale);
+    draw_->PopClipRect();
+  }
+  /// Where the mouse stands on the x axis.
+  std::optional<double> hovered() const {
+    const float x = ImGui::GetIO().MousePos.x;
+    if (!hovered_ || x < begin_.x || x > end_.x) return {};
+    return low_.x + double((x - begin_.x) / (end_.x - begin_.x)) * (high_.x - low_.x);
+  }
+
+ private:
+  static ImU32 gridColor() { return IM_COL32(255, 255, 255, 28); }
+  static ImU32 textColor() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
+  glm::dvec2 low_, high_;
+  ImVec2 begin_, end_;
+  ImDrawList* draw_ = nullptr;
+  bool hovered_ = false;
+};
+
+void legend(ImU32 color, const char* text) {
+  const float h = ImGui::GetTextLineHeight();
+  if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(text).x + h) ImGui::NewLine();
+  const ImVec2 p = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(p.x, p.y + 0.4f * h),
+                                            ImVec2(p.x + 0.8f * h, p.y + 0.6f * h), color);
+  ImGui::Dummy(ImVec2(0.9f * h, h));
+  ImGui::SameLine(0, 2);
+  ImGui::TextUnformatted(text);
+}
+
+double yAt(const Curve& curve, double x) {
+  const auto& p = curve.points;
+  const auto above = std::lower_bound(
+      p.begin(), p.end(), x, [](const glm::dvec2& point, double value) { return point.x < value; });
+  if (above == p.end()) return p.back().y;
+  if (above == p.begin() || above->x == x) return above->y;
+  const glm::dvec2 a = *(above - 1), b = *above;
+  return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+}
+
+// The lobe as a rose: the length of a ray is what is sent along it, the difference in a band.
+void polarLobe(const LobePlot& plot) {
+  const float text = ImGui::GetTextLineHeight();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float radius = std::min(width / 2 - 2.5f * text, 105 * style().scale);
+  ImGui::Dummy(ImVec2(width, radius + 1.2f * text));
+  const ImVec2 foot(corner.x + width / 2, corner.y + radius + 0.6f * text);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImU32 grid = IM_COL32(255, 255, 255, 40);
+  const auto at = [&](double degrees, double length) {
+    const double a = degrees * std::numbers::pi / 180;
+    return ImVec2(foot.x + radius * float(length * std::sin(a)),
+                  foot.y - radius * float(length * std::cos(a)));
+  };
+  for (const double r : {0.5, 1.0}) {
+    std::vector<ImVec2> arc;
+    for (int a = -90; a <= 90; a += 3) arc.push_back(at(a, r));
+    draw->AddPolyline(arc.data(), int(arc.size()), grid, 0, 1);
+  }
+  for (int a = -90; a <= 90; a += 30) draw->AddLine(foot, at(a, 1), grid);
+  draw->AddLine(at(-plot.incidence, 1), foot, IM_COL32(255, 255, 255, 150), style().scale);
+  draw->AddText(ImVec2(at(-plot.incidence, 1.0).x - text, at(-plot.incidence, 1.0).y - text),
+                ImGui::GetColorU32(ImGuiCol_TextDisabled), "L");
+  draw->AddText(ImVec2(at(plot.incidence, 1.0).x + 3, at(plot.incidence, 1.0).y - text),
+                ImGui::GetColorU32(ImGuiCol_TextDisabled), "R");
+  const auto rose = [&](const Curve& curve, ImU32 color, float line) {
+    std::vector<ImVec2> points;
+    for (const glm::dvec2& p : curve.points) points.push_back(at(p.x, p.y));
+    draw->AddPolyline(points.data(), int(points.size()), color, 0, line * style().scale);
+  };
+  rose(plot.exact, exactColor, 2.2f);
+  rose(plot.chosen, chosenColor, 1.2f);
+}
+
+void lobePlots(const SumInput& input, const std::string& form) {
+  static float incidence = 30;
+  static bool polar = true;
+  if (ImGui::RadioButton("polar", polar)) polar = true;
+  ImGui::SameLine();
+  if (ImGui::RadioButton("over angle", !polar)) polar = false;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderFloat("##incidence", &incidence, 0, 89, "light at %.0f deg");
+  const LobePlot plot = lobePlot(input, double(incidence));
+  if (polar) {
+    polarLobe(plot);
+  } else {
+    const Plot axes({-90, 0}, {90, 1.05}, 150);
+    for (const auto& [x, text] :
+         {std::pair{-90.0, "-90"}, {-45.0, "-45"}, {0.0, "0"}, {45.0, "45"}, {90.0, "90"}})
+      axes.gridX(x, text);
+    axes.gridY(0, "0");
+    axes.gridY(0.5, ".5");
+    axes.gridY(1, "1");
+    axes.curve(plot.exact, exactColor, 2.2f);
+    axes.curve(plot.chosen, chosenColor, 1.2f);
+    if (const auto x = axes.hovered())
+      ImGui::SetTooltip("viewer at %.1f degrees: exact %.5g, %s %.5g", *x, yAt(plot.exact, *x),
+                        form.c_str(), yAt(plot.chosen, *x));
+  }
+  legend(exactColor, "exact");
+  ImGui::SameLine();
+  legend(chosenColor, form == "exact" ? "chosen: exact" : ("chosen: " + form).c_str());
+  char text[120];
+  std::snprintf(text, sizeof text, "differ by %.2g at most; half width %.3g degrees",
+                plot.largestDifference, plot.halfWidth);
+  ImGui::TextDisabled("%s", text);
+}
+
+void fresnelPlots(const std::string& form, double n1, double n2, double schlickExponent) {
+  static bool inside = false;
+  if (ImGui::RadioButton("entering", !inside)) inside = false;
+  ImGui::SameLine();
+  if (ImGui::RadioButton("leaving", inside)) inside = true;
+  if (inside) std::swap(n1, n2);
+  const FresnelPlot plot = fresnelPlot(form, n1, n2, schlickExponent);
+  const Plot axes({0, 0}, {90, 1.02}, 170);
+  for (const auto& [x, text] : {std::pair{0.0, "0"}, {30.0, "30"}, {60.0, "60"}, {90.0, "90"}})
+    axes.gridX(x, text);
+  axes.gridY(0, "0");
+  axes.gridY(0.5, ".5");
+  axes.gridY(1, "1");
+  axes.markX(plot.brewster, IM_COL32(225, 120, 190, 130));
+  if (plot.critical) axes.markX(*plot.critical, IM_COL32(255, 255, 255, 130));
+  axes.curve(plot.perpendicular, sColor, 1);
+  axes.curve(plot.parallel, pColor, 1);
+  axes.curve(plot.exact, exactColor, 2.2f);
+  axes.curve(plot.chosen, chosenColor, 1.2f);
+  if (const auto x = axes.hovered())
+    ImGui::SetTooltip("%.1f degrees: R %.5g, %s %.5g\nperpendicular %.5g, parallel %.5g", *x,
+                      yAt(plot.exact, *x), form.c_str(), yAt(plot.chosen, *x),
+                      yAt(plot.perpendicular, *x), yAt(plot.parallel, *x));
+  legend(exactColor, "R exact");
+  ImGui::SameLine();
+  legend(chosenColor, ("chosen: " + form).c_str());
+  legend(sColor, style().greek ? "R\u22a5" : "R perp.");
+  ImGui::SameLine();
+  legend(pColor, style().greek ? "R\u2225" : "R par.");
+  char text[160];
+  std::snprintf(text, sizeof text, "R(0) = %.4g; Brewster's angle %.2f degrees",
+                plot.normalIncidence, plot.brewster);
+  ImGui::TextDisabled("%s", text);
+  if (plot.critical) ImGui::TextDisabled("critical angle %.2f degrees", *plot.critical);
+  ImGui::TextDisabled("differ by %.2g at most", plot.largestDifference);
+}
+
+void widthPlots(double exponent) {
+  const WidthPlot plot = widthPlot(exponent);
+  const Plot axes({0, 0}, {85, 5}, 140);
+  for (const auto& [x, text] : {std::pair{0.0, "0"}, {30.0, "30"}, {60.0, "60"}})
+    axes.gridX(x, text);
+  for (const auto& [y, text] : {std::pair{0.0, "0"}, {2.0, "2"}, {4.0, "4"}}) axes.gridY(y, text);
+  axes.curve(plot.inPlane, exactColor);
+  axes.curve(plot.across, chosenColor);
+  if (const auto x = axes.hovered())
+    ImGui::SetTooltip("light at %.1f degrees: %.4g in the plane, %.4g across it", *x,
+                      yAt(plot.inPlane, *x), yAt(plot.across, *x));
+  legend(exactColor, "in the plane of incidence");
+  ImGui::SameLine();
+  legend(chosenColor, "across it");
+}
+
+}  // namespace
+
+void drawPlots(PanelContext& context) {
+  const Session& session = context.session;
+  const Look& look = session.document.a;
+  const ShadingParameters s = effectiveParameters(session.model->scene, look, session.material);
+  const auto saved = [&](std::string_view name) {
+    for (const Parameter& p : lookParameters())
+      if (p.name == name) return p.save(look).get<std::string>();
+    return std::string();
+  };
+  SumInput input;
+  input.exponent = s.exponent;
+  input.specular = s.specular;
+  input.blinnFactor = look.blinnFactor;
+  input.blinn = look.shading == Shading::blinnPhong || look.shading == Shading::environment;
+  input.highlight = saved("highlight");
+  if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
+                              ImGuiTreeNodeFlags_DefaultOpen))
+    lobePlots(input, input.highlight);
+  const bool fresnelOpen = look.shading == Shading::environment;
+  ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
+  if (ImGui::CollapsingHeader("Fresnel reflectance"))
+    fresnelPlots(saved("fresnel"), look.mediumIor, s.ior, look.schlickExponent);
+  if (ImGui::CollapsingHeader(style().greek ? "\u03b1'/\u03b1 of equally wide highlights###width"
+                                            : "a'/a of equally wide highlights###width"))
+    widthPlots(s.exponent);
+}
+
+}  // namespace glint

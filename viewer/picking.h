@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "camera_control.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// Where a ray meets a scene first, in double.
+struct Hit {
+  int instance = 0, mesh = 0, material = 0;
+  std::size_t triangle = 0;     ///< its indices begin at 3 * triangle
+  glm::dvec3 barycentric{0.0};  ///< weights of its corners
+  double distance = 0.0;        ///< along the ray
+  glm::dvec3 position{0.0};     ///< world space
+  glm::dvec3 normal{0, 0, 1};   ///< the interpolated vertex normals, unit, world space
+  bool backFace = false;
+};
+
+/// Finds what a pixel shows: triangles in chunks with boxes around them, tested in double. Faces
+/// that are not drawn (back faces of one-sided materials) are passed through; so is nothing else.
+class Picker {
+ public:
+  explicit Picker(const Scene&);
+  std::optional<Hit> pick(const Scene&, const Ray&, bool twoSided) const;
+
+ private:
+  struct Chunk {
+    glm::vec3 low, high;
+  };
+  std::vector<std::vector<Chunk>> chunks_;  // of each mesh
+};
+
+}  // namespace glint

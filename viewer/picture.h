@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "glint/image/image.h"
+#include "glint/render/renderer.h"
+
+namespace glint {
+
+/// A picture as drawn and as shown.
+struct DrawnPicture {
+  Look look;                        ///< with the resolution drawn
+  Image linear;                     ///< before exposure
+  std::vector<std::uint8_t> codes;  ///< RGBA, rows from the top: the bytes of glint render's PNG
+  DrawList list;
+  int samples = 1;
+  RenderTimes times;
+  double milliseconds = 0;  ///< all together, with encoding
+  std::size_t notNumbers = 0;
+};
+
+/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode.
+DrawnPicture drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&);
+
+/// Writes the picture as `glint render` would. Throws InputError.
+void writePicture(const DrawnPicture&, const std::string& path);
+
+/// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.
+class Screen {
+ public:
+  Screen();
+  /// RGBA rows from the top; one pixel of the picture covers `scale` x `scale` of the window's
+  /// framebuffer, from its upper left corner at (x, y) from the upper left.
+  void upload(const std::uint8_t* rgba, int width, int height);
+  void show(int x, int y, int width, int height, int framebufferHeight) const;
+
+ private:
+  TextureHandle texture_;
+  VertexArray noVertices_;
+  Program program_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace glint

@@ -1,0 +1,97 @@
+#include "plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "glint/shading/fresnel.h"
+#include "glint/shading/lobe.h"
+
+namespace glint {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+glm::dvec3 at(double degrees) {
+  return {std::sin(degrees * radians), 0, std::cos(degrees * radians)};
+}
+
+// log of a lobe of exponent 1: lobe = exp(alpha * this); -infinity where there is none.
+double logOf(double lambda) { return lambda < 1 ? std::log1p(-lambda) : -INFINITY; }
+
+}  // namespace
+
+LobePlot lobePlot(const SumInput& input, double incidence) {
+  LobePlot plot;
+  plot.incidence = incidence;
+  const glm::dvec3 N(0, 0, 1), L = at(-incidence);
+  // Close to the peak, where a large exponent has all it has, the angles are closer.
+  std::vector<double> angles;
+  for (int i = -180; i <= 180; ++i) angles.push_back(i * 0.5);
+  for (double d = 0.25; d > 1e-4; d *= 0.8)
+    for (const double angle : {incidence - 4 * d, incidence + 4 * d})
+      if (angle > -90 && angle < 90) angles.push_back(angle);
+  angles.push_back(incidence);
+  std::sort(angles.begin(), angles.end());
+  for (const double angle : angles) {
+    const glm::dvec3 V = at(angle);
+    const double exact = lobeValue(input, "exact", N, L, V);
+    const double chosen = lobeValue(input, input.highlight, N, L, V);
+    plot.exact.points.emplace_back(angle, exact);
+    plot.chosen.points.emplace_back(angle, chosen);
+    plot.largestDifference = std::max(plot.largestDifference, std::abs(exact - chosen));
+  }
+  const double alpha = input.blinn ? input.blinnFactor * input.exponent : input.exponent;
+  // cos^alpha(d) = 1/2, d the angle of R and V (Phong) or N and H (half as large).
+  if (alpha > 1e-9) {
+    const double d = std::acos(std::exp2(-1 / alpha)) / radians;
+    plot.halfWidth = std::min(input.blinn ? 2 * d : d, 180.0);
+  }
+  return plot;
+}
+
+FresnelPlot fresnelPlot(const std::string& form, double n1, double n2, double schlickExponent) {
+  FresnelPlot plot;
+  std::vector<double> angles;
+  for (int i = 0; i <= 180; ++i) angles.push_back(i * 0.5);
+  plot.brewster = brewsterAngle(n1, n2) / radians;
+  if (n1 > n2) {
+    plot.critical = std::acos(criticalCosine(n1, n2)) / radians;
+    for (double d = 1; d > 1e-3; d /= 2) angles.push_back(std::max(*plot.critical - d, 0.0));
+    angles.push_back(*plot.critical);
+    std::sort(angles.begin(), angles.end());
+  }
+  for (const double angle : angles) {
+    const double c = angle == 90 ? 0 : std::cos(angle * radians);
+    const PolarizedReflectance r = fresnelPolarized(c, n1, n2);
+    const double exact = fresnelExact(c, n1, n2);
+    const double chosen = fresnelValue(form, c, n1, n2, schlickExponent);
+    plot.exact.points.emplace_back(angle, exact);
+    plot.chosen.points.emplace_back(angle, chosen);
+    plot.perpendicular.points.emplace_back(angle, r.perpendicular);
+    plot.parallel.points.emplace_back(angle, r.parallel);
+    plot.largestDifference = std::max(plot.largestDifference, std::abs(exact - chosen));
+  }
+  plot.normalIncidence = fresnelExact(1, n1, n2);
+  return plot;
+}
+
+WidthPlot widthPlot(double exponent) {
+  WidthPlot plot;
+  const glm::dvec3 N(0, 0, 1);
+  // Phong's half width: (R.V)^alpha = 1/2.
+  const double width = std::acos(std::exp2(-1 / std::max(exponent, 0.05)));
+  for (double incidence = 0; incidence <= 85; incidence += 1) {
+    const glm::dvec3 L = at(-incidence), R = at(incidence);
+    const auto ratio = [&](const glm::dvec3& V) {
+      const double blinn = logOf(blinnLambda(N, L, V)), phong = logOf(phongLambda(N, L, V));
+      return phong / blinn;
+    };
+    plot.inPlane.points.emplace_back(incidence, ratio(at(incidence - width / radians)));
+    const glm::dvec3 side(0, 1, 0);
+    plot.across.points.emplace_back(incidence, ratio(R * std::cos(width) + side * std::sin(width)));
+  }
+  return plot;
+}
+
+}  // namespace glint

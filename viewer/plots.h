@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formulas.h"
+
+namespace glint {
+
+/// Points of a curve; x rises.
+struct Curve {
+  std::vector<glm::dvec2> points;
+};
+
+/// The lobe in the plane of incidence.
+struct LobePlot {
+  double incidence = 0;  ///< of the light, degrees from the normal
+  Curve exact, chosen;   ///< lobe over the viewer's angle from the normal, [-90, 90] degrees; the
+                         ///< mirror direction lies at +incidence
+  double largestDifference = 0;  ///< of the two
+  double halfWidth = 0;          ///< degrees from the peak to where the lobe is a half; 0: nowhere
+};
+
+LobePlot lobePlot(const SumInput&, double incidenceDegrees);
+
+/// Reflectance over the angle of incidence, [0, 90] degrees.
+struct FresnelPlot {
+  Curve exact, chosen, perpendicular, parallel;
+  double brewster = 0;             ///< degrees
+  std::optional<double> critical;  ///< degrees; empty unless n1 > n2
+  double normalIncidence = 0;      ///< R(0)
+  double largestDifference = 0;    ///< of exact and chosen
+};
+
+FresnelPlot fresnelPlot(const std::string& form, double n1, double n2, double schlickExponent);
+
+/// Which exponent alpha' gives Blinn-Phong a highlight as wide as Phong's with alpha, over the
+/// angle of incidence, [0, 85] degrees: alpha'/alpha for equal width at half the peak, in the plane
+/// of incidence and across it. Small highlights give 4 in the plane and 4 cos^2 across it.
+struct WidthPlot {
+  Curve inPlane, across;
+};
+
+WidthPlot widthPlot(double exponent);
+
+}  // namespace glint

@@ -1,0 +1,136 @@
+#include "session.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/scene/gltf.h"
+#include "glint/scene/gltf_patch.h"
+#include "glint/scene/parameters.h"
+#include "materials.h"
+
+namespace glint {
+
+std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const Look& look) {
+  const auto start = std::chrono::steady_clock::now();
+  auto model = std::make_unique<Model>();
+  model->path = path;
+  model->scene = loadGltf(path);
+  model->bounds = boundsOf(model->scene);
+  model->images = decodeImages(model->scene, look);
+  model->picker.emplace(model->scene);
+  model->loadTime =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return model;
+}
+
+FileState stateOf(const std::filesystem::path& path) {
+  std::error_code error;
+  FileState state;
+  state.time = std::filesystem::last_write_time(path, error);
+  if (error) return {};
+  state.size = std::filesystem::file_size(path, error);
+  return error ? FileState{} : state;
+}
+
+void Session::say(const std::string& text) {
+  status = text;
+  statusIsError = false;
+}
+
+void Session::fail(const std::string& text) {
+  log.push_back(text);
+  status = text;
+  statusIsError = true;
+}
+
+bool Session::unsaved() const { return withoutCamera(document.a) != withoutCamera(saved); }
+
+void Session::saveModel(const std::filesystem::path& path) {
+  if (!model) throw InputError("there is no model to save");
+  std::set<std::string> names = writtenMaterials;
+  const bool all = document.a.material.contains("");
+  for (const int index : drawnMaterials(model->scene)) {
+    const std::string key = materialKey(model->scene, index);
+    if (all || document.a.material.contains(key)) names.insert(key);
+  }
+  std::vector<MaterialPatch> patches;
+  for (std::size_t i = 0; i < model->scene.materials.size(); ++i) {
+    const Material& each = model->scene.materials[i];
+    if (names.contains(each.name)) patches.push_back({i, editedMaterial(each, document.a).shading});
+  }
+  const std::string source = model->path.string();
+  const std::vector<std::byte> original = readFile(source);
+  const auto folder = [](const std::filesystem::path& p) {
+    return std::filesystem::weakly_canonical(p).parent_path();
+  };
+  if (folder(path) != folder(model->path) && refersToFiles(original, source))
+    throw InputError(source + " refers to other files beside it: save it in the same folder");
+  const std::vector<std::byte> bytes = patchGltf(original, patches, source);
+  OutputFile file(path.string());
+  file.write(bytes);
+  file.commit();
+  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(model->path))
+    writtenMaterials = names;
+  saved.material = document.a.material;
+  say("saved the materials into " + path.string());
+}
+
+void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution) {
+  Look look = document.a;
+  look.resolution = resolution;
+  const std::string text = glint::saveLook(look);
+  OutputFile file(path.string());
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+  lookPath = path;
+  saved = document.a;
+  say("saved the look as " + path.string());
+}
+
+void Session::take(std::shared_ptr<Model> loaded) {
+  const bool same = model && model->path == loaded->path;
+  const bool first = !model;
+  model = std::move(loaded);
+  const auto missing = [&](const auto& each) {
+    return !each.first.empty() &&
+           std::ranges::none_of(model->scene.materials,
+                                [&](const Material& m) { return m.name == each.first; });
+  };
+  std::erase_if(document.a.material, missing);
+  if (document.b) std::erase_if(document.b->material, missing);
+  const auto cameras = int(model->scene.cameras.size());
+  if (document.a.cameraIndex.value_or(-1) >= cameras) document.a.cameraIndex.reset();
+  if (document.b && document.b->cameraIndex.value_or(-1) >= cameras)
+    document.b->cameraIndex.reset();
+  if (!same) {
+    writtenMaterials.clear();
+    const std::vector<int> drawn = drawnMaterials(model->scene);
+    material = drawn.size() == 1 ? drawn.front() : -1;
+    if (!first) {  // another model is seen whole, and has a history of its own
+      document.a.cameraPosition.reset();
+      document.a.cameraFocalPoint.reset();
+      document.a.cameraIndex.reset();
+      document.a.clippingRange.reset();
+      document.b.reset();
+      document.compare = CompareMode::off;
+      document.a.material.clear();
+    }
+    history = History(document);
+    saved = document.a;
+  }
+  if (material >= int(model->scene.materials.size())) material = -1;
+  hovered.reset();
+  for (const std::string& warning : model->scene.warnings) log.push_back(warning);
+}
+
+std::filesystem::path nextFreeName(const std::filesystem::path& folder, const std::string& stem,
+                                   const std::string& ending) {
+  for (int n = 1;; ++n) {
+    const auto path = folder / (stem + "_" + std::to_string(n) + ending);
+    if (!std::filesystem::exists(path)) return path;
+  }
+}
+
+}  // namespace glint

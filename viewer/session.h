@@ -1,0 +1,80 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "document.h"
+#include "glint/render/gpu_scene.h"
+#include "glint/scene/camera.h"
+#include "glint/scene/scene.h"
+#include "picking.h"
+
+namespace glint {
+
+/// A model read from its file.
+struct Model {
+  std::filesystem::path path;
+  Scene scene;
+  Bounds bounds;
+  DecodedImages images;  ///< until they are uploaded
+  std::optional<Picker> picker;
+  double loadTime = 0;  ///< ms
+};
+
+/// Reads a model; throws InputError.
+std::unique_ptr<Model> loadModel(const std::filesystem::path&, const Look&);
+
+/// When a file was last written, and how long it is: what tells that it has changed.
+struct FileState {
+  std::filesystem::file_time_type time{};
+  std::uintmax_t size = 0;
+  bool operator==(const FileState&) const = default;
+};
+FileState stateOf(const std::filesystem::path&);
+
+enum class Overlay { none, wireframe, normals, facing, clipped };
+
+/// What the window shows and edits, without GL and widgets.
+struct Session {
+  std::shared_ptr<Model> model;  ///< null until one is loaded
+  Document document;
+  History history;
+  int material = -1;           ///< selected, an index into the scene's; -1 is all of them
+  std::optional<int> hovered;  ///< the material under the cursor
+  Overlay overlay = Overlay::none;
+  std::vector<std::string> log;  ///< errors and warnings, the newest last
+  std::string status;            ///< the last thing that was done
+  bool statusIsError = false;
+
+  std::filesystem::path lookPath;  ///< where saveLook writes without asking; empty: asks
+  Look saved;                      ///< as it was opened or last saved
+  /// Names of materials that stand edited in the model's file since it was opened.
+  std::set<std::string> writtenMaterials;
+
+  void say(const std::string& text);
+  void fail(const std::string& text);
+
+  /// Whether something would be lost on closing.
+  bool unsaved() const;
+
+  /// Writes what `look` says of the scene's materials into a copy of the model's file at `path`,
+  /// which may be the model's own. Throws InputError and writes nothing.
+  void saveModel(const std::filesystem::path& path);
+  /// Throws InputError. `resolution` is that of the window's picture.
+  void saveLook(const std::filesystem::path& path, glm::ivec2 resolution);
+
+  /// Puts a newly loaded model in place of the old one. Edits and camera stay if it is the same
+  /// file; otherwise edits of materials that it does not have go.
+  void take(std::shared_ptr<Model> loaded);
+};
+
+/// The first name STEM_N.ENDING in the folder that does not exist yet.
+std::filesystem::path nextFreeName(const std::filesystem::path& folder, const std::string& stem,
+                                   const std::string& ending);
+
+}  // namespace glint

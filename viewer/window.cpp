@@ -1,0 +1,164 @@
+#include "window.h"
+
+#include <glad/gl.h>
+// After glad, which brings the GL declarations.
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "glint/gl/context.h"
+
+namespace glint {
+namespace {
+
+Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+std::string lastError() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "unknown reason";
+}
+
+void add(GLFWwindow* window, InputEvent event) {
+  of(window).input().add(std::move(event));
+  of(window).happened();
+}
+
+void installCallbacks(GLFWwindow* window) {
+  using Kind = InputEvent::Kind;
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    add(w, {.kind = Kind::motion, .x = x, .y = y, .path = {}});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
+    add(w, {.kind = Kind::button,
+            .code = button,
+            .down = action == GLFW_PRESS,
+            .modifiers = modifiers,
+            .path = {}});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    add(w, {.kind = Kind::scroll, .x = x, .y = y, .path = {}});
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    add(w, {.kind = Kind::key,
+            .code = key,
+            .down = action != GLFW_RELEASE,
+            .repeated = action == GLFW_REPEAT,
+            .modifiers = modifiers,
+            .path = {}});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    add(w, {.kind = Kind::character, .code = int(character), .path = {}});
+  });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) add(w, {.kind = Kind::drop, .path = paths[0]});
+  });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    add(w, {.kind = Kind::focus, .down = focused != 0, .path = {}});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    if (!entered) add(w, {.kind = Kind::motion, .x = -1e6, .y = -1e6, .path = {}});
+  });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).happened(); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).happened(); });
+  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).happened(); });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).happened(); });
+}
+
+}  // namespace
+
+Window::Window(const std::string& title, glm::ivec2 size) {
+  if (!glfwInit())
+    throw ContextError("no window: " + lastError() +
+                       ": start it in a desktop session or under xvfb-run, or draw offscreen with "
+                       "glint render");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "glint-viewer");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "glint-viewer");
+  // What does not fit on the screen is cut off where there is no window manager.
+  int x = 0, y = 0, width = 0, height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+    float scale = 1;
+    glfwGetMonitorContentScale(monitor, &scale, nullptr);
+    if (width > 0 && scale > 0)
+      size = glm::min(size, glm::ivec2(int(float(width) / scale), int(float(height) / scale)));
+  }
+  window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+  if (!window_) {
+    const std::string reason = lastError();
+    glfwTerminate();
+    throw ContextError("no OpenGL 3.3 window: " + reason +
+                       ": draw offscreen with glint render; glint backends says what works");
+  }
+  glfwMakeContextCurrent(window_);
+  if (gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(3, 3)) {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+    throw ContextError("the window's driver has no OpenGL 3.3: draw offscreen with glint render");
+  }
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetWindowSizeLimits(window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  installCallbacks(window_);
+}
+
+Window::~Window() {
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+glm::ivec2 Window::size() const {
+  glm::ivec2 v;
+  glfwGetWindowSize(window_, &v.x, &v.y);
+  return v;
+}
+
+glm::ivec2 Window::framebufferSize() const {
+  glm::ivec2 v;
+  glfwGetFramebufferSize(window_, &v.x, &v.y);
+  return v;
+}
+
+double Window::contentScale() const {
+  float scale = 1;
+  glfwGetWindowContentScale(window_, &scale, nullptr);
+  // Where window coordinates are not pixels the window system enlarges them itself.
+  const glm::ivec2 window = size(), pixels = framebufferSize();
+  return window.x > 0 && pixels.x > 0 ? double(scale) * window.x / pixels.x : double(scale);
+}
+
+void Window::resize(glm::ivec2 size) { glfwSetWindowSize(window_, size.x, size.y); }
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void Window::present() { glfwSwapBuffers(window_); }
+
+bool Window::wait(double seconds) {
+  if (seconds > 0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
+  return std::exchange(happened_, false);
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+bool Window::closeRequested() const { return glfwWindowShouldClose(window_); }
+void Window::refuseClose() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_);
+  return text ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
+}
+
+}  // namespace glint
