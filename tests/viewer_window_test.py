@@ -190,9 +190,9 @@ class Viewer:
 
 # Centres of widgets in the tab Shading of a model with one material, scale 1.
 PANEL_LEFT = 1000
-TWO_SIDED = (PANEL_LEFT + 148, 168)
+TWO_SIDED = (PANEL_LEFT + 174, 168)
 ROW = {"ambient": 270, "diffuse": 295, "specular": 320, "exponent": 345, "metalness": 370}
-SLIDER = (PANEL_LEFT + 150, PANEL_LEFT + 350)
+SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 
 def drag_slider(viewer, name, start, end):

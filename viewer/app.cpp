@@ -136,6 +136,10 @@ void App::run() {
     } while (!window_.input().empty());
     frame(false);
     layout();
+    if (gpuScene_ && !a_) {  // the first picture of a model may take its shaders' compiling
+      frame(true);
+      window_.present();
+    }
     double drawing = 0;
     {
       const auto before = Clock::now();

@@ -120,7 +120,7 @@ Interface::Interface(Window& window, double scale) : window_(window) {
   ImGui::GetStyle().ScaleAllSizes(float(scale));
   widgets::style().scale = float(scale);
   io.Fonts->Build();
-  widgets::style().labelWidth = io.Fonts->Fonts[0]->FontSize * 9.4f;
+  widgets::style().labelWidth = io.Fonts->Fonts[0]->FontSize * 11;
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
