@@ -39,10 +39,14 @@ vec3 shade(vec4 base) {
 #else
   float t = material.surface.y;
 #endif
-  // Along the surface and against the normal; total reflection leaves nothing to refract.
-  vec3 along = (cosine * n - v) / sqrt(boundary.square);
-  vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
-  radiance += t * ((1.0 - f) * base.rgb * environmentToward(along + inward) - sum);
+  radiance -= t * sum;
+  // Along the surface and against the normal. Total reflection leaves nothing to refract, also where
+  // a share of metal reflects less than all.
+  if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {
+    vec3 along = (cosine * n - v) / sqrt(boundary.square);
+    vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
+    radiance += t * (1.0 - f) * base.rgb * environmentToward(along + inward);
+  }
 #endif
   return radiance;
 }

@@ -35,6 +35,8 @@ void main() {
   fragment = base;
 #elif OUTPUT == OUTPUT_EMISSION
   fragment = vec4(emission, 1.0);
+#elif OUTPUT != OUTPUT_RADIANCE && UNLIT
+  fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL
   fragment = vec4(vNormal, gl_FrontFacing ? 1.0 : -1.0);
 #elif OUTPUT == OUTPUT_POSITION

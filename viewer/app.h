@@ -16,6 +16,13 @@
 
 namespace glint {
 
+/// Seconds without input after which the picture is drawn in full.
+inline constexpr double restAfter = 0.12;
+
+inline double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
 /// What glint-viewer was started with.
 struct AppOptions {
   std::filesystem::path model;  ///< empty: none yet

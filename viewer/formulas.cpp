@@ -11,7 +11,7 @@ namespace glint {
 namespace {
 
 struct Form {
-  Highlight form = Highlight::exact;
+  LobeForm form = LobeForm::exact;
   int gamma = 8;
 };
 
@@ -20,13 +20,13 @@ Form formOf(const std::string& text) {
   const std::string name = text.substr(0, colon);
   Form f;
   if (colon != std::string::npos) f.gamma = std::max(1, std::atoi(text.c_str() + colon + 1));
-  f.form = name == "pow"          ? Highlight::pow
-           : name == "lyon"       ? Highlight::lyon
-           : name == "lyon-tuned" ? Highlight::lyonTuned
-           : name == "lyon-cross" ? Highlight::lyonCross
-           : name == "pade"       ? Highlight::pade
-           : name == "gaussian"   ? Highlight::gaussian
-                                  : Highlight::exact;
+  f.form = name == "pow"          ? LobeForm::pow
+           : name == "lyon"       ? LobeForm::lyon
+           : name == "lyon-tuned" ? LobeForm::lyonTuned
+           : name == "lyon-cross" ? LobeForm::lyonCross
+           : name == "pade"       ? LobeForm::pade
+           : name == "gaussian"   ? LobeForm::gaussian
+                                  : LobeForm::exact;
   return f;
 }
 

@@ -62,7 +62,7 @@ Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& posi
   p.specular = surface.specular;
   p.exponent = surface.exponent;
   p.blinnFactor = surface.blinnFactor;
-  p.highlight = surface.lobe == LobeForm::pow ? Highlight::pow : Highlight::exact;
+  p.highlight = surface.lobe;
   const glm::dvec3 V = toViewer(frame, position);
   const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
   LightTerms sum = ambientLight(p, frame.ambientLight);

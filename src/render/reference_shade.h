@@ -6,6 +6,7 @@
 
 #include "glint/shading/environment_map.h"
 #include "glint/shading/fresnel.h"
+#include "glint/shading/lobe.h"
 
 // The shading of the reference renderer: double precision, by the formulas of src/shading alone.
 // Everything is in eye space: the eye at the origin, looking along -Z.
@@ -30,7 +31,6 @@ struct Frame {
 };
 
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
-enum class LobeForm { exact, pow };
 enum class FresnelForm { exact, textbook, schlick };
 
 /// A material under a look.

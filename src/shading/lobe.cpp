@@ -94,21 +94,21 @@ double gaussian(double lambda, double alpha) {
   return lobeWith(lambda, alpha, [](double x, double a) { return std::exp(-(a + 0.69) * x); });
 }
 
-double lobe(Highlight form, int gamma, double lambda, double alpha) {
+double lobe(LobeForm form, int gamma, double lambda, double alpha) {
   switch (form) {
-    case Highlight::exact:
+    case LobeForm::exact:
       return lobeExact(lambda, alpha);
-    case Highlight::pow:
+    case LobeForm::pow:
       return lobePow(1.0 - lambda, alpha);
-    case Highlight::lyon:
+    case LobeForm::lyon:
       return lyon(lambda, alpha, gamma);
-    case Highlight::lyonTuned:
+    case LobeForm::lyonTuned:
       return lyonTuned(lambda, alpha, gamma);
-    case Highlight::lyonCross:
+    case LobeForm::lyonCross:
       return lyonCross(lambda, alpha, gamma);
-    case Highlight::pade:
+    case LobeForm::pade:
       return pade(lambda, alpha, gamma);
-    case Highlight::gaussian:
+    case LobeForm::gaussian:
       return gaussian(lambda, alpha);
   }
   return 0.0;

@@ -56,9 +56,9 @@ double pade(double lambda, double alpha, int gamma);
 double gaussian(double lambda, double alpha);
 
 /// The forms by name: `--highlight`.
-enum class Highlight { exact, pow, lyon, lyonTuned, lyonCross, pade, gaussian };
+enum class LobeForm { exact, pow, lyon, lyonTuned, lyonCross, pade, gaussian };
 
 /// The lobe in one of its forms; gamma is read by the forms that have one.
-double lobe(Highlight form, int gamma, double lambda, double alpha);
+double lobe(LobeForm form, int gamma, double lambda, double alpha);
 
 }  // namespace glint
