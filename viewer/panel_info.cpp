@@ -57,7 +57,7 @@ void probeRows(const Session& session, const Probe& probe) {
   row("  as sRGB", "%d  %d  %d", probe.code[0], probe.code[1], probe.code[2]);
   if (probe.computed) {
     row("in double", "%.6f  %.6f  %.6f", probe.expected.r, probe.expected.g, probe.expected.b);
-    row("  off by", "%+.1f  %+.1f  %+.1f ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
+    row("  off by", "%+.3g  %+.3g  %+.3g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
     row("  levels", "%+d  %+d  %+d of 255", probe.code[0] - probe.expectedCode[0],
         probe.code[1] - probe.expectedCode[1], probe.code[2] - probe.expectedCode[2]);
   }
