@@ -302,7 +302,7 @@ TEST(Image, DamagedPfmIsRefused) {
   EXPECT_THAT(message("PF\n16384 16384\n-1\n"), HasSubstr("cut short"));
   EXPECT_THAT(message("PF\n4000000000 4000000000\n-1\n"), HasSubstr("too many"));
   EXPECT_THAT(messageOf([] { glint::decodeImage(bytesOf("P6 1 1 255 abc"), "a.ppm"); }),
-              HasSubstr("a.ppm: neither PNG nor PFM"));
+              HasSubstr("a.ppm: neither PNG, JPEG, EXR, HDR nor PFM"));
 }
 
 }  // namespace

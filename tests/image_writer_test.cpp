@@ -193,9 +193,8 @@ TEST_F(Writer, EndingsAndSizesThatDoNotWorkAreRefused) {
     options.bitDepth = depth;
     return messageOf([&] { glint::openPictureWriter(in(name), width, height, options); });
   };
-  EXPECT_THAT(open("a.exr"), HasSubstr(".exr is not supported by this version"));
-  EXPECT_THAT(open("a.jpg"), HasSubstr("use .png or .pfm"));
-  EXPECT_THAT(open("png"), HasSubstr("use .png or .pfm"));
+  EXPECT_THAT(open("a.jpg"), HasSubstr("use .png, .exr or .pfm"));
+  EXPECT_THAT(open("png"), HasSubstr("use .png, .exr or .pfm"));
   EXPECT_THAT(open("a.png", 0), HasSubstr("0 x 1"));
   EXPECT_THAT(open("a.png", 1, -5), HasSubstr("1 x -5"));
   EXPECT_THAT(open("a.png", 1, 1, 12), HasSubstr("8 or 16"));

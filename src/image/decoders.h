@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/stored_image.h"
 #include "glint/image/texture.h"
 
 struct spng_ctx;
@@ -19,8 +21,16 @@ constexpr int maxSide = 16384;  ///< pixels
 
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
+bool isPfm(std::span<const std::byte> bytes);
+bool isHdr(std::span<const std::byte> bytes);
+bool isExr(std::span<const std::byte> bytes);
 
 ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
+
+StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name);
+StoredImage decodeHdr(std::span<const std::byte> bytes, const std::string& name);
+StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
+                      const std::string& layer);
 
 /// A PNG whose header has been read and whose size is allowed. `bytes` must outlive it.
 class PngReader {
@@ -30,10 +40,15 @@ class PngReader {
   int width() const { return width_; }
   int height() const { return height_; }
   int bitDepth() const { return bitDepth_; }  ///< of the file: 1, 2, 4, 8 or 16
+  bool hasAlpha() const;                      ///< a channel of it, or transparent colours
 
   /// Straight RGBA, rows from the top: 4 * width * height values each.
   void decode(std::vector<std::uint8_t>& rgba);
   void decode(std::vector<std::uint16_t>& rgba);
+  /// RGB of 8 bits, for a file without alpha: 3 * width * height values.
+  void decodeOpaque(std::vector<std::uint8_t>& rgb);
+  /// The text chunks, in UTF-8, once the picture has been decoded.
+  std::map<std::string, std::string> text();
 
  private:
   void decodeTo(void* out, std::size_t size, int format);
@@ -44,12 +59,16 @@ class PngReader {
   int width_ = 0;
   int height_ = 0;
   int bitDepth_ = 0;
+  int colourType_ = 0;
 };
 
 /// A line for data that no decoder can make sense of.
 inline InputError damaged(const std::string& name, const std::string& what) {
   return InputError(printablePath(name) + ": " + what + ": save the picture again");
 }
+
+/// Throws InputError if there are more pixels than are read, or a side is longer than maxSide.
+void checkSize(const std::string& name, std::uint64_t width, std::uint64_t height);
 
 /// Throws InputError if a side is longer than maxSide.
 void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height);

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace glint {
@@ -11,6 +13,8 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<float> values;  ///< 4 * width * height
+  /// What the file says of the picture: keyword and text (UTF-8).
+  std::map<std::string, std::string> text = {};
 
   float* row(int y) { return values.data() + std::size_t(4) * width * y; }
   const float* row(int y) const { return values.data() + std::size_t(4) * width * y; }

@@ -48,11 +48,8 @@ void checkPictureName(const std::string& path, const PictureOptions& options) {
     throw InputError(name + ": " + std::to_string(options.bitDepth) +
                      " bits per channel: give 8 or 16");
   }
-  if (path == "-" || ending == ".png" || ending == ".pfm") return;
-  if (ending == ".exr") {
-    throw InputError(name + ": .exr is not supported by this version: use .pfm for linear floats");
-  }
-  throw InputError(name + ": the ending tells no known format: use .png or .pfm");
+  if (path == "-" || ending == ".png" || ending == ".pfm" || ending == ".exr") return;
+  throw InputError(name + ": the ending tells no known format: use .png, .exr or .pfm");
 }
 
 std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int width, int height,
@@ -63,6 +60,7 @@ std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int wi
                      std::to_string(height) + " pixels: give a width and a height of at least 1");
   }
   if (endingOf(path) == ".pfm") return detail::openPfm(path, width, height);
+  if (endingOf(path) == ".exr") return detail::openExr(path, width, height, options);
   return detail::openPng(path, width, height, options);
 }
 

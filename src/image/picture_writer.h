@@ -12,9 +12,10 @@ namespace glint {
 
 struct PictureOptions {
   int bitDepth = 8;         ///< of PNG: 8 or 16
-  bool alpha = false;       ///< PNG with straight alpha; without it the picture over black
+  bool alpha = false;       ///< PNG with straight, EXR with premultiplied alpha; else over black
   float exposureScale = 1;  ///< times the colours before encoding to sRGB (PNG); finite, positive
-  /// Text chunks of a PNG: keyword (1 to 79 characters of Latin-1) and text (UTF-8).
+  /// Text chunks of a PNG, string attributes of an EXR: keyword (1 to 79 characters of ASCII, in
+  /// an EXR not one of the format's own) and text (UTF-8).
   std::vector<std::pair<std::string, std::string>> text;
 };
 
@@ -55,6 +56,7 @@ void checkPictureName(const std::string& path, const PictureOptions& options);
 /// Opens a picture of width x height pixels; the format is that of the path's ending:
 ///
 ///     .png  sRGB (perceptual), 8 or 16 bits, RGB or RGBA
+///     .exr  32-bit float, linear, without exposure, scan lines in ZIP blocks; needs a regular file
 ///     .pfm  "PF", 32-bit float, little-endian, linear, without exposure and alpha (the picture
 ///     over
 ///           black), bottom row first; needs a regular file

@@ -26,6 +26,16 @@ std::uint64_t samplesOf(int colourType) {
   }
 }
 
+std::string utf8OfLatin1(const std::string& latin) {
+  std::string utf8;
+  for (const char letter : latin) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code >= 0x80) utf8 += static_cast<char>(0xc0 | code >> 6);
+    utf8 += static_cast<char>(code < 0x80 ? code : 0x80 | (code & 0x3f));
+  }
+  return utf8;
+}
+
 }  // namespace
 
 bool isPng(std::span<const std::byte> bytes) {
@@ -59,6 +69,32 @@ PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
   width_ = static_cast<int>(header.width);
   height_ = static_cast<int>(header.height);
   bitDepth_ = header.bit_depth;
+  colourType_ = header.color_type;
+}
+
+bool PngReader::hasAlpha() const {
+  spng_trns transparent{};
+  return colourType_ == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA ||
+         colourType_ == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA ||
+         spng_get_trns(png_.get(), &transparent) == 0;
+}
+
+void PngReader::decodeOpaque(std::vector<std::uint8_t>& rgb) {
+  rgb.resize(std::size_t(3) * width_ * height_);
+  decodeTo(rgb.data(), rgb.size(), SPNG_FMT_RGB8);
+}
+
+std::map<std::string, std::string> PngReader::text() {
+  std::uint32_t count = 0;
+  if (spng_get_text(png_.get(), nullptr, &count) != 0) return {};
+  std::vector<spng_text> chunks(count);
+  check(spng_get_text(png_.get(), chunks.data(), &count));
+  std::map<std::string, std::string> text;
+  for (const spng_text& chunk : chunks) {
+    const std::string value(chunk.text, chunk.length);
+    text[utf8OfLatin1(chunk.keyword)] = chunk.type == SPNG_ITXT ? value : utf8OfLatin1(value);
+  }
+  return text;
 }
 
 void PngReader::decode(std::vector<std::uint8_t>& rgba) {

@@ -1,0 +1,89 @@
+#include "glint/image/stored_image.h"
+
+#include <cmath>
+
+#include "glint/image/srgb.h"
+
+namespace glint {
+namespace {
+
+/// Linear values of all 16-bit codes.
+const float* decodedWords() {
+  static const std::vector<float> table = [] {
+    std::vector<float> values(65536);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = decodeSrgb16(static_cast<std::uint16_t>(i));
+    }
+    return values;
+  }();
+  return table.data();
+}
+
+const float* decodedCodes(const std::uint8_t*) { return srgbDecoded.data(); }
+const float* decodedCodes(const std::uint16_t*) { return decodedWords(); }
+
+template <class Code>
+void codesToLinear(const Code* codes, int channels, std::size_t pixels, float* rgba) {
+  constexpr float maxCode = static_cast<Code>(-1);
+  const float* linear = decodedCodes(codes);
+  for (std::size_t i = 0; i < pixels; ++i, codes += channels, rgba += 4) {
+    const float alpha = channels == 4 ? codes[3] / maxCode : 1;
+    for (int c = 0; c < 3; ++c) rgba[c] = linear[codes[c]] * alpha;
+    rgba[3] = alpha;
+  }
+}
+
+template <class Code>
+void codesToValues(const Code* codes, int channels, std::size_t pixels, float* rgba) {
+  constexpr float maxCode = static_cast<Code>(-1);
+  for (std::size_t i = 0; i < pixels; ++i, codes += channels, rgba += 4) {
+    const bool seen = channels == 3 || codes[3] > 0;
+    for (int c = 0; c < 3; ++c) rgba[c] = seen ? codes[c] / maxCode : 0;
+    rgba[3] = channels == 4 ? codes[3] / maxCode : 1;
+  }
+}
+
+float srgbCurve(float linear) {
+  const double x = std::fabs(double(linear));
+  const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<float>(std::copysign(y, linear));
+}
+
+}  // namespace
+
+void StoredImage::linearRows(int first, int count, float* rgba) const {
+  const std::size_t begin = std::size_t(channels) * width * first;
+  const std::size_t pixels = std::size_t(width) * count;
+  if (const auto* bytes = std::get_if<0>(&values)) {
+    codesToLinear(bytes->data() + begin, channels, pixels, rgba);
+  } else if (const auto* words = std::get_if<1>(&values)) {
+    codesToLinear(words->data() + begin, channels, pixels, rgba);
+  } else {
+    const float* in = std::get<2>(values).data() + begin;
+    for (std::size_t i = 0; i < pixels; ++i, in += channels, rgba += 4) {
+      for (int c = 0; c < 3; ++c) rgba[c] = in[c];
+      rgba[3] = channels == 4 ? in[3] : 1;
+    }
+  }
+}
+
+void StoredImage::encodedRows(int first, int count, float* rgba) const {
+  const std::size_t begin = std::size_t(channels) * width * first;
+  const std::size_t pixels = std::size_t(width) * count;
+  if (const auto* bytes = std::get_if<0>(&values)) {
+    codesToValues(bytes->data() + begin, channels, pixels, rgba);
+  } else if (const auto* words = std::get_if<1>(&values)) {
+    codesToValues(words->data() + begin, channels, pixels, rgba);
+  } else {
+    linearRows(first, count, rgba);
+    for (std::size_t i = 0; i < pixels; ++i, rgba += 4) {
+      const float alpha = rgba[3];
+      for (int c = 0; c < 3; ++c) {
+        const float straight = alpha > 0 && alpha < 1 ? rgba[c] / alpha : rgba[c];
+        rgba[c] = alpha <= 0 && !std::isnan(straight) ? 0 : srgbCurve(straight);
+      }
+    }
+  }
+}
+
+}  // namespace glint

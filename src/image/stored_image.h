@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace glint {
+
+/// A picture as its file holds it, so that a large pair of 8-bit pictures needs no floats.
+///
+/// 8- and 16-bit codes are sRGB with straight alpha; floats are linear light, premultiplied by
+/// alpha. Rows from the top, channels interleaved.
+struct StoredImage {
+  int width = 0;
+  int height = 0;
+  int channels = 4;  ///< 3 (opaque) or 4
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
+  std::map<std::string, std::string> text = {};  ///< what the file says of the picture (UTF-8)
+
+  bool isEncoded() const { return values.index() < 2; }  ///< sRGB codes, not linear light
+  bool hasAlpha() const { return channels == 4; }
+
+  /// `count` rows from row `first` on, in linear light, RGBA premultiplied: 4 * width * count
+  /// floats. Codes are decoded to the nearest float.
+  void linearRows(int first, int count, float* rgba) const;
+
+  /// The same rows as sRGB values with straight alpha: codes divided by the largest one; linear
+  /// light through the sRGB curve, which is continued beyond [0, 1] by its own formula, odd about
+  /// 0. Where alpha is 0 or less the colour is 0.
+  void encodedRows(int first, int count, float* rgba) const;
+};
+
+/// Reads a picture; see readImage() for the formats and the errors.
+StoredImage readStoredImage(const std::string& path, const std::string& layer = "");
+StoredImage decodeStoredImage(std::span<const std::byte> bytes, const std::string& name,
+                              const std::string& layer = "");
+
+}  // namespace glint
