@@ -285,7 +285,7 @@ TEST(Formats, DamagedFilesAreSurvived) {
   const glint::Image image = numbered(20, 20, 0);
   const glint::ExrLayer layers[] = {{"", &image, "RGBA"}, {"z", &image, "Z"}};
   writeExr(in("fuzz.exr"), layers, {{"look", "x"}});
-  expectSurvived(glint::readFile(in("fuzz.exr")), 1, 2000);
+  expectSurvived(glint::readFile(in("fuzz.exr")), 1, 600);
   std::string row("\2\2\0\12", 4);
   for (int channel = 0; channel < 4; ++channel) row += "\x88\x80\2\x80\x80";
   expectSurvived(hdr("-Y 3 +X 10", row + row + row), 2, 2000);
