@@ -43,13 +43,13 @@ void codesToValues(const Code* codes, int channels, std::size_t pixels, float* r
   }
 }
 
-float srgbCurve(float linear) {
+}  // namespace
+
+float encodedValue(float linear) {
   const double x = std::fabs(double(linear));
   const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
   return static_cast<float>(std::copysign(y, linear));
 }
-
-}  // namespace
 
 void StoredImage::linearRows(int first, int count, float* rgba) const {
   const std::size_t begin = std::size_t(channels) * width * first;
@@ -80,7 +80,7 @@ void StoredImage::encodedRows(int first, int count, float* rgba) const {
       const float alpha = rgba[3];
       for (int c = 0; c < 3; ++c) {
         const float straight = alpha > 0 && alpha < 1 ? rgba[c] / alpha : rgba[c];
-        rgba[c] = alpha <= 0 && !std::isnan(straight) ? 0 : srgbCurve(straight);
+        rgba[c] = alpha <= 0 && !std::isnan(straight) ? 0 : encodedValue(straight);
       }
     }
   }

@@ -34,6 +34,9 @@ struct StoredImage {
   void encodedRows(int first, int count, float* rgba) const;
 };
 
+/// The sRGB curve, continued beyond [0, 1] by its own formula, odd about 0.
+float encodedValue(float linear);
+
 /// Reads a picture; see readImage() for the formats and the errors.
 StoredImage readStoredImage(const std::string& path, const std::string& layer = "");
 StoredImage decodeStoredImage(std::span<const std::byte> bytes, const std::string& name,

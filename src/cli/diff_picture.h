@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "glint/image/compare.h"
+
+namespace glint {
+
+enum class DifferenceKind { flip, absolute, sideBySide };
+
+/// Writes the rows of a FLIP map as a picture of its colours (Magma). The rows come in order.
+class FlipPicture {
+ public:
+  FlipPicture(const std::string& path, int width, int height);
+  ~FlipPicture();
+  void add(const float* errors);
+  void finish();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Writes |a - b| times `scale`, or a, b and that beside each other, of sRGB values over the
+/// background. Ignored pixels are grey.
+void writeDifference(const std::string& path, const StoredImage& a, const StoredImage& b,
+                     const CompareOptions& options, DifferenceKind kind, double scale);
+
+}  // namespace glint

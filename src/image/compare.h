@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glint/image/flip.h"
+#include "glint/image/image.h"
+#include "glint/image/stored_image.h"
+
+namespace glint {
+
+/// What a pixel's alpha means to a comparison.
+enum class AlphaUse {
+  straight,  ///< alpha is a fourth value; the colour where it is 0 does not count
+  over,      ///< the picture is laid over CompareOptions::background
+  ignored    ///< the straight colours alone
+};
+
+/// Which numbers are compared.
+enum class ValueSpace {
+  asStored,  ///< both pictures' own: sRGB codes in [0, 1], or linear light; Error if they differ
+  encoded,   ///< sRGB in [0, 1]
+  linear     ///< linear light
+};
+
+/// A rectangle of pixels, both corners included.
+struct PixelBox {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// A metric with the bound that decides: at most `threshold`, of "psnr" and "ssim" at least.
+struct Condition {
+  std::string metric;
+  double threshold = 0;
+};
+
+struct CompareOptions {
+  std::vector<Condition> conditions;
+  std::vector<std::string> metrics;  ///< to be computed beside those of the conditions
+  /// At most so many pixels may differ by more than `tolerance`: a number, or a share of all.
+  std::optional<double> maxPixels;
+  bool maxPixelsIsShare = false;
+  double tolerance = 0.1;           ///< of "pixels": [0, 1], distance of pixelmatch
+  bool ignoreAntiAliasing = false;  ///< pixels that look like anti-aliasing are not counted
+  AlphaUse alpha = AlphaUse::straight;
+  std::array<float, 3> background{};  ///< linear light, for AlphaUse::over and for FLIP
+  ValueSpace values = ValueSpace::asStored;
+  std::vector<PixelBox> ignored;
+  const StoredImage* mask = nullptr;  ///< of the same size; black (below half) is ignored
+  std::size_t worst = 10;             ///< how many of the worst pixels are kept
+  FlipOptions flip;
+  FlipRows
+      flipMap;  ///< takes the rows of the map of "flip", or of "hdr-flip" if only that is asked
+};
+
+struct WorstPixel {
+  int x = 0, y = 0;
+  std::array<float, 4> a{}, b{};  ///< the values compared
+  double difference = 0;          ///< the largest over the channels
+};
+
+/// The metrics' names, in the order in which they are reported:
+///
+///   max            largest absolute difference of a channel
+///   mean           mean absolute difference over channels and pixels
+///   rmse           root of the mean square difference
+///   relative-rmse  root of the mean of (a - b)^2 / (a^2 + 0.01), a the baseline
+///   psnr           -20 log10(rmse), dB; infinite for equal pictures
+///   pixels         pixels over the tolerance
+///   ssim           mean structural similarity of the luma (Wang, Bovik, Sheikh, Simoncelli 2004)
+///   flip           mean LDR-FLIP
+///   hdr-flip       mean HDR-FLIP
+const std::vector<std::string>& metricNames();
+/// Whether larger is better.
+bool isSimilarity(const std::string& metric);
+
+struct Comparison {
+  bool same = false;                  ///< all conditions hold; without any: the pictures are equal
+  std::vector<std::string> failures;  ///< one line for each condition that does not hold
+  std::map<std::string, double> values;  ///< by metric
+  FlipResult flip, hdrFlip;              ///< where asked for
+  std::size_t pixels = 0;                ///< that were compared
+  std::size_t ignoredPixels = 0;         ///< by boxes and mask
+  std::size_t differing = 0;             ///< pixels with any difference at all
+  std::size_t antiAliased = 0;           ///< over the tolerance, but left out as anti-aliasing
+  std::size_t nanA = 0, nanB = 0, infinityA = 0, infinityB = 0;  ///< pixels
+  ValueSpace space = ValueSpace::encoded;                        ///< of the values below
+  std::vector<WorstPixel> worst;                                 ///< descending
+
+  /// The worst pixels with both values, a line each.
+  std::string worstText() const;
+};
+
+/// Compares two pictures, A being the baseline. Values that are not finite are counted and left
+/// out of the metrics; they fail every comparison but the one that asks for equality (no
+/// condition), where the same NaN or infinity is equal.
+/// Throws InputError for different sizes, unknown metrics, and value spaces that do not match.
+Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOptions& options = {});
+/// The same for pictures in linear light.
+Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});
+
+}  // namespace glint

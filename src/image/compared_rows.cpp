@@ -1,0 +1,198 @@
+#include "glint/image/compared_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "glint/image/error.h"
+
+namespace glint::detail {
+
+ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
+                           const CompareOptions& options)
+    : a_(a), b_(b), options_(options), space_(options.values) {
+  const auto sizeOf = [](const StoredImage& image) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+  };
+  if (a.width != b.width || a.height != b.height) {
+    throw InputError("the sizes differ: " + sizeOf(a) + " and " + sizeOf(b) +
+                     " pixels: pictures of one size can be compared");
+  }
+  if (options.mask && (options.mask->width != a.width || options.mask->height != a.height)) {
+    throw InputError("the mask has " + sizeOf(*options.mask) + " pixels, the pictures " +
+                     sizeOf(a) + ": give a mask of their size");
+  }
+  if (space_ == ValueSpace::asStored) {
+    if (a.isEncoded() != b.isEncoded()) {
+      throw InputError(
+          "one picture is sRGB and the other linear light: say which values to compare (encoded or "
+          "linear)");
+    }
+    space_ = a.isEncoded() ? ValueSpace::encoded : ValueSpace::linear;
+  }
+  if (options.alpha == AlphaUse::straight && (a.hasAlpha() || b.hasAlpha())) channels_ = 4;
+  ignoresSome_ = options.mask || !options.ignored.empty();
+}
+
+void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha,
+                         float* rgba) const {
+  const bool over = alpha == AlphaUse::over && image.hasAlpha();
+  // Laying one picture over another is done in linear light.
+  if (space == ValueSpace::encoded && !over) {
+    image.encodedRows(y, 1, rgba);
+    return;
+  }
+  image.linearRows(y, 1, rgba);
+  for (int x = 0; x < image.width && image.hasAlpha(); ++x) {
+    float* p = rgba + 4 * x;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (over) {
+        p[c] += (1 - p[3]) * options_.background[c];
+      } else if (p[3] > 0 && p[3] < 1) {
+        p[c] /= p[3];
+      }
+    }
+    if (over) p[3] = 1;
+  }
+  if (space == ValueSpace::encoded) {
+    for (int i = 0; i < 4 * image.width; ++i)
+      if (i % 4 != 3) rgba[i] = encodedValue(rgba[i]);
+  }
+}
+
+void ComparedRows::pair(int y, ValueSpace space, AlphaUse alpha, float* a, float* b) const {
+  rowOf(a_, y, space, alpha, a);
+  rowOf(b_, y, space, alpha, b);
+  if (!ignoresSome_) return;
+  std::vector<unsigned char> counts(std::size_t(a_.width));
+  counted(y, counts.data());
+  for (std::size_t x = 0; x < counts.size(); ++x)
+    if (!counts[x]) std::memcpy(b + 4 * x, a + 4 * x, 4 * sizeof(float));
+}
+
+void ComparedRows::values(int y, float* a, float* b) const {
+  pair(y, space_, options_.alpha, a, b);
+}
+
+void ComparedRows::encoded(int y, float* a, float* b) const {
+  pair(y, ValueSpace::encoded,
+       options_.alpha == AlphaUse::ignored ? AlphaUse::ignored : AlphaUse::over, a, b);
+}
+
+void ComparedRows::counted(int y, unsigned char* row) const {
+  std::fill_n(row, a_.width, static_cast<unsigned char>(1));
+  for (const PixelBox& box : options_.ignored) {
+    if (y < box.top || y > box.bottom) continue;
+    for (int x = std::max(0, box.left); x <= std::min(a_.width - 1, box.right); ++x) row[x] = 0;
+  }
+  if (!options_.mask) return;
+  std::vector<float> mask(std::size_t(4) * a_.width);
+  options_.mask->encodedRows(y, 1, mask.data());
+  for (int x = 0; x < a_.width; ++x) {
+    const float* p = &mask[std::size_t(4) * x];
+    if (p[0] + p[1] + p[2] < 1.5f) row[x] = 0;
+  }
+}
+
+PixelRows ComparedRows::linearA() const {
+  const AlphaUse alpha = options_.alpha == AlphaUse::ignored ? AlphaUse::ignored : AlphaUse::over;
+  return {a_.width, a_.height, [this, alpha](int first, int count, float* rgba) {
+            for (int y = first; y < first + count; ++y, rgba += std::size_t(4) * a_.width)
+              rowOf(a_, y, ValueSpace::linear, alpha, rgba);
+          }};
+}
+
+PixelRows ComparedRows::linearB() const {
+  const AlphaUse alpha = options_.alpha == AlphaUse::ignored ? AlphaUse::ignored : AlphaUse::over;
+  return {a_.width, a_.height, [this, alpha](int first, int count, float* rgba) {
+            std::vector<float> other(ignoresSome_ ? std::size_t(4) * a_.width : 0);
+            for (int y = first; y < first + count; ++y, rgba += std::size_t(4) * a_.width) {
+              if (ignoresSome_) {
+                pair(y, ValueSpace::linear, alpha, other.data(), rgba);
+              } else {
+                rowOf(b_, y, ValueSpace::linear, alpha, rgba);
+              }
+            }
+          }};
+}
+
+namespace {
+
+/// Luma as the authors' program makes grey of colours.
+void lumaOf(const float* rgba, int width, double* luma) {
+  for (int x = 0; x < width; ++x) {
+    const float* p = rgba + 4 * x;
+    const double value = 0.2989 * p[0] + 0.5870 * p[1] + 0.1140 * p[2];
+    luma[x] = std::isfinite(value) ? value : 0;
+  }
+}
+
+std::vector<double> window(int side) {
+  const int size = std::min(11, side);
+  std::vector<double> weights;
+  double sum = 0;
+  for (int i = 0; i < size; ++i) {
+    const double x = i - (size - 1) / 2.0;
+    weights.push_back(std::exp(-x * x / (2 * 1.5 * 1.5)));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+}  // namespace
+
+double structuralSimilarity(const ComparedRows& rows) {
+  const int width = rows.width(), height = rows.height();
+  const std::vector<double> across = window(width), down = window(height);
+  const int outWidth = width - int(across.size()) + 1;
+  const int ring = int(down.size());
+  const std::size_t plane = std::size_t(outWidth), entry = 5 * plane;
+  std::vector<double> filtered(entry * std::size_t(ring)), sums(entry);
+  std::vector<double> products(5 * std::size_t(width));
+  std::vector<float> a(std::size_t(4) * width), b(a.size());
+  std::vector<unsigned char> counts(std::size_t(width), 1);
+  double total = 0;
+  std::size_t windows = 0;
+  for (int y = 0; y < height; ++y) {
+    rows.encoded(y, a.data(), b.data());
+    double* va = products.data();
+    double* vb = va + width;
+    lumaOf(a.data(), width, va);
+    lumaOf(b.data(), width, vb);
+    for (int x = 0; x < width; ++x) {
+      vb[width + x] = va[x] * va[x];
+      vb[2 * width + x] = vb[x] * vb[x];
+      vb[3 * width + x] = va[x] * vb[x];
+    }
+    double* out = filtered.data() + entry * std::size_t(y % ring);
+    std::fill_n(out, entry, 0.0);
+    for (std::size_t p = 0; p < 5; ++p)
+      for (std::size_t k = 0; k < across.size(); ++k)
+        for (std::size_t x = 0; x < plane; ++x)
+          out[p * plane + x] += across[k] * products[p * std::size_t(width) + x + k];
+    if (y + 1 < ring) continue;
+    std::fill(sums.begin(), sums.end(), 0.0);
+    for (int k = 0; k < ring; ++k) {
+      const double* row = filtered.data() + entry * std::size_t((y - ring + 1 + k) % ring);
+      for (std::size_t i = 0; i < entry; ++i) sums[i] += down[std::size_t(k)] * row[i];
+    }
+    if (rows.ignoresSome()) rows.counted(y - ring / 2, counts.data());
+    constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
+    double rowTotal = 0;
+    for (std::size_t x = 0; x < plane; ++x) {
+      if (!counts[x + across.size() / 2]) continue;
+      const double ma = sums[x], mb = sums[plane + x];
+      const double varianceA = sums[2 * plane + x] - ma * ma;
+      const double varianceB = sums[3 * plane + x] - mb * mb;
+      const double covariance = sums[4 * plane + x] - ma * mb;
+      rowTotal += (2 * ma * mb + c1) * (2 * covariance + c2) /
+                  ((ma * ma + mb * mb + c1) * (varianceA + varianceB + c2));
+      ++windows;
+    }
+    total += rowTotal;
+  }
+  return windows > 0 ? total / double(windows) : 1;
+}
+
+}  // namespace glint::detail

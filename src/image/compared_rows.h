@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "glint/image/compare.h"
+
+namespace glint::detail {
+
+/// Two pictures as a comparison sees them: with their alpha resolved, in the space asked for, and
+/// with what is to be ignored made equal to the baseline, so that it cannot reach its neighbours
+/// through a filter.
+class ComparedRows {
+ public:
+  ComparedRows(const StoredImage& a, const StoredImage& b, const CompareOptions& options);
+
+  int width() const { return a_.width; }
+  int height() const { return a_.height; }
+  int channels() const { return channels_; }  ///< that are compared: 3 or 4
+  ValueSpace space() const { return space_; }
+
+  /// Row y of both in the space asked for: 4 * width values each.
+  void values(int y, float* a, float* b) const;
+  /// In sRGB over the background (white where pixelmatch would), opaque.
+  void encoded(int y, float* a, float* b) const;
+  /// 1 for pixels that count, 0 for ignored ones.
+  void counted(int y, unsigned char* row) const;
+  bool ignoresSome() const { return ignoresSome_; }
+
+  /// Linear light over the background, for FLIP.
+  PixelRows linearA() const;
+  PixelRows linearB() const;
+
+ private:
+  void rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha, float* rgba) const;
+  void pair(int y, ValueSpace space, AlphaUse alpha, float* a, float* b) const;
+
+  const StoredImage& a_;
+  const StoredImage& b_;
+  const CompareOptions& options_;
+  ValueSpace space_;
+  int channels_ = 3;
+  bool ignoresSome_ = false;
+};
+
+/// Mean structural similarity (Wang et al. 2004): 11 x 11 Gaussian of 1.5 pixels, K1 = 0.01,
+/// K2 = 0.03, values of [0, 1], over the windows that lie in the picture; on a side below 11 the
+/// window is as wide as the picture. Windows about ignored pixels are left out.
+double structuralSimilarity(const ComparedRows& rows);
+
+/// Counts the pixels that differ by more than a tolerance, as pixelmatch does: the distance in YIQ
+/// (Kotsarenko and Ramos 2010), anti-aliasing by Vysniauskas (2009).
+struct PixelCount {
+  std::size_t over = 0, antiAliased = 0;
+};
+PixelCount countPixels(const ComparedRows& rows, double tolerance, bool ignoreAntiAliasing);
+
+}  // namespace glint::detail

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace glint::detail {
+
+/// Half of a symmetric filter, or of an antisymmetric one: weights at 0, 1, 2, ...; those of
+/// negative indices are equal, or of opposite sign.
+using HalfFilter = std::vector<float>;
+
+/// FLIP's filters for some number of pixels per degree. All are separable; the one of the
+/// blue-yellow channel is the sum of two.
+struct FlipFilters {
+  explicit FlipFilters(double pixelsPerDegree);
+
+  HalfFilter luminance, redGreen, blueYellow[2];  ///< contrast sensitivity
+  HalfFilter gaussian, edge, point;               ///< features; edge is antisymmetric
+  int radius = 0;                                 ///< of the largest
+};
+
+/// Planes of one picture, filtered along x.
+enum FlipPlane {
+  luminancePlane,
+  redGreenPlane,
+  blueYellowPlane0,
+  blueYellowPlane1,
+  gaussianPlane,
+  edgePlane,
+  pointPlane,
+  flipPlanes
+};
+
+/// Opponent colours of one row, luminance and chroma relative to white with `radius` more values
+/// on both sides that repeat the ends (and a few for whole vectors).
+struct FlipRow {
+  FlipRow(int width, int radius);
+  std::size_t stride;
+  std::vector<float> values;  ///< three channels of `stride`
+};
+
+/// Clamps a row of linear RGBA to [0, 1] and converts it.
+void flipConvertRow(const float* rgba, int width, int radius, FlipRow& row);
+
+/// Filters a converted row along x into `flipPlanes` planes of `stride` floats, of which whole
+/// vectors of 16 are written.
+void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int width, float* planes,
+                   std::size_t stride);
+
+/// Filters along y and compares. `reference` and `test` hold 2 * radius + 1 pointers to the planes
+/// of the rows around the wanted one. Writes `width` errors.
+void flipCompareRow(const FlipFilters& filters, const float* const* reference,
+                    const float* const* test, int width, std::size_t stride, float* errors);
+
+}  // namespace glint::detail
