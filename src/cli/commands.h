@@ -19,6 +19,7 @@ enum ExitStatus : int { done = 0, differs = 1, unusable = 2, noContext = 3, noBa
 using Command = std::function<int()>;
 Command addRender(CLI::App&);
 Command addView(CLI::App&);
+Command addDiff(CLI::App&);
 Command addInfo(CLI::App&);
 Command addBackends(CLI::App&);
 

@@ -21,11 +21,20 @@ std::string xmlText(const std::string& text) {
   std::string safe;
   for (const char letter : text) {
     switch (letter) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      default: safe += static_cast<unsigned char>(letter) < 0x20 && letter != '\n' ? '?' : letter;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += static_cast<unsigned char>(letter) < 0x20 && letter != '\n' ? '?' : letter;
     }
   }
   return safe;
@@ -122,7 +131,8 @@ std::string diffLine(const DiffEntry& entry) {
       if (found == r.values.end() || name == "mean" || name == "relative-rmse") continue;
       line += ", " + name + " " + shortNumber(found->second);
     }
-    line += ", " + std::to_string(r.differing) + " of " + std::to_string(r.pixels) + " pixels differ";
+    line +=
+        ", " + std::to_string(r.differing) + " of " + std::to_string(r.pixels) + " pixels differ";
   }
   if (!r.failures.empty()) line += " (" + failureText(entry) + ")";
   if (!r.worst.empty() && !r.same)

@@ -10,11 +10,11 @@ namespace glint {
 
 /// One pair of pictures and how it went.
 struct DiffEntry {
-  std::string name;    ///< of the pair; for a folder the path in it
-  std::string a, b;    ///< paths; empty if missing
-  int status = 0;      ///< an exit status
-  std::string error;   ///< why it could not be compared
-  std::string note;    ///< of drivers that differ
+  std::string name;   ///< of the pair; for a folder the path in it
+  std::string a, b;   ///< paths; empty if missing
+  int status = 0;     ///< an exit status
+  std::string error;  ///< why it could not be compared
+  std::string note;   ///< of drivers that differ
   Comparison result;
   int width = 0, height = 0;
   std::map<std::string, std::string> textA, textB;

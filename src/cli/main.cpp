@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   app.formatter(std::make_shared<glint::HelpFormatter>());
   std::pair<const char*, glint::Command> commands[] = {{"render", glint::addRender(app)},
                                                        {"view", glint::addView(app)},
+                                                       {"diff", glint::addDiff(app)},
                                                        {"info", glint::addInfo(app)},
                                                        {"backends", glint::addBackends(app)}};
   try {

@@ -1,0 +1,205 @@
+#include "diff_pair.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "diff_page.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/picture_writer.h"
+
+namespace glint {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file that goes when its user does.
+struct TemporaryPng {
+  std::string path;
+  TemporaryPng() {
+    std::string name = (fs::temp_directory_path() / "glint-XXXXXX.png").string();
+    const int file = ::mkstemps(name.data(), 4);
+    if (file < 0) throw InputError(name + ": cannot be made: set TMPDIR to a folder with room");
+    ::close(file);
+    path = name;
+  }
+  ~TemporaryPng() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+/// The picture as a browser can show it.
+std::vector<std::byte> pngOf(const std::string& path, const StoredImage& image) {
+  std::vector<std::byte> bytes = readFile(path);
+  constexpr unsigned char magic[4] = {0x89, 'P', 'N', 'G'};
+  if (bytes.size() > 4 &&
+      std::equal(magic, magic + 4, bytes.begin(),
+                 [](unsigned char m, std::byte b) { return std::byte(m) == b; }))
+    return bytes;
+  const TemporaryPng temporary;
+  PictureOptions options;
+  options.alpha = image.hasAlpha();
+  const auto writer = openPictureWriter(temporary.path, image.width, image.height, options);
+  Image row{image.width, 1, std::vector<float>(std::size_t(4) * image.width)};
+  for (int y = 0; y < image.height; ++y) {
+    image.linearRows(y, 1, row.values.data());
+    writer->write(row);
+  }
+  writer->finish();
+  return readFile(temporary.path);
+}
+
+void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
+  auto reading =
+      std::async(std::launch::async, [&] { return readStoredImage(entry.a, settings.layer); });
+  StoredImage b;
+  std::string errorB;
+  try {
+    b = readStoredImage(entry.b, settings.layer);
+  } catch (const InputError& error) {
+    errorB = error.what();
+  }
+  const StoredImage a = reading.get();
+  if (!errorB.empty()) throw InputError(errorB);
+  entry.width = a.width;
+  entry.height = a.height;
+  entry.textA = a.text;
+  entry.textB = b.text;
+  entry.note = driverNote(entry);
+  CompareOptions options = settings.compare;
+  if (settings.allMetrics) {
+    for (const std::string& name : metricNames())
+      if (name != "hdr-flip" || !(a.isEncoded() || b.isEncoded())) options.metrics.push_back(name);
+  }
+  const bool flipOutput = !settings.output.empty() && settings.difference == DifferenceKind::flip;
+  std::optional<TemporaryPng> map;
+  std::optional<FlipPicture> output;
+  if (pictures || flipOutput) {
+    // A picture that nobody can compare must not leave its file behind.
+    if (a.width == b.width && a.height == b.height) {
+      if (!flipOutput) map.emplace();
+      output.emplace(flipOutput ? settings.output : map->path, a.width, a.height);
+      options.metrics.push_back("flip");
+      options.flipMap = [&](int, const float* errors) { output->add(errors); };
+    }
+  }
+  entry.result = compare(a, b, options);
+  if (output) output->finish();
+  if (!settings.output.empty() && !flipOutput)
+    writeDifference(settings.output, a, b, options, settings.difference, settings.scale);
+  if (pictures) {
+    pictures->a = pngOf(entry.a, a);
+    if (entry.result.differing > 0) {
+      pictures->b = pngOf(entry.b, b);
+      pictures->map = readFile(flipOutput ? settings.output : map->path);
+    }
+  }
+  entry.status = entry.result.same ? done : differs;
+}
+
+}  // namespace
+
+void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    if (entry.b.empty()) {
+      entry.status = unusable;
+      entry.error = "missing: there is a baseline and no picture";
+      if (pictures) pictures->a = pngOf(entry.a, readStoredImage(entry.a, settings.layer));
+    } else if (entry.a.empty()) {
+      const StoredImage b = readStoredImage(entry.b, settings.layer);
+      entry.status = noBaseline;
+      entry.error = "no baseline: accept it with --update";
+      entry.textB = b.text;
+      if (pictures) pictures->b = pngOf(entry.b, b);
+    } else {
+      compareFiles(settings, entry, pictures);
+    }
+  } catch (const InputError& error) {
+    entry.status = unusable;
+    entry.error = error.what();
+  } catch (const std::bad_alloc&) {
+    entry.status = unusable;
+    entry.error = "out of memory: compare smaller pictures, or fewer at a time (--jobs)";
+  }
+  entry.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string driverBaseline(const std::string& folder, const DiffEntry& entry) {
+  const auto found = entry.textB.find("GL_RENDERER");
+  if (found == entry.textB.end()) return folder + "/" + entry.name;
+  std::string slug;
+  for (const char letter : found->second) {
+    const auto c = static_cast<unsigned char>(letter);
+    if (std::isalnum(c)) {
+      slug += static_cast<char>(std::tolower(c));
+    } else if (!slug.empty() && slug.back() != '-') {
+      slug += '-';
+    }
+  }
+  while (!slug.empty() && slug.back() == '-') slug.pop_back();
+  return folder + "/driver-" + slug.substr(0, 100) + "/" + entry.name;
+}
+
+void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
+  if (entry.b.empty()) return;
+  try {
+    entry.textB = readStoredImage(entry.b).text;
+  } catch (const InputError&) {
+    return;  // said when it is compared
+  }
+  const std::string path = driverBaseline(folder, entry);
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) entry.a = path;
+}
+
+namespace {
+
+std::string base64(const std::vector<std::byte>& bytes) {
+  static constexpr char letters[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(bytes.size() * 4 / 3 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? unsigned(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : letters[word >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string diffHtml(const nlohmann::ordered_json& json,
+                     const std::vector<PairPictures>& pictures) {
+  // "</script>" in a name must not end the data.
+  std::string data = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;)
+    data.replace(at, 1, "\\u003c");
+  std::string page(diffPageBegin);
+  page += "<script type=\"application/json\" id=\"data\">" + data + "</script>\n";
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const std::pair<const char*, const std::vector<std::byte>*> kinds[] = {
+        {"a", &pictures[i].a}, {"b", &pictures[i].b}, {"m", &pictures[i].map}};
+    for (const auto& [kind, bytes] : kinds)
+      if (!bytes->empty())
+        page += "<script type=\"text/plain\" id=\"" + std::string(kind) + std::to_string(i) +
+                "\">" + base64(*bytes) + "</script>\n";
+  }
+  return page + diffPageEnd;
+}
+
+}  // namespace glint
