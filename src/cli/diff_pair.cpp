@@ -12,10 +12,10 @@
 #include <optional>
 
 #include "commands.h"
-#include "diff_page.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
+#include "glint/image/report_page.h"
 
 namespace glint {
 namespace {
@@ -164,42 +164,20 @@ void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
   if (fs::exists(path, ignored)) entry.a = path;
 }
 
-namespace {
-
-std::string base64(const std::vector<std::byte>& bytes) {
-  static constexpr char letters[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? unsigned(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : letters[word >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
-}  // namespace
+extern const ReportPage diffPage;  // diff_page.html
 
 std::string diffHtml(const nlohmann::ordered_json& json,
                      const std::vector<PairPictures>& pictures) {
-  // "</script>" in a name must not end the data.
-  std::string data = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;)
-    data.replace(at, 1, "\\u003c");
-  std::string page(diffPageBegin);
-  page += "<script type=\"application/json\" id=\"data\">" + data + "</script>\n";
+  std::string page(diffPage.begin);
+  page += jsonElement("data",
+                      json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const std::pair<const char*, const std::vector<std::byte>*> kinds[] = {
         {"a", &pictures[i].a}, {"b", &pictures[i].b}, {"m", &pictures[i].map}};
     for (const auto& [kind, bytes] : kinds)
-      if (!bytes->empty())
-        page += "<script type=\"text/plain\" id=\"" + std::string(kind) + std::to_string(i) +
-                "\">" + base64(*bytes) + "</script>\n";
+      if (!bytes->empty()) page += base64Element(kind + std::to_string(i), *bytes);
   }
-  return page + diffPageEnd;
+  return page.append(diffPage.end);
 }
 
 }  // namespace glint

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace glint {
+
+/// A self-contained HTML page, in two parts between which its data go. glint_page() of the build
+/// makes one of a .html file, divided at its comment "<!-- DATA -->".
+struct ReportPage {
+  std::string_view begin, end;
+};
+
+/// A script element that holds JSON for the page's own script to read:
+/// JSON.parse(document.getElementById(id).textContent). No text in it can end the element.
+std::string jsonElement(std::string_view id, std::string json);
+
+/// The same for the bytes of a file, in base64.
+std::string base64Element(std::string_view id, std::span<const std::byte> bytes);
+
+}  // namespace glint
