@@ -1,0 +1,129 @@
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "glint/gl/context.h"
+#include "glint/image/error.h"
+#include "glint/study/stability_suite.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct StabilityOptions {
+  std::string backend = "auto", json, glsl, highlight, fresnel, schlickExponent;
+  stability::Selection selection;
+  bool list = false;
+};
+
+/// On a terminal, the case that is being run.
+class Ticker {
+ public:
+  Ticker() : terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Ticker() { clear(); }
+  void show(const std::string& text) {
+    if (terminal_) std::cerr << "\r" << text << "\033[K" << std::flush;
+  }
+  void clear() {
+    if (terminal_) std::cerr << "\r\033[K";
+  }
+
+ private:
+  bool terminal_;
+};
+
+Look formsOf(const StabilityOptions& options) {
+  Look forms;
+  const std::pair<const char*, const std::string*> given[] = {
+      {"highlight", &options.highlight},
+      {"fresnel", &options.fresnel},
+      {"schlick-exponent", &options.schlickExponent}};
+  for (const auto& [name, text] : given)
+    if (!text->empty()) stability::setParameter(forms, name, *text);
+  return forms;
+}
+
+int runStability(const StabilityOptions& options) {
+  if (options.list) {
+    std::cout << stability::listText(options.selection);
+    return done;
+  }
+  if (options.backend == "reference")
+    throw InputError(
+        "--rendering-backend reference: the suite tests a driver: give auto, egl, "
+        "egl-software or osmesa");
+  const Backend backend = backendFromName(options.backend);
+  options.selection.check();
+  const Look forms = formsOf(options);
+  GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
+
+  const auto context = openContext(backend);
+  context->makeCurrent();
+  if (!context->remark().empty()) printWarning(context->remark());
+  const GlStrings gl = glStrings();
+  const std::string highlight = stability::parameterText(forms, "highlight"),
+                    fresnel = stability::parameterText(forms, "fresnel");
+  std::vector<stability::CaseResult> results;
+  {
+    stability::Bench bench(forms, std::move(sources));
+    Ticker ticker;
+    results = stability::runCases(bench, options.selection, [&](const stability::Case& item) {
+      ticker.show(std::string(item.id) + "  " + std::string(item.input));
+    });
+  }
+  const bool passed = stability::allPassed(results);
+  if (options.json != "-")
+    std::cout << backendName(context->backend()) << ": " << gl.renderer << ", " << gl.version
+              << "\n--highlight " << highlight << " --fresnel " << fresnel << "\n"
+              << stability::summaryText(results);
+  if (!options.json.empty()) {
+    const Json report{
+        {"glint", GLINT_VERSION},
+        {"backend", backendName(context->backend())},
+        {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
+        {"highlight", highlight},
+        {"fresnel", fresnel},
+        {"passed", passed},
+        {"cases", stability::casesJson(results)}};
+    writeText(options.json, report.dump(2) + "\n");
+  }
+  return passed ? done : differs;
+}
+
+}  // namespace
+
+Command addStability(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("stability", "the hard numerical cases, on this machine's driver");
+  auto options = std::make_shared<StabilityOptions>();
+  const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
+    command->add_option(name, value, help)->type_name(type)->take_last();
+  };
+  text("--rendering-backend", options->backend, "auto|egl|egl-software|osmesa",
+       "whose driver to test [default: auto]");
+  text("--highlight", options->highlight, "FORM", "form of the lobe to test [default: exact]");
+  text("--fresnel", options->fresnel, "FORM", "form of the reflectance to test [default: exact]");
+  text("--schlick-exponent", options->schlickExponent, "X",
+       "exponent of Schlick's approximation [default: 5]");
+  command->add_option("--case", options->selection.ids, "run this case alone; repeatable")
+      ->type_name("ID")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--group", options->selection.groups, "run this group alone; repeatable")
+      ->type_name("X")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_flag("--list", options->list, "list the cases and run none");
+  text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
+  text("--glsl", options->glsl, "DIR", "take shader files from this folder where it has them");
+  return [options] { return runStability(*options); };
+}
+
+}  // namespace glint
