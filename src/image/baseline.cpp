@@ -66,8 +66,9 @@ BaselineResult compareWithBaseline(const Image& picture, const std::string& base
     madeFolder(fs::absolute(baseline).parent_path().string());
     writePicture(picture, baseline, options.file);
     result.status = BaselineStatus::updated;
-    result.message =
-        std::string(there ? "replaced" : "made") + " the baseline " + printablePath(baseline);
+    result.message = std::string(there ? "replaced" : "made") + " the baseline " +
+                     printablePath(baseline) +
+                     ": look at it, and run the test again without GLINT_UPDATE_BASELINES";
     return result;
   }
   if (!there) result.message = "no baseline " + printablePath(baseline) + "\n";

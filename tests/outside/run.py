@@ -69,7 +69,8 @@ run(*tests["teapot"], status=4)
 run(*tests["teapot"], GLINT_UPDATE_BASELINES="1")
 run(*tests["teapot"])
 check("no baseline" in run(*tests["unit.Missing"], status=1), "the matcher says so, too")
-check("made the baseline" not in run(*tests["unit.Missing"], GLINT_UPDATE_BASELINES="1"), "passes")
+said = run(*tests["unit.Missing"], status=1, GLINT_UPDATE_BASELINES="1")
+check("made the baseline made/unit.png" in said, "the matcher makes it: " + said)
 run(*tests["unit.Missing"])
 
 # A program that fails is no picture that differs.
