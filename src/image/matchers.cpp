@@ -17,10 +17,13 @@ bool PictureMatcher::MatchAndExplain(const Image& picture, std::ostream* listene
       for (const std::string& failure : result.failures)
         message += (message.empty() ? "" : "; ") + failure;
       message += "\n" + result.worstText();
+    } else if (!made_->empty()) {
+      message = *made_;
     } else {
       const BaselineResult result = compareWithBaseline(picture, baseline_, options_);
       same = result.status == BaselineStatus::same;
       message = result.message;
+      if (result.status == BaselineStatus::updated) *made_ = message;
     }
   } catch (const Error& error) {
     message = error.what();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ class PictureMatcher {
   Image expected_;        ///< if there is no baseline
   std::string baseline_;  ///< path
   BaselineOptions options_;
+  /// That a baseline has been made: GoogleTest asks once more for the explanation.
+  std::shared_ptr<std::string> made_ = std::make_shared<std::string>();
 };
 
 /// Values of both pictures are compared as they are, in linear light.
