@@ -173,14 +173,12 @@ class Browser:
         return result["result"].get("value")
 
     def wait_for(self, expression, seconds=10):
-        """Waits until an expression is true, and returns its value."""
+        """Waits until an expression is true (or an element, a text, a number but 0)."""
         until = time.monotonic() + seconds
-        while True:
-            value = self.evaluate(expression)
-            if value:
-                return value
+        while not self.evaluate("!!(%s)" % expression):
             if time.monotonic() > until:
-                raise BrowserError("not true in %g s: %s (now %r)" % (seconds, expression, value))
+                raise BrowserError("not true in %g s: %s (now %r)" %
+                                   (seconds, expression, self.evaluate(expression)))
             time.sleep(0.02)
 
     def box(self, selector):
