@@ -1,22 +1,31 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "commands.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/report_page.h"
+#include "glint/study/stability_plots.h"
+#include "glint/study/stability_profile.h"
 #include "glint/study/stability_suite.h"
 
 namespace glint {
+
+extern const ReportPage stabilityPage;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 struct StabilityOptions {
-  std::string backend = "auto", json, glsl, highlight, fresnel, schlickExponent;
+  std::string backend = "auto", json, glsl, output, highlight, fresnel, schlickExponent;
   stability::Selection selection;
   bool list = false;
 };
@@ -48,6 +57,24 @@ Look formsOf(const StabilityOptions& options) {
   return forms;
 }
 
+/// Writes FOLDER/stability.html, the page of a report with its plots in it.
+void writePage(const std::string& folder, const Json& report) {
+  const std::string path = (std::filesystem::path(folder) / "stability.html").string();
+  OutputFile file(path);
+  const std::string data = jsonElement("data", report.dump());
+  for (std::string_view part : {stabilityPage.begin, std::string_view(data), stabilityPage.end})
+    file.write(std::as_bytes(std::span(part)));
+  file.commit();
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw InputError("--output " + printablePath(folder) +
+                     ": cannot make this folder: give one that can be written");
+}
+
 int runStability(const StabilityOptions& options) {
   if (options.list) {
     std::cout << stability::listText(options.selection);
@@ -60,6 +87,7 @@ int runStability(const StabilityOptions& options) {
   const Backend backend = backendFromName(options.backend);
   options.selection.check();
   const Look forms = formsOf(options);
+  if (!options.output.empty()) makeFolder(options.output);
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 
   const auto context = openContext(backend);
@@ -69,28 +97,46 @@ int runStability(const StabilityOptions& options) {
   const std::string highlight = stability::parameterText(forms, "highlight"),
                     fresnel = stability::parameterText(forms, "fresnel");
   std::vector<stability::CaseResult> results;
+  std::vector<stability::Quality> profile;
+  Json plots = Json::array();
   {
     stability::Bench bench(forms, std::move(sources));
     Ticker ticker;
     results = stability::runCases(bench, options.selection, [&](const stability::Case& item) {
       ticker.show(std::string(item.id) + "  " + std::string(item.input));
     });
+    if (options.selection.isAll()) {
+      ticker.show("profile of the driver");
+      profile = stability::measureProfile(bench);
+    }
+    if (!options.output.empty()) {
+      ticker.show("plots");
+      plots = stability::plotsJson(bench);
+    }
   }
   const bool passed = stability::allPassed(results);
-  if (options.json != "-")
+  if (options.json != "-") {
     std::cout << backendName(context->backend()) << ": " << gl.renderer << ", " << gl.version
-              << "\n--highlight " << highlight << " --fresnel " << fresnel << "\n"
-              << stability::summaryText(results);
-  if (!options.json.empty()) {
-    const Json report{
-        {"glint", GLINT_VERSION},
-        {"backend", backendName(context->backend())},
-        {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
-        {"highlight", highlight},
-        {"fresnel", fresnel},
-        {"passed", passed},
-        {"cases", stability::casesJson(results)}};
-    writeText(options.json, report.dump(2) + "\n");
+              << "\n--highlight " << highlight << " --fresnel " << fresnel << "\n";
+    if (!profile.empty()) std::cout << stability::profileText(profile);
+    std::cout << stability::summaryText(results);
+  }
+  if (options.json.empty() && options.output.empty()) return passed ? done : differs;
+  Json report{{"glint", GLINT_VERSION},
+              {"backend", backendName(context->backend())},
+              {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
+              {"highlight", highlight},
+              {"fresnel", fresnel},
+              {"passed", passed},
+              {"groups", Json::object()},
+              {"cases", stability::casesJson(results)},
+              {"profile", stability::profileJson(profile)}};
+  for (const stability::Group& group : stability::groups())
+    report["groups"][std::string(1, group.letter)] = group.name;
+  if (!options.json.empty()) writeText(options.json, report.dump(2) + "\n");
+  if (!options.output.empty()) {
+    report["plots"] = plots;
+    writePage(options.output, report);
   }
   return passed ? done : differs;
 }
@@ -121,6 +167,8 @@ Command addStability(CLI::App& app) {
       ->allow_extra_args(false)
       ->take_all();
   command->add_flag("--list", options->list, "list the cases and run none");
+  text("--output", options->output, "DIR",
+       "write a page with plots of this driver into this folder: stability.html");
   text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
   text("--glsl", options->glsl, "DIR", "take shader files from this folder where it has them");
   return [options] { return runStability(*options); };

@@ -162,6 +162,15 @@ int Document::indices(const std::vector<std::uint32_t>& values) {
   return int(json["accessors"].size()) - 1;
 }
 
+int Document::shorts(const std::string& type, const std::vector<std::uint16_t>& values) {
+  const std::size_t components = std::size_t(type[3] - '0');
+  json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * 2)},
+                               {"componentType", 5123},
+                               {"type", type},
+                               {"count", values.size() / components}});
+  return int(json["accessors"].size()) - 1;
+}
+
 void Document::show(nlohmann::json primitive) {
   json["meshes"].push_back({{"primitives", {std::move(primitive)}}});
   json["nodes"].push_back({{"mesh", json["meshes"].size() - 1}});

@@ -66,6 +66,8 @@ class Document {
   /// An accessor of floats or of 32-bit indices with a buffer view of its own.
   int accessor(const std::string& type, const std::vector<float>& values);
   int indices(const std::vector<std::uint32_t>& values);
+  /// Of 16-bit numbers, as joints are.
+  int shorts(const std::string& type, const std::vector<std::uint16_t>& values);
   /// A mesh of that one primitive, and a node that shows it.
   void show(nlohmann::json primitive);
   /// One triangle in the plane z = 0, counter-clockwise from +Z, with these normals (9 floats) or
