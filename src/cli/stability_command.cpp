@@ -14,6 +14,7 @@
 #include "glint/image/report_page.h"
 #include "glint/study/stability_plots.h"
 #include "glint/study/stability_profile.h"
+#include "glint/study/stability_search.h"
 #include "glint/study/stability_suite.h"
 
 namespace glint {
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 struct StabilityOptions {
   std::string backend = "auto", json, glsl, output, highlight, fresnel, schlickExponent;
   stability::Selection selection;
+  double search = 0;
   bool list = false;
 };
 
@@ -98,6 +100,7 @@ int runStability(const StabilityOptions& options) {
                     fresnel = stability::parameterText(forms, "fresnel");
   std::vector<stability::CaseResult> results;
   std::vector<stability::Quality> profile;
+  std::optional<stability::SearchReport> search;
   Json plots = Json::array();
   {
     stability::Bench bench(forms, std::move(sources));
@@ -109,16 +112,22 @@ int runStability(const StabilityOptions& options) {
       ticker.show("profile of the driver");
       profile = stability::measureProfile(bench);
     }
+    if (options.search > 0) {
+      search = stability::searchNotFinite(bench, std::uint64_t(options.search), [&](double share) {
+        ticker.show("search " + std::to_string(int(100 * share)) + " %");
+      });
+    }
     if (!options.output.empty()) {
       ticker.show("plots");
       plots = stability::plotsJson(bench);
     }
   }
-  const bool passed = stability::allPassed(results);
+  const bool passed = stability::allPassed(results) && (!search || search->notFinite == 0);
   if (options.json != "-") {
     std::cout << backendName(context->backend()) << ": " << gl.renderer << ", " << gl.version
               << "\n--highlight " << highlight << " --fresnel " << fresnel << "\n";
     if (!profile.empty()) std::cout << stability::profileText(profile);
+    if (search) std::cout << stability::searchText(*search);
     std::cout << stability::summaryText(results);
   }
   if (options.json.empty() && options.output.empty()) return passed ? done : differs;
@@ -131,6 +140,7 @@ int runStability(const StabilityOptions& options) {
               {"groups", Json::object()},
               {"cases", stability::casesJson(results)},
               {"profile", stability::profileJson(profile)}};
+  if (search) report["search"] = stability::searchJson(*search);
   for (const stability::Group& group : stability::groups())
     report["groups"][std::string(1, group.letter)] = group.name;
   if (!options.json.empty()) writeText(options.json, report.dump(2) + "\n");
@@ -166,6 +176,14 @@ Command addStability(CLI::App& app) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
+  command
+      ->add_option("--search", options->search,
+                   "also put COUNT random points through every program and draw COUNT/10000 random "
+                   "scenes, half of them pathological: nothing may be NaN or infinite; 1e8 takes "
+                   "minutes")
+      ->type_name("COUNT")
+      ->check(CLI::Range(1.0, 1e12))
+      ->take_last();
   command->add_flag("--list", options->list, "list the cases and run none");
   text("--output", options->output, "DIR",
        "write a page with plots of this driver into this folder: stability.html");

@@ -155,7 +155,7 @@ void a9(Bench& bench, Record& record) {
     const LightValues values = formulaValues(n, l, v, 3);
     const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
     const std::string name(shadingName(shading));
-    const double lobe = usesBlinn(shading) ? values.blinn : values.phong;
+    const double lobe = isBlinn(shading) ? values.blinn : values.phong;
     const double expected = bench.lobeIsExact() ? lobe : truth.row(4)[17];
     record.near(name + ": highlight with N.V = " + numberText(glm::dot(n, v)), image.row(4)[17],
                 expected, 2 * lobeTolerance(12));

@@ -102,12 +102,12 @@ void expectLight(Bench& bench, Record& record, const std::string& what, double e
     const PointScene scene(look, litMaterial(1, 1, exponent));
     const std::vector<glm::vec3> got = bench.programs().shade(scene, points);
     const std::vector<glm::dvec3> truth = referenceShade(scene, points);
-    const double tolerance = usesBlinn(shading) ? tolerances.blinn : tolerances.phong;
+    const double tolerance = isBlinn(shading) ? tolerances.blinn : tolerances.phong;
     Worst diffuse, specular, reference;
     for (std::size_t i = 0; i < geometries.size(); ++i) {
       const std::string where = "N " + vectorText(geometries[i].n) + " L " +
                                 vectorText(geometries[i].l) + " P " + vectorText(geometries[i].p);
-      const double lobe = usesBlinn(shading) ? expected[i].blinn : expected[i].phong;
+      const double lobe = isBlinn(shading) ? expected[i].blinn : expected[i].phong;
       // Red carries the highlight too: its rounding counts against the diffuse part.
       diffuse.add(double(got[i].x) - got[i].y, expected[i].diffuse,
                   tolerances.diffuse + 2 * rounding * lobe, where);

@@ -76,7 +76,7 @@ void setParameter(Look&, std::string_view name, const std::string& text);
 inline constexpr Shading everyShading[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                            Shading::blinnPhong, Shading::environment};
 
-inline bool usesBlinn(Shading s) { return s == Shading::blinnPhong || s == Shading::environment; }
+inline bool isBlinn(Shading s) { return s == Shading::blinnPhong || s == Shading::environment; }
 
 /// Red, so that red less green is diffuse and green is specular; ior 1, so that the program
 /// `environment` reflects nothing.

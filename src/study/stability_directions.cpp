@@ -124,7 +124,7 @@ void c5(Bench& bench, Record& record) {
       Worst worst;
       for (std::size_t i = 0; i < all.size(); ++i)
         worst.add(got[i].y, exact ? 1.0 : truth[i].y,
-                  usesBlinn(shading) ? tolerances.blinn : tolerances.phong,
+                  isBlinn(shading) ? tolerances.blinn : tolerances.phong,
                   "N " + vectorText(all[i].n) + " L " + vectorText(all[i].l));
       worst.into(record, std::string(shadingName(shading)) + ": V = R, " + alphaText(alpha));
     }
@@ -217,6 +217,23 @@ void c12(Bench& bench, Record& record) {
     expectLight(bench, record, "point light at a distance of " + numberText(distance), 10, all,
                 {{0.8, std::pow(0.8, 10), std::pow(h, 40)}}, tolerancesFor(10), Light::Type::point);
   }
+  // A spot at the same distances, whose cone of 90 degrees the place is inside.
+  for (float distance : {1e-30f, 1e30f})
+    for (Shading shading : {Shading::phong, Shading::gouraud}) {
+      Look spotLook = bench.look(shading);
+      Light spot;
+      spot.type = Light::Type::spot;
+      spot.direction = {0, 0, -1};
+      spot.innerAngle = 89;
+      spot.outerAngle = 90;
+      spotLook.light = {spot};
+      Points points;
+      points.add({0, 0, 1}, {0, 0, 0}, glm::vec3(0.6f, 0, 0.8f) * distance);
+      const PointScene scene(spotLook, litMaterial(1, 0, 1));
+      record.near(
+          std::string(shadingName(shading)) + ": spot at a distance of " + numberText(distance),
+          bench.programs().shade(scene, points)[0].x, 0.8, diffuseTolerance);
+    }
   // As the renderer places it, from a light 1e30 away in the world.
   Look look = bench.look(Shading::phong);
   Light light;
@@ -262,7 +279,7 @@ void c15(Bench& bench, Record& record) {
     const LightValues v = formulaValues(
         safeNormalize(shading == Shading::flat ? glm::dvec3(0, 0, 1) : glm::dvec3(0.2, 0.1, 1)),
         safeNormalize({0.3, 0.2, 1}), {0, 0, 1}, 30);
-    const double lobe = usesBlinn(shading) ? v.blinn : v.phong;
+    const double lobe = isBlinn(shading) ? v.blinn : v.phong;
     for (int at : {0, 31, 63}) {
       const double value = bench.lobeIsExact() ? 0.5 * lobe : truth.values[std::size_t(at) * 4 + 1];
       record.near(

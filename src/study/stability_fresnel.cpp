@@ -161,6 +161,19 @@ void k7(Bench& bench, Record& record) {
 void k8(Bench& bench, Record& record) {
   for (const auto& [a, b] : pairs)
     expectReflectance(bench, record, a, b, {-0.2f, -1, -1e-6f}, {1, 1, 1}, fresnelTolerance);
+  // A metal's normal turned away: in a white room it is white, not brighter.
+  Look look = bench.look(Shading::environment);
+  look.noLights = true;
+  Material metal;
+  metal.shading = {0, 0, 0, 1, 1, 1.5, glm::dvec3(0.5, 0.25, 0)};
+  Points points;
+  points.add({0, 0, 1}, {0.6f, 0, 0.8f});
+  const PointScene scene(look, metal);
+  const glm::vec3 got = bench.programs().shade(scene, points)[0];
+  for (int i = 0; i < 3; ++i) {
+    record.near("a metal at cosine -0.8, component " + std::to_string(i), got[i], 1, 1e-6);
+    record.near("the reference's", referenceShade(scene, points)[0][i], 1, 1e-12);
+  }
 }
 
 void k9(Bench& bench, Record& record) {
@@ -173,7 +186,32 @@ void k9(Bench& bench, Record& record) {
   }
 }
 
+/// Refraction along the surface, seen in an environment that depends on the direction.
+void expectFiniteRefraction(Bench& bench, Record& record, double ior) {
+  Look look = bench.look(Shading::environment);
+  look.environment = Environment::sky;
+  look.noLights = true;
+  look.twoSided = true;
+  Material clear;
+  clear.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
+  clear.transmission = 1;
+  Points points;
+  points.front = false;
+  const double critical = criticalCosine(ior, 1);
+  for (int i = -200; i <= 200; ++i) {
+    const double c = critical * (1 + 3e-8 * i);
+    points.add({0, 0, -1}, glm::vec3(std::sqrt((1 - c) * (1 + c)), 0, -c));
+  }
+  int wrong = 0;
+  for (const glm::vec3& c : bench.programs().shade({look, clear}, points))
+    wrong += !(c.x >= 0 && c.x <= 10 && c.y >= 0 && c.y <= 10 && c.z >= 0 && c.z <= 10);
+  record.near("radiances around the critical angle of " + numberText(ior) +
+                  " in the sky that are not finite",
+              wrong, 0, 0);
+}
+
 void k10(Bench& bench, Record& record) {
+  for (double n : {1.1, 1.5, 2.4}) expectFiniteRefraction(bench, record, n);
   for (double n : {1.33, 1.5, 2.4, 4.0}) {
     const float critical = float(criticalCosine(n, 1));
     const std::vector<float> cosines{stepFloat(critical, -1), critical, stepFloat(critical, 1)};
@@ -205,7 +243,28 @@ std::vector<glm::vec3> throughFromInside(Bench& bench, double ior,
   return bench.programs().shade(scene, points);
 }
 
+/// Half a metal in total reflection: what is not reflected is not refracted either.
+void expectNoRefraction(Bench& bench, Record& record) {
+  Look look = bench.look(Shading::environment);
+  look.noLights = true;
+  look.twoSided = true;
+  Material half;
+  half.shading = {0, 0, 0, 1, 0.5, 1.5, glm::dvec3(0.5)};
+  half.transmission = 1;
+  Points points;
+  points.front = false;
+  const double c = 0.5;
+  points.add({0, 0, -1}, glm::vec3(std::sqrt(1 - c * c), 0, -c));
+  const PointScene scene(look, half);
+  // 1/2 of 1, and 1/2 of C + (1 - C)(1 - c)^5.
+  const double expected = 0.5 + 0.5 * (0.5 + 0.5 * std::pow(0.5, 5));
+  record.near("half a metal in total reflection", bench.programs().shade(scene, points)[0].x,
+              expected, 1e-6);
+  record.near("the reference's", referenceShade(scene, points)[0].x, expected, 1e-7);
+}
+
 void k11(Bench& bench, Record& record) {
+  expectNoRefraction(bench, record);
   for (double n : {1.33, 1.5, 2.4}) {
     const double critical = criticalCosine(n, 1);
     const std::vector<float> beyond{0, float(critical * 0.5), float(critical * 0.999)};

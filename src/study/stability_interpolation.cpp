@@ -141,6 +141,19 @@ void i6(Bench& bench, Record& record) {
     const Image derivatives = bench.draw(sceneOf(faceless, paint, world), look);
     record.alike(mirrored ? "a mirrored ball" : "a ball", derivatives, flat, 1e-3);
   }
+  // Where a pixel is 1e-10 of the distance, the cross product's square leaves the range.
+  Look look = bench.look();
+  look.cameraPosition = glm::dvec3(0, 0, 1e7);
+  look.cameraFocalPoint = glm::dvec3(0);
+  look.cameraViewAngle = 1e-5;
+  look.resolution = {2048, 2048};
+  look.light = {directional({0, 0.6, 0.8})};
+  Mesh plane = square({0, 0, 1}, 0.01f);
+  for (glm::vec3& n : plane.normals) n = glm::vec3(0);
+  plane.normalsMayCancel = true;
+  const Image image = bench.draw(sceneOf(plane, litMaterial(1, 0, 1)), look);
+  // Positions of 1e-7 in units of the distance: their differences keep 12 bits.
+  record.near("in a view of 1e-5 degrees", image.row(1024)[4 * 1024], 0.8, 2e-3);
 }
 
 void i7(Bench& bench, Record& record) {

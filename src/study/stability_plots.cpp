@@ -246,8 +246,8 @@ void fresnelPlots(Bench& bench, Json& plots) {
   }
 
   Json equal = plotJson("Largest error as n2/n1 nears 1",
-                        "Over 2000 cosines from 1e-6 to 1. From the denser side dotted forms lose "
-                        "everything; the cancellation-free form keeps 1e-6.",
+                        "Over 2000 cosines from 1e-6 to 1. From the denser side the textbook's "
+                        "form loses everything; the form without cancellation keeps 1e-6.",
                         "|n2 − n1| / n1", true, "largest error of R", true);
   std::map<std::string, std::vector<std::pair<double, double>>> lines;
   for (double d = std::exp2(-23); d < 1; d *= 2) {

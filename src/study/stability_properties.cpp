@@ -40,7 +40,7 @@ void p1(Bench& bench, Record& record) {
       // Both neighbours may be off by the rounding of D.
       record.within(std::string(shadingName(shading)) +
                         ": largest rise away from the peak, exponent " + numberText(alpha),
-                    rise, 0, 2 * lobeTolerance(usesBlinn(shading) ? 4 * alpha : alpha));
+                    rise, 0, 2 * lobeTolerance(isBlinn(shading) ? 4 * alpha : alpha));
     }
 }
 
@@ -264,7 +264,7 @@ void p10(Bench& bench, Record& record) {
   const SearchRange turn{0, 1, {0.25f, 0.5f}};
   for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
     for (double alpha : {20.0, 1e3, 1e5}) {
-      const bool blinn = usesBlinn(shading);
+      const bool blinn = isBlinn(shading);
       const PointScene scene(highlightLook(bench, shading), litMaterial(0, 1, alpha));
       const double bound = blinn ? 2 * lobeTolerance(4 * alpha) : lobeTolerance(alpha);
       expectHunted(
@@ -309,6 +309,80 @@ void p10(Bench& bench, Record& record) {
   }
 }
 
+void p11(Bench& bench, Record& record) {
+  // A cone from 20 to 30 degrees; the light 1 above the plane, at angles off its axis.
+  for (Shading shading : everyShading)
+    for (double angle : {0.0, 10.0, 19.9, 25.0, 30.1, 60.0, 90.0, 120.0, 180.0}) {
+      Look look = bench.look(shading);
+      Light spot;
+      spot.type = Light::Type::spot;
+      spot.direction = {std::sin(angle * degrees), 0, -std::cos(angle * degrees)};
+      spot.innerAngle = 20;
+      spot.outerAngle = 30;
+      look.light = {spot};
+      Points points;
+      points.add({0, 0, 1}, {0, 0, -1}, {0, 0, 0});
+      const PointScene scene(look, litMaterial(1, 0, 1));
+      const double inner = std::cos(20 * degrees), outer = std::cos(30 * degrees);
+      const double ramp =
+          std::clamp((std::cos(angle * degrees) - outer) / (inner - outer), 0.0, 1.0);
+      const std::string what = ": " + numberText(angle) + " degrees off a spot's axis";
+      const std::string name(shadingName(shading));
+      // The cosine's rounding over the ramp's width of 0.074, twice for the square.
+      record.near(name + what, bench.programs().shade(scene, points)[0].x, ramp * ramp, 8e-6);
+      record.near(name + " in the reference" + what, referenceShade(scene, points)[0].x,
+                  ramp * ramp, 1e-6);
+    }
+}
+
+void p12(Bench& bench, Record& record) {
+  for (Shading shading : everyShading)
+    for (double alpha : {0.25, std::nextafter(0.5f, 0.f) * 1.0, 0.5, 1.0}) {
+      Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
+      look.ambientLight = glm::dvec3(1);
+      look.noLights = true;
+      Material material = litMaterial(0, 0, 1);
+      material.shading.ambient = 1;
+      material.alphaMode = AlphaMode::mask;
+      material.alphaCutoff = 0.5;
+      material.alpha = alpha;
+      const Scene scene = sceneOf(square(), material);
+      const std::string what = std::string(shadingName(shading)) + ": alpha " + numberText(alpha);
+      record.near(what, bench.draw(scene, look).row(1)[4], alpha >= 0.5 ? 1 : 0, 0);
+      record.near(what + " in the reference", bench.reference(scene, look).row(1)[4],
+                  alpha >= 0.5 ? 1 : 0, 0);
+    }
+}
+
+void p13(Bench& bench, Record& record) {
+  // Grazing and near the critical angle, where R is next to 1 and rounds.
+  double low = 1, high = 0;
+  Random random(67);
+  for (int k = 0; k < 60; ++k) {
+    const double n = 1 + std::pow(10, random.between(-7, 2.9));
+    for (bool denser : {false, true}) {
+      Look look = bench.look(Shading::environment);
+      look.noLights = true;
+      look.mediumIor = denser ? n : 1;
+      Material material;
+      material.shading = {0, 0, 0, 1, 0, denser ? 1 : n, glm::dvec3(1)};
+      std::vector<float> cosines{0, 1};
+      const double critical = criticalCosine(n, 1);
+      for (int i = 0; i < 1000; ++i) {
+        cosines.push_back(float(std::exp(-24 * random.unit())));
+        cosines.push_back(float(std::min(critical * (1 + std::exp(-17 * random.unit())), 1.0)));
+        cosines.push_back(float(random.unit()));
+      }
+      for (float r : bench.programs().reflectance({look, material}, cosines, true)) {
+        low = r >= low ? low : r;
+        high = r <= high ? high : r;
+      }
+    }
+  }
+  record.within("lowest of 360000", low, 0, 1);
+  record.within("highest", high, 0.9, 1);
+}
+
 const Case cases[] = {
     {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
      "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
@@ -330,6 +404,13 @@ const Case cases[] = {
     {"P10", "worst geometry of the highlight of whole programs, hunted", "within its bound",
      "1e-6 + 4e-7 sqrt(exponent), twice with 4 exponent for Blinn-Phong",
      "bounds are proven on paper only", "", p10},
+    {"P11", "a spot's cone from its axis to its back", "full inside, glTF's ramp, none outside",
+     "8e-6: the cosine's rounding over the ramp's width", "the square of a negative ramp lights",
+     "", p11},
+    {"P12", "alpha around the cutoff of a mask", "there from the cutoff on", "exact",
+     "masked parts", "", p12},
+    {"P13", "360000 cosines and indices, crowded against grazing and the critical angle",
+     "R in [0, 1]", "exact", "T = 1 - R is negative otherwise", "", p13},
 };
 
 }  // namespace

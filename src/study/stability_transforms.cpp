@@ -76,7 +76,7 @@ void expectFormula(Bench& bench, Record& record, const std::string& what, const 
     scene.materials[0].doubleSided = true;
     const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
     const std::string name = std::string(shadingName(shading)) + ", " + what;
-    const double lobe = usesBlinn(shading) ? values.blinn : values.phong;
+    const double lobe = isBlinn(shading) ? values.blinn : values.phong;
     record.near(name + ": highlight", image.row(1)[5],
                 bench.lobeIsExact() ? 0.4 * lobe : truth.row(1)[5], tolerance);
     record.near(name + ": diffuse", image.row(1)[4] - image.row(1)[5], 0.6 * values.diffuse,
@@ -148,6 +148,15 @@ void b4(Bench& bench, Record& record) { expectScale(bench, record, 1e-20); }
 void b5(Bench& bench, Record& record) { expectScale(bench, record, 1e20); }
 
 void b6(Bench& bench, Record& record) {
+  // All but flat: the normal along the surface is 1e-25 long before it is made unit.
+  for (Shading shading : {Shading::gouraud, Shading::phong}) {
+    Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
+    look.light = {directional({0.6, 0, 0.8})};
+    const Image image = bench.draw(
+        sceneOf(square({1, 0, 0}, 20), litMaterial(1, 0, 1), scaling({1, 1, 1e-25})), look);
+    record.near(std::string(shadingName(shading)) + ", scale (1, 1, 1e-25): diffuse",
+                image.row(1)[4], 0.6, diffuseTolerance);
+  }
   Material material = paint();
   material.doubleSided = true;
   material.shading.ior = 1;
@@ -161,7 +170,7 @@ void b6(Bench& bench, Record& record) {
       if (scale != glm::dvec3(1, 1, 0) || shading == Shading::flat) continue;
       // Flattened onto z = 0, the ball has that plane's normal on its front.
       const LightValues values = formulaValues({0, 0, 1}, {0, 0.6, 0.8}, {0, 0, 1}, 30);
-      const double lobe = usesBlinn(shading) ? values.blinn : values.phong;
+      const double lobe = isBlinn(shading) ? values.blinn : values.phong;
       if (!bench.lobeIsExact()) continue;
       record.near(name + ": red near the middle", image.row(13)[18 * 4],
                   0.9 * (0.5 * 0.25 + 0.7 * 0.8) + 0.4 * lobe,
