@@ -1,4 +1,3 @@
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "glint/study/stability_profile.h"
 #include "glint/study/stability_search.h"
 #include "glint/study/stability_suite.h"
+#include "progress.h"
 
 namespace glint {
 
@@ -30,22 +30,6 @@ struct StabilityOptions {
   stability::Selection selection;
   double search = 0;
   bool list = false;
-};
-
-/// On a terminal, the case that is being run.
-class Ticker {
- public:
-  Ticker() : terminal_(isatty(STDERR_FILENO) != 0) {}
-  ~Ticker() { clear(); }
-  void show(const std::string& text) {
-    if (terminal_) std::cerr << "\r" << text << "\033[K" << std::flush;
-  }
-  void clear() {
-    if (terminal_) std::cerr << "\r\033[K";
-  }
-
- private:
-  bool terminal_;
 };
 
 Look formsOf(const StabilityOptions& options) {
@@ -104,21 +88,21 @@ int runStability(const StabilityOptions& options) {
   Json plots = Json::array();
   {
     stability::Bench bench(forms, std::move(sources));
-    Ticker ticker;
-    results = stability::runCases(bench, options.selection, [&](const stability::Case& item) {
-      ticker.show(std::string(item.id) + "  " + std::string(item.input));
-    });
+    Progress progress("stability");
+    results = stability::runCases(
+        bench, options.selection, [&](double share, const stability::Case& item) {
+          progress.show(share, std::string(item.id) + "  " + std::string(item.input));
+        });
     if (options.selection.isAll()) {
-      ticker.show("profile of the driver");
+      progress.show(1, "profile of the driver");
       profile = stability::measureProfile(bench);
     }
     if (options.search > 0) {
-      search = stability::searchNotFinite(bench, std::uint64_t(options.search), [&](double share) {
-        ticker.show("search " + std::to_string(int(100 * share)) + " %");
-      });
+      search = stability::searchNotFinite(bench, std::uint64_t(options.search),
+                                          [&](double share) { progress.show(share, "search"); });
     }
     if (!options.output.empty()) {
-      ticker.show("plots");
+      progress.show(1, "plots");
       plots = stability::plotsJson(bench);
     }
   }

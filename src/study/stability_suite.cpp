@@ -92,13 +92,16 @@ void Selection::check() const {
 }
 
 std::vector<CaseResult> runCases(Bench& bench, const Selection& selection,
-                                 const std::function<void(const Case&)>& before) {
+                                 const std::function<void(double share, const Case&)>& before) {
   selection.check();
   std::vector<CaseResult> results;
+  std::size_t count = 0;
+  for (const Group& group : groups())
+    for (const Case& item : group.cases) count += selection.has(group, item);
   for (const Group& group : groups())
     for (const Case& item : group.cases) {
       if (!selection.has(group, item)) continue;
-      if (before) before(item);
+      if (before) before(double(results.size()) / double(count), item);
       CaseResult result{&group, &item, {}, {}, 0};
       const auto start = std::chrono::steady_clock::now();
       Record record;

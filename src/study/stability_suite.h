@@ -31,9 +31,9 @@ struct Selection {
   bool isAll() const { return ids.empty() && groups.empty(); }
 };
 
-/// Runs the cases in their order; `before` is told of each.
+/// Runs the cases in their order; `before` is told of each, and the share that is done.
 std::vector<CaseResult> runCases(Bench&, const Selection&,
-                                 const std::function<void(const Case&)>& before = {});
+                                 const std::function<void(double share, const Case&)>& before = {});
 
 /// The table of cases, one line each.
 std::string listText(const Selection&);
