@@ -25,11 +25,6 @@ FileState stateOfFolder(const fs::path& folder) {
   return all;
 }
 
-std::string readText(const fs::path& path) {
-  const auto bytes = readFile(path.string());
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
 void App::attempt(const std::function<void()>& action) {
@@ -87,7 +82,7 @@ void App::watch() {
       lookState_ = now;
       attempt([&] {
         Look look;
-        readLook(look, readText(session_.lookPath), session_.lookPath.string());
+        readLookFile(look, session_.lookPath.string());
         session_.document.a = look;
         session_.saved = look;
         session_.say("read " + session_.lookPath.string() + " again");
@@ -122,7 +117,7 @@ void App::open(const std::string& path) {
   if (file.extension() == ".json" || file.extension() == ".look") {
     attempt([&] {
       Look look;
-      readLook(look, readText(file), path);
+      readLookFile(look, path);
       if (session_.model) checkMaterialNames(session_.model->scene, look);
       session_.document.a = look;
       session_.saved = look;
@@ -171,7 +166,7 @@ void App::savePictureTo(const std::string& path, bool sure) {
     return;
   }
   attempt([&] {
-    writePicture(fullPicture(), path);
+    writePicture(fullPicture(), session_.model ? session_.model->path.string() : "", path);
     session_.say("saved the picture as " + path);
   });
 }

@@ -6,6 +6,8 @@
 #include "glint/gl/check.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
+#include "glint/render/picture_text.h"
+#include "glint/scene/model_hash.h"
 
 namespace glint {
 
@@ -48,8 +50,9 @@ DrawnPicture drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& boun
   return drawn;
 }
 
-void writePicture(const DrawnPicture& picture, const std::string& path) {
+void writePicture(const DrawnPicture& picture, const std::string& model, const std::string& path) {
   PictureOptions options;
+  options.text = pictureText(picture.look, picture.look, {modelHash(model), glStrings(), 8, {}});
   options.alpha = picture.look.noBackground;
   options.exposureScale = float(std::exp2(picture.look.exposure));
   const auto writer = openPictureWriter(path, picture.linear.width, picture.linear.height, options);

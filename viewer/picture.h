@@ -25,7 +25,7 @@ struct DrawnPicture {
 DrawnPicture drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&);
 
 /// Writes the picture as `glint render` would. Throws InputError.
-void writePicture(const DrawnPicture&, const std::string& path);
+void writePicture(const DrawnPicture&, const std::string& model, const std::string& path);
 
 /// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.
 class Screen {
