@@ -26,13 +26,15 @@ constexpr ImU32 pColor = IM_COL32(225, 120, 190, 255);
 /// Axes on a rectangle of the panel.
 class Plot {
  public:
-  Plot(glm::dvec2 low, glm::dvec2 high, float height) : low_(low), high_(high) {
+  /// `margin` is that of the labels at the left, in lines of text.
+  Plot(glm::dvec2 low, glm::dvec2 high, float height, float margin = 2.2f)
+      : low_(low), high_(high) {
     const float text = ImGui::GetTextLineHeight();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::Dummy(ImVec2(width, height * style().scale));
     hovered_ = ImGui::IsItemHovered();
-    begin_ = ImVec2(corner.x + 2.2f * text, corner.y + 0.4f * text);
+    begin_ = ImVec2(corner.x + margin * text, corner.y + 0.4f * text);
     end_ = ImVec2(corner.x + width - 0.6f * text, corner.y + height * style().scale - 1.3f * text);
     draw_ = ImGui::GetWindowDrawList();
     draw_->AddRectFilled(begin_, end_, ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -108,7 +110,7 @@ double yAt(const Curve& curve, double x) {
 // What the chosen form adds to the exact one, on a scale of its own.
 void differencePlot(const Curve& chosen, const Curve& exact, double largest,
                     std::initializer_list<double> ticks) {
-  if (!(largest > 0)) {
+  if (!(largest > 1e-13)) {  // rounding in double
     ImGui::TextDisabled("the chosen form is the exact one");
     return;
   }
@@ -116,7 +118,7 @@ void differencePlot(const Curve& chosen, const Curve& exact, double largest,
   const double power = std::pow(10.0, std::floor(std::log10(largest)));
   const double tick = largest >= 5 * power ? 5 * power : largest >= 2 * power ? 2 * power : power;
   const auto first = exact.points.front().x, last = exact.points.back().x;
-  const Plot axes({first, -1.1 * largest}, {last, 1.1 * largest}, 74);
+  const Plot axes({first, -1.1 * largest}, {last, 1.1 * largest}, 74, 3.3f);
   char text[32];
   for (const double x : ticks) {
     std::snprintf(text, sizeof text, "%.0f", x);
