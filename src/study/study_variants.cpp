@@ -14,16 +14,6 @@ const Parameter& parameterOf(const std::string& name) {
   throw Error("no parameter '" + name + "'");
 }
 
-bool accepts(const Parameter& p, const std::string& text) {
-  try {
-    Look look;
-    p.read(look, text);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 bool has(const DrawList& list, bool Variant::*feature) {
   return std::any_of(list.items.begin(), list.items.end(),
                      [&](const DrawItem& item) { return item.variant.*feature; });
@@ -36,14 +26,8 @@ std::vector<std::string> formsOf(const std::string& parameter, bool quick) {
   std::vector<std::string> forms;
   for (const std::string& choice : p.choices()) {
     const std::size_t colon = choice.find(':');
-    if (colon == std::string::npos) {
-      if (accepts(p, choice)) forms.push_back(choice);
-      continue;
-    }
-    for (const int number : {1, 2, 4, 8, 16, 32, 64}) {
-      const std::string form = choice.substr(0, colon + 1) + std::to_string(number);
-      if (accepts(p, form) && (!quick || number == 4 || number == 16)) forms.push_back(form);
-    }
+    const std::string gamma = colon == std::string::npos ? "" : choice.substr(colon + 1);
+    if (gamma.empty() || !quick || gamma == "4" || gamma == "16") forms.push_back(choice);
   }
   return forms;
 }
