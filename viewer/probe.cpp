@@ -9,8 +9,10 @@
 #include "formulas.h"
 #include "glint/image/srgb.h"
 #include "glint/render/variant.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
+#include "glint/shading/sum.h"
 
 namespace glint {
 namespace {
@@ -28,6 +30,10 @@ struct Arriving {
   glm::dvec3 L{0.0}, intensity{0.0};
 };
 
+double falloff(const Light& light, const glm::dvec3& point) {
+  return light.fallsOff ? distanceFalloff(glm::length(light.position - point), light.range) : 1.0;
+}
+
 Arriving arriving(const Light& light, const glm::dvec3& point, const Camera& camera) {
   const auto unit = [](const glm::dvec3& v) { return v / glm::length(v); };
   switch (light.type) {
@@ -36,14 +42,14 @@ Arriving arriving(const Light& light, const glm::dvec3& point, const Camera& cam
     case Light::Type::camera:
       return {camera.axes * unit(light.direction), light.intensity};
     case Light::Type::point:
-      return {unit(light.position - point), light.intensity};
+      return {unit(light.position - point), light.intensity * falloff(light, point)};
     case Light::Type::spot: {
       const glm::dvec3 L = unit(light.position - point);
       const double c = glm::dot(-L, unit(light.direction));
       const double outer = std::cos(light.outerAngle * radians);
       const double inner = std::cos(light.innerAngle * radians);
       const double share = std::clamp((c - outer) / (inner - outer), 0.0, 1.0);
-      return {L, light.intensity * (share * share)};
+      return {L, light.intensity * (share * share * falloff(light, point))};
     }
   }
   return {};
@@ -78,7 +84,8 @@ Probe probePixel(const Scene& scene, const Bounds& bounds, const Picker& picker,
   const Instance& instance = scene.instances[std::size_t(hit.instance)];
   const Material material = editedMaterial(scene.materials[std::size_t(hit.material)], look);
   const ShadingParameters& s = material.shading;
-  const Variant variant = variantFor(mesh, material, instance.world, look, camera.orthographic);
+  const Variant variant = variantFor(mesh, material, instance.world,
+                                     withFileLights(scene, look), camera.orthographic);
 
   const auto viewFrom = [&](const glm::dvec3& point) {
     if (camera.orthographic || look.viewer == Viewer::infinite) return camera.axes[2];
@@ -133,7 +140,7 @@ Probe probePixel(const Scene& scene, const Bounds& bounds, const Picker& picker,
   probe.ambient = s.ambient * C * look.ambientLight;
   probe.emission = material.emission;
   glm::dvec3 sum = probe.ambient + probe.emission;
-  for (const Light& light : lightsOf(look)) {
+  for (const Light& light : lightsOf(withFileLights(scene, look))) {
     LightProbe each;
     const std::string text = lightText(light);
     each.name = text.substr(0, text.find(':'));

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
                                                        {"view", glint::addView(app)},
                                                        {"diff", glint::addDiff(app)},
                                                        {"info", glint::addInfo(app)},
+                                                       {"environment", glint::addEnvironment(app)},
                                                        {"backends", glint::addBackends(app)}};
   try {
     app.parse(argc, argv);

@@ -52,7 +52,7 @@ Loaded load(const std::string& path, const Look& look) {
   Loaded loaded;
   try {
     const auto start = Clock::now();
-    loaded.scene = loadGltf(path);
+    loaded.scene = loadGltf(path, poseOf(look));
     loaded.bounds = boundsOf(loaded.scene);
     loaded.loadTime = since(start);
     checkMaterialNames(loaded.scene, look);
