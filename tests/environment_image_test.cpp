@@ -34,8 +34,10 @@ EnvironmentImage imageOf(int width, int height, auto value) {
 TEST(EnvironmentImage, DirectionsAreFoundWhereTheyBelong) {
   const EnvironmentImage image = imageOf(8, 4, [](int x, int y, int) { return 10 * y + x; });
   const auto at = [&](double turn, double down) {
-    return image.radiance({std::sin(down) * std::sin(turn), std::cos(down),
-                           -std::sin(down) * std::cos(turn)}, 0).x;
+    return image
+        .radiance(
+            {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)}, 0)
+        .x;
   };
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 8; ++x)
@@ -49,7 +51,8 @@ TEST(EnvironmentImage, LevelsKeepTheLightAndAUniformPicture) {
   std::mt19937 random(1);
   for (const auto& [width, height] : {std::pair(64, 32), {50, 31}, {7, 5}, {1, 1}, {96, 16}}) {
     std::uniform_real_distribution<double> number(0, 4);
-    const EnvironmentImage image = imageOf(width, height, [&](int, int, int) { return number(random); });
+    const EnvironmentImage image =
+        imageOf(width, height, [&](int, int, int) { return number(random); });
     const EnvironmentImage even = imageOf(width, height, [](int, int, int) { return 0.7; });
     const auto mean = [](const EnvironmentImage::Level& level) {
       double sum = 0, area = 0;

@@ -85,9 +85,10 @@ TEST(GltfAnimation, WholeNumbersAreFractionsAndScaleStandsBesideRotation) {
   sample.json["nodes"][0]["scale"] = {2, 2, 2};
   const int output = sample.accessor<std::int16_t>("VEC4", {0, 0, 0, 32767, 0, 0, 32767, 0});
   sample.json["accessors"][static_cast<std::size_t>(output)]["normalized"] = true;
-  sample.add("animations",
-             {{"samplers", {{{"input", sample.accessor<float>("SCALAR", {0, 1})}, {"output", output}}}},
-              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}});
+  sample.add(
+      "animations",
+      {{"samplers", {{{"input", sample.accessor<float>("SCALAR", {0, 1})}, {"output", output}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}});
   const glm::dmat4 world = at(sample, 0.5).instances.at(0).world;
   EXPECT_NEAR(world[0].y, 2, 1e-15);  // a quarter turn, twice as large
   EXPECT_NEAR(world[0].x, 0, 1e-15);
@@ -104,12 +105,12 @@ TEST(GltfAnimation, SparseKeysAreRead) {
        {"count", 2},
        {"sparse",
         {{"count", 1},
-         {"indices",
-          {{"bufferView", sample.view<std::uint8_t>({1})}, {"componentType", 5121}}},
+         {"indices", {{"bufferView", sample.view<std::uint8_t>({1})}, {"componentType", 5121}}},
          {"values", {{"bufferView", sample.view<float>({8, 0, 0})}}}}}});
-  sample.add("animations",
-             {{"samplers", {{{"input", input}, {"output", output}}}},
-              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+  sample.add(
+      "animations",
+      {{"samplers", {{{"input", input}, {"output", output}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
   EXPECT_EQ(xAt(sample, 0.5), 4);
 }
 
@@ -233,8 +234,8 @@ TEST(GltfAnimation, ChannelsThatCannotBePlayedAreLeftOut) {
          d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
        },
        "has a matrix"},
-      {"weights of nothing",
-       [](Json& a, Json&) { a["channels"][0]["target"]["path"] = "weights"; }, "without any"},
+      {"weights of nothing", [](Json& a, Json&) { a["channels"][0]["target"]["path"] = "weights"; },
+       "without any"},
       {"too few values",
        [](Json& a, Json& d) { d["accessors"][a["samplers"][0]["output"].get<int>()]["count"] = 1; },
        "3 numbers for 2 keys of 3"},

@@ -68,7 +68,8 @@ TEST(FileLights, WhatIsOutOfRangeIsMendedAndWhatIsUnknownLeftOut) {
   const Scene dark = one({{"type", "point"}, {"intensity", -4}});
   EXPECT_EQ(dark.lights.at(0).intensity, glm::dvec3(0));
   EXPECT_THAT(dark.warnings, ElementsAre(HasSubstr("intensity")));
-  const Scene inside = one({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}}});
+  const Scene inside =
+      one({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}}});
   EXPECT_LT(inside.lights.at(0).innerAngle, inside.lights.at(0).outerAngle);
   const Scene wide = one({{"type", "spot"}, {"spot", {{"outerConeAngle", 3}}}});
   EXPECT_EQ(wide.lights.at(0).outerAngle, std::numbers::pi / 2);
@@ -82,14 +83,12 @@ TEST(FileLights, BrokenOnesAreRefused) {
     breakIt(sample.json);
     return sample.error();
   };
-  EXPECT_THAT(errorOf([](Json& j) {
-                j["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 1;
-              }),
-              HasSubstr("nodes[1].extensions.KHR_lights_punctual.light"));
-  EXPECT_THAT(errorOf([](Json& j) {
-                j["extensions"]["KHR_lights_punctual"]["lights"][0].erase("type");
-              }),
-              HasSubstr("type is missing"));
+  EXPECT_THAT(
+      errorOf([](Json& j) { j["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 1; }),
+      HasSubstr("nodes[1].extensions.KHR_lights_punctual.light"));
+  EXPECT_THAT(
+      errorOf([](Json& j) { j["extensions"]["KHR_lights_punctual"]["lights"][0].erase("type"); }),
+      HasSubstr("type is missing"));
   EXPECT_THAT(errorOf([](Json& j) {
                 j["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {1, 2};
               }),
@@ -196,11 +195,12 @@ TEST(FileLights, TheScaleIsThatOfTheRestPoseAtEveryTime) {
   Sample sample;
   sample.triangle();
   addLight(sample, {{"type", "point"}}, {{"translation", {0, 0, 1}}});
-  sample.add("animations",
-             {{"samplers",
-               {{{"input", sample.accessor<float>("SCALAR", {0, 1})},
-                 {"output", sample.accessor<float>("VEC3", {0, 0, 1, 0, 0, 9})}}}},
-              {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+  sample.add(
+      "animations",
+      {{"samplers",
+        {{{"input", sample.accessor<float>("SCALAR", {0, 1})},
+          {"output", sample.accessor<float>("VEC3", {0, 0, 1, 0, 0, 9})}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
   const Scene rest = sample.load(), late = glint::loadGltf(sample.writeGltf(), {1.0, {}});
   EXPECT_EQ(late.lights.at(0).position.z, 9);
   EXPECT_EQ(late.lightScale, rest.lightScale);

@@ -40,12 +40,14 @@ enum class Action {
   compareBlink,
   compareDifference,
   compareOff,
+  compareExact,
   wireframe,
   normals,
   facing,
   clipped,
   nextProgram,
   togglePanel,
+  copyPixel,
 };
 
 struct ActionInfo {

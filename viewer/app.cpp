@@ -4,23 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "compose.h"
-#include "glint/gl/check.h"
 #include "glint/image/error.h"
 #include "interface.h"
 #include "materials.h"
 #include "widgets.h"
+#include "xdg.h"
 
 namespace glint {
+namespace {
+
+std::filesystem::path recoveryFolder() {
+  const std::filesystem::path state = stateFolder();
+  return state.empty() ? state : state / "recovery";
+}
+
+}  // namespace
 
 App::App(Window& window, Look look, AppOptions options)
-    : window_(window), options_(std::move(options)) {
-  GlslSources sources = options_.glsl.empty() ? GlslSources() : GlslSources(options_.glsl);
-  renderer_ = std::make_unique<Renderer>(std::move(sources));
+    : window_(window), options_(std::move(options)), recovery_(recoveryFolder()) {
+  painter_ = std::make_unique<Painter>(window_, options_.glsl, Window::wake);
+  reference_ = std::make_unique<ReferenceTask>(Window::wake);
   session_.document.a = std::move(look);
+  session_.document.amplification = options_.settings.amplification;
   session_.saved = session_.document.a;
   session_.history = History(session_.document);
   session_.lookPath = options_.look;
@@ -42,7 +51,8 @@ void App::layout() {
   const glm::ivec2 size = window_.size();
   ratio_ = size.x > 0 ? double(framebuffer_.x) / size.x : 1;
   const float scale = widgets::style().scale;
-  panelWidth_ = panelShown_ ? std::min(std::round(372 * scale), float(size.x) * 0.6f) : 0;
+  panelWidth_ =
+      options_.settings.panel ? std::min(std::round(372 * scale), float(size.x) * 0.6f) : 0;
   statusHeight_ = std::round(ImGui::GetIO().Fonts->Fonts[0]->FontSize + 10 * scale);
   const auto pixels = [&](float coordinates) { return int(std::lround(coordinates * ratio_)); };
   resolution_ = glm::max(framebuffer_ - glm::ivec2(pixels(panelWidth_), pixels(statusHeight_)),
@@ -58,16 +68,52 @@ void App::setTitle() {
   window_.setTitle(title + " - glint");
 }
 
+// The log is also for who started the window from a terminal.
+void App::tellLog() {
+  for (; told_ < session_.log.size(); ++told_)
+    std::cerr << "glint: " << session_.log[told_] << "\n";
+}
+
+// Whether a frame is called for by anything else than input.
+bool App::somethingDue() {
+  bool due = false;
+  const auto now = Clock::now();
+  if (loading_.valid() && loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    finishLoading();
+    due = true;
+  }
+  due = painter_->poll() || due;
+  static Clock::time_point lastWatch;
+  if (seconds(now - lastWatch) > 0.4) {
+    lastWatch = now;
+    const std::string before = session_.status;
+    watch();
+    due = due || session_.status != before || loading_.valid();
+  }
+  if (window_.closeRequested()) {
+    window_.refuseClose();
+    quit();
+    due = true;
+  }
+  if (shownResult_.request.preview && seconds(now - lastChange_) >= restAfter) due = true;
+  if (recovery_.waiting())
+    recovery_.keep(session_.document.a, session_.unsaved(),
+                   session_.model ? session_.model->path : std::filesystem::path());
+  return due;
+}
+
 void App::run() {
-  const double scale = options_.scale > 0 ? options_.scale : window_.contentScale();
+  const double screenScale = window_.contentScale();
+  const double own = options_.scale > 0 ? options_.scale : options_.settings.scale;
+  const double scale = own > 0 ? own : screenScale;
   Interface interface(window_, scale);
   layout();
   if (session_.document.a.resolution != Look{}.resolution) {
     const glm::ivec2 chrome = framebuffer_ - resolution_;
     window_.resize(glm::ivec2(glm::dvec2(session_.document.a.resolution + chrome) / ratio_));
   }
+  if (options_.model.empty()) offerRecovered();
   auto lastFrame = Clock::now();
-  auto lastWatch = lastFrame;
   const auto frame = [&](bool draw) {
     const auto now = Clock::now();
     interface.begin(seconds(now - lastFrame));
@@ -78,27 +124,9 @@ void App::run() {
     session_.history.settle(session_.document, gestureActive());
   };
   while (!quitting_) {
-    const bool moving = a_ && a_->preview;
-    bool due = window_.wait(moving ? restAfter : 0.5);
-    const auto now = Clock::now();
-    if (loading_.valid() &&
-        loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-      finishLoading();
-      due = true;
-    }
-    if (seconds(now - lastWatch) > 0.4) {
-      lastWatch = now;
-      const std::string before = session_.status;
-      watch();
-      due = due || session_.status != before || loading_.valid();
-    }
-    if (window_.closeRequested()) {
-      window_.refuseClose();
-      quit();
-      due = true;
-    }
-    due = due || (moving && seconds(now - lastChange_) >= restAfter);
-    if (!due) continue;
+    const double patience = shownResult_.request.preview ? restAfter : recovery_.waiting() ? 0.2 : 0.5;
+    const bool happened = window_.wait(patience);
+    if (!(somethingDue() || happened)) continue;
 
     const auto start = Clock::now();
     layout();
@@ -112,21 +140,27 @@ void App::run() {
     } while (!window_.input().empty());
     frame(false);
     layout();
-    if (gpuScene_ && !a_) {  // the first picture of a model may take its shaders' compiling
-      frame(true);
-      window_.present();
-    }
-    double drawing = 0;
-    {
-      const auto before = Clock::now();
-      updatePicture();
-      drawing = seconds(Clock::now() - before);
-    }
+    const auto before = Clock::now();
+    updatePicture();
+    const double waited = seconds(Clock::now() - before);
     frame(true);
     window_.present();
     setTitle();
-    uiMilliseconds_ = (seconds(Clock::now() - start) - drawing) * 1000;
+    tellLog();
+    recovery_.keep(session_.document.a, session_.unsaved(),
+                   session_.model ? session_.model->path : std::filesystem::path());
+    uiMilliseconds_ = (seconds(Clock::now() - start) - waited) * 1000;
   }
+  recovery_.clear();
+  while (painter_->saving()) {
+    window_.wait(0.1);
+    painter_->poll();
+  }
+  painter_->poll();
+  options_.settings.window = glm::ivec2(glm::dvec2(window_.size()) / scale * screenScale);
+  options_.settings.amplification = session_.document.amplification;
+  attempt([&] { saveSettings(options_.settings); });
+  tellLog();
 }
 
 void App::applyInput(const std::deque<InputEvent>& events) {
@@ -167,115 +201,6 @@ void App::key(const InputEvent& e) {
   }
 }
 
-void App::pictureArea() {
-  const ImVec2 size(float(resolution_.x / ratio_), float(resolution_.y / ratio_));
-  ImGui::SetNextWindowPos(ImVec2(0, 0));
-  ImGui::SetNextWindowSize(size);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGui::Begin("picture", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PopStyleVar(2);
-  ImGui::InvisibleButton("canvas", size,
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  const ImGuiIO& io = ImGui::GetIO();
-  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
-  const glm::dvec2 mouse = glm::dvec2(double(io.MousePos.x), double(io.MousePos.y)) * ratio_;
-  Document& document = session_.document;
-  const bool split = document.compare == CompareMode::split && document.b;
-  const double dividerX = document.divider * resolution_.x;
-  const bool nearDivider = split && std::abs(mouse.x - dividerX) < 6 * ratio_;
-
-  const auto moveCamera = [&](auto&& move) {
-    if (!session_.model) return;
-    attempt([&] {
-      Look look = document.a;
-      look.resolution = resolution_;
-      const Scene& scene = session_.model->scene;
-      setPose(document.a, move(poseOf(scene, session_.model->bounds, look)));
-    });
-  };
-  const double height = std::max(1.0, double(resolution_.y));
-  const glm::dvec2 centered = (mouse - glm::dvec2(resolution_) / 2.0) * glm::dvec2(2, -2) / height;
-
-  if (ImGui::IsItemActivated()) {
-    pressedAt_ = mouse;
-    dragged_ = false;
-    draggingDivider_ = nearDivider && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  }
-  if (active) {
-    if (glm::length(mouse - pressedAt_) > 3 * ratio_) dragged_ = true;
-    const glm::dvec2 delta = glm::dvec2(double(io.MouseDelta.x), double(io.MouseDelta.y)) * ratio_;
-    if (dragged_ && delta != glm::dvec2(0.0)) {
-      const bool left = ImGui::IsMouseDown(ImGuiMouseButton_Left);
-      if (draggingDivider_)
-        document.divider = std::clamp(mouse.x / resolution_.x, 0.0, 1.0);
-      else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || (left && io.KeyShift))
-        moveCamera([&](const Pose& p) { return panned(p, delta.x / height, delta.y / height); });
-      else if (left && io.KeyCtrl)
-        moveCamera([&](const Pose& p) { return rolled(p, -delta.x / height * 180); });
-      else if (left)
-        moveCamera([&](const Pose& p) {
-          return orbited(p, -delta.x / height * 200, delta.y / height * 200);
-        });
-      else if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
-        moveCamera([&](const Pose& p) {
-          return dollied(p, std::exp(-2 * delta.y / height), {0, 0});
-        });
-    }
-  }
-  if (ImGui::IsItemDeactivated()) {
-    if (!dragged_ && hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !draggingDivider_)
-      pick(mouse);
-    draggingDivider_ = false;
-  }
-  if (hovered && io.MouseWheel != 0) {
-    lastScroll_ = Clock::now();
-    const double factor = std::pow(0.88, double(io.MouseWheel));
-    moveCamera([&](const Pose& p) { return dollied(p, factor, centered); });
-  }
-  if (nearDivider || draggingDivider_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  const std::optional<glm::dvec2> was = cursor_;
-  cursor_ = hovered && !active ? std::optional(mouse) : std::nullopt;
-  if (cursor_ != was) probeStale_ = true;
-
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  if (split) {
-    const float x = float(dividerX / ratio_), s = widgets::style().scale;
-    draw->AddLine(ImVec2(x, 0), ImVec2(x, size.y),
-                  nearDivider || draggingDivider_ ? IM_COL32(255, 214, 120, 255)
-                                                  : IM_COL32(255, 255, 255, 150),
-                  s);
-    draw->AddText(ImVec2(x - 16 * s, 6 * s), IM_COL32(255, 255, 255, 220), "A");
-    draw->AddText(ImVec2(x + 8 * s, 6 * s), IM_COL32(255, 255, 255, 220), "B");
-  } else if (document.b && document.compare == CompareMode::blink) {
-    draw->AddText(ImVec2(10, 6), IM_COL32(255, 255, 255, 220), "B");
-  } else if (document.b && document.compare == CompareMode::difference && a_ && b_) {
-    const CodePicture a{a_->picture.look.resolution.x, a_->picture.look.resolution.y,
-                        a_->picture.codes.data()};
-    const CodePicture b{b_->picture.look.resolution.x, b_->picture.look.resolution.y,
-                        b_->picture.codes.data()};
-    const CompareNumbers n = compareNumbers(a, b);
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "|A - B| x %.3g: at most %d of 255, mean %.4g, %zu pixels differ",
-                  document.amplification, n.largest, n.mean, n.pixels);
-    draw->AddText(ImVec2(10, 6), IM_COL32(255, 255, 255, 220), text);
-  }
-  if (!session_.model) {
-    const std::string text = loading_.valid()
-                                 ? "Reading " + loadingPath_.filename().string() + " ..."
-                                 : "Drop a model here (.glb or .gltf), or press Ctrl+O";
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    draw->AddText(ImVec2((size.x - extent.x) / 2, (size.y - extent.y) / 2),
-                  IM_COL32(255, 255, 255, 200), text.c_str());
-  }
-  ImGui::End();
-}
-
 void App::statusBar() {
   const ImGuiIO& io = ImGui::GetIO();
   ImGui::SetNextWindowPos(ImVec2(0, io.DisplaySize.y - statusHeight_));
@@ -289,10 +214,10 @@ void App::statusBar() {
   std::string right;
   if (session_.hovered && session_.model)
     right = materialLabel(session_.model->scene, *session_.hovered) + "   ";
-  if (a_) {
+  if (shownResult_.a) {
     char text[80];
     std::snprintf(text, sizeof text, "%d x %d   %.0f ms", resolution_.x, resolution_.y,
-                  a_->picture.milliseconds);
+                  shownResult_.a->milliseconds);
     right += text;
   }
   const float width = ImGui::CalcTextSize(right.c_str()).x;
@@ -300,6 +225,8 @@ void App::statusBar() {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   std::string left = session_.status;
   if (loading_.valid()) left = "reading " + loadingPath_.filename().string() + " ...";
+  else if (painter_->saving()) left = "saving the picture ...";
+  else if (painter_->pending() && seconds(Clock::now() - lastChange_) > 0.25) left = "drawing ...";
   if (left.empty()) left = "? shows the keys";
   left = left.substr(0, left.find('\n'));
   ImGui::PushClipRect(at, ImVec2(at.x + std::max(0.0f, room - width - 16), at.y + statusHeight_),
@@ -362,15 +289,18 @@ void App::buildInterface() {
   const ImGuiIO& io = ImGui::GetIO();
   pictureArea();
   statusBar();
-  if (panelShown_) {
+  probeShown_ = false;
+  if (options_.settings.panel) {
     ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_, 0));
     ImGui::SetNextWindowSize(ImVec2(panelWidth_, io.DisplaySize.y));
     ImGui::Begin("panel", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
-    PanelContext context{session_};
-    context.picture = a_ ? &a_->picture : nullptr;
+    PanelContext context{session_, options_.settings};
+    context.picture = shownResult_.a.get();
     context.resolution = resolution_;
-    context.preview = a_ && a_->preview;
+    context.preview = shownResult_.request.preview;
+    context.comparison = comparisonText();
+    context.probeShown = &probeShown_;
     context.probe = probe_ ? &*probe_ : nullptr;
     context.uiMilliseconds = uiMilliseconds_;
     context.run = [this](Action c) { execute(c); };

@@ -1,36 +1,12 @@
 #include <algorithm>
-#include <cmath>
 
 #include "app.h"
 #include "camera_control.h"
 #include "glint/image/error.h"
-#include "glint/image/file.h"
 #include "glint/scene/parameters.h"
 #include "materials.h"
 
 namespace glint {
-
-namespace fs = std::filesystem;
-
-namespace {
-
-FileState stateOfFolder(const fs::path& folder) {
-  FileState all;
-  std::error_code error;
-  for (const auto& each : fs::directory_iterator(folder, error)) {
-    const FileState state = stateOf(each.path());
-    all.time = std::max(all.time, state.time);
-    all.size += state.size;
-  }
-  return all;
-}
-
-std::string readText(const fs::path& path) {
-  const auto bytes = readFile(path.string());
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-}  // namespace
 
 void App::attempt(const std::function<void()>& action) {
   try {
@@ -40,201 +16,14 @@ void App::attempt(const std::function<void()>& action) {
   }
 }
 
-void App::load(const fs::path& path) {
-  if (loading_.valid()) loading_.wait();
-  loadingPath_ = path;
-  modelState_ = stateOf(path);
-  Look look = session_.document.a;
-  loading_ = std::async(std::launch::async, [path, look]() mutable {
-    struct Wake {
-      ~Wake() { Window::wake(); }
-    } wake;
-    return loadModel(path, look);
-  });
-}
-
-void App::finishLoading() {
-  attempt([&] {
-    std::shared_ptr<Model> model = loading_.get();
-    // The old model's objects in the driver refer to its scene.
-    a_.reset();
-    b_.reset();
-    gpuScene_.reset();
-    session_.take(std::move(model));
-    gpuScene_ =
-        std::make_unique<GpuScene>(session_.model->scene, std::move(session_.model->images));
-    failed_.reset();
-    probe_.reset();
-    screenStale_ = overlayStale_ = probeStale_ = true;
-    const std::size_t warnings = session_.model->scene.warnings.size();
-    session_.say("read " + session_.model->path.string() +
-                 (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
-  });
-  // A file that could not be read is tried again when it changes; another one is forgotten.
-  if (session_.model && session_.model->path != loadingPath_)
-    modelState_ = stateOf(session_.model->path);
-}
-
-void App::watch() {
-  if (session_.model && !loading_.valid()) {
-    const FileState now = stateOf(session_.model->path);
-    // A file that is gone is being replaced; it is read when it is back.
-    if (now != modelState_ && now != FileState{}) load(session_.model->path);
-  }
-  if (!session_.lookPath.empty()) {
-    const FileState now = stateOf(session_.lookPath);
-    if (now != lookState_ && now != FileState{}) {
-      lookState_ = now;
-      attempt([&] {
-        Look look;
-        readLook(look, readText(session_.lookPath), session_.lookPath.string());
-        session_.document.a = look;
-        session_.saved = look;
-        session_.say("read " + session_.lookPath.string() + " again");
-      });
-    }
-  }
-  if (!options_.glsl.empty()) {
-    const FileState now = stateOfFolder(options_.glsl);
-    if (glslState_ == FileState{}) glslState_ = now;
-    if (now != glslState_) {
-      glslState_ = now;
-      attempt([&] {
-        // A shader that does not compile leaves the picture as it was; the next change is tried.
-        auto fresh = std::make_unique<Renderer>(GlslSources(options_.glsl));
-        Look look = session_.document.a;
-        look.resolution = resolution_;
-        if (gpuScene_) {
-          const DrawnPicture tried = drawPicture(*fresh, *gpuScene_, session_.model->bounds, look);
-        }
-        renderer_ = std::move(fresh);
-        a_.reset();
-        b_.reset();
-        failed_.reset();
-        session_.say("compiled the shaders of " + options_.glsl.string() + " again");
-      });
-    }
-  }
-}
-
-void App::open(const std::string& path) {
-  const fs::path file(path);
-  if (file.extension() == ".json" || file.extension() == ".look") {
-    attempt([&] {
-      Look look;
-      readLook(look, readText(file), path);
-      if (session_.model) checkMaterialNames(session_.model->scene, look);
-      session_.document.a = look;
-      session_.saved = look;
-      session_.lookPath = file;
-      lookState_ = stateOf(file);
-      session_.say("read the look " + path);
-    });
-    return;
-  }
-  if (!session_.unsaved()) return openAnyway(file);
-  dialogs_.ask("Not saved", "Edits are not saved. Open " + file.filename().string() + " anyway?",
-               {{"Open, and lose them", [this, file] { openAnyway(file); }}, {"Cancel", {}}});
-}
-
-void App::openAnyway(const fs::path& path) { load(path); }
-
-void App::saveLookTo(const std::string& path, bool sure) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?", path + " exists. Replace it?",
-                 {{"Replace", [this, path] { saveLookTo(path, true); }}, {"Cancel", {}}});
-    return;
-  }
-  attempt([&] {
-    session_.saveLook(path, resolution_);
-    lookState_ = stateOf(path);
-  });
-}
-
-void App::saveModelTo(const std::string& path, bool sure) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?",
-                 path + " exists. Write the materials into it? Everything else in it stays.",
-                 {{"Write", [this, path] { saveModelTo(path, true); }}, {"Cancel", {}}});
-    return;
-  }
-  attempt([&] {
-    session_.saveModel(path);
-    modelState_ = stateOf(session_.model->path);
-  });
-}
-
-void App::savePictureTo(const std::string& path, bool sure) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?", path + " exists. Replace it?",
-                 {{"Replace", [this, path] { savePictureTo(path, true); }}, {"Cancel", {}}});
-    return;
-  }
-  attempt([&] {
-    writePicture(fullPicture(), path);
-    session_.say("saved the picture as " + path);
-  });
-}
-
-DrawnPicture App::fullPicture() {
-  if (!gpuScene_) throw InputError("there is no picture to save: open a model");
-  Look look = session_.document.a;
-  look.resolution = resolution_;
-  if (a_ && !a_->preview && a_->picture.look == look) return a_->picture;
-  return drawLook(look, false)->picture;
-}
-
-void App::quit() {
-  if (!session_.unsaved()) {
-    quitting_ = true;
-    return;
-  }
-  std::vector<Dialogs::Answer> answers;
-  answers.push_back(
-      {"Save the look", [this] {
-         const auto saveAndQuit = [this](const std::string& path) {
-           saveLookTo(path, true);
-           if (!session_.unsaved()) quitting_ = true;
-         };
-         if (!session_.lookPath.empty()) return saveAndQuit(session_.lookPath);
-         const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
-         dialogs_.askPath("Save the look as", nextFreeName(".", stem, ".json").filename(), false,
-                          saveAndQuit);
-       }});
-  if (session_.model) {
-    Look rest = session_.document.a;
-    rest.material = session_.saved.material;
-    if (withoutCamera(rest) == withoutCamera(session_.saved))
-      answers.push_back({"Save into the model", [this] {
-                           saveModelTo(session_.model->path.string(), true);
-                           if (!session_.unsaved()) quitting_ = true;
-                         }});
-  }
-  answers.push_back({"Discard", [this] { quitting_ = true; }});
-  answers.push_back({"Cancel", {}});
-  dialogs_.ask("Not saved", "The look has edits that are not saved.", std::move(answers));
-}
-
-void App::setCompare(CompareMode mode) {
+void App::setCompare(CompareMode mode, bool exact) {
   Document& d = session_.document;
-  if (!d.b) {
-    session_.say("keep a look as B first (B)");
+  if (!exact && !d.b) {
+    session_.say("keep a look as B first (B), or compare with the exact reference (R)");
     return;
   }
-  d.compare = d.compare == mode ? CompareMode::off : mode;
-}
-
-void App::hover(glm::dvec2 pixel) {
-  session_.hovered.reset();
-  probe_.reset();
-  if (!a_ || a_->preview || !session_.model) return;
-  attempt([&] {
-    const glm::ivec2 at =
-        glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), a_->picture.look.resolution - 1);
-    probe_ = probePixel(session_.model->scene, session_.model->bounds, *session_.model->picker,
-                        a_->picture.look, a_->picture.linear, at);
-    if (probe_->hit) session_.hovered = probe_->hit->material;
-  });
+  d.compare = d.compare == mode && d.exact == exact ? CompareMode::off : mode;
+  d.exact = exact;
 }
 
 void App::pick(glm::dvec2 pixel) {
@@ -255,6 +44,7 @@ void App::execute(Action command) {
   const auto key = [&] {
     return session_.model ? materialKey(session_.model->scene, session_.material) : std::string();
   };
+  executeCamera(command);
   const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
   const auto overlay = [&](Overlay which) {
     session_.overlay = session_.overlay == which ? Overlay::none : which;
@@ -264,7 +54,7 @@ void App::execute(Action command) {
       helpShown_ = !helpShown_;
       break;
     case Action::togglePanel:
-      panelShown_ = !panelShown_;
+      options_.settings.panel = !options_.settings.panel;
       break;
     case Action::quit:
       quit();
@@ -301,12 +91,15 @@ void App::execute(Action command) {
                          false, [this](const std::string& path) { saveModelTo(path, false); });
       break;
     case Action::screenshot:
-      savePictureTo(nextFreeName(".", stem, ".png").filename().string(), false);
+      savePictureTo(nextFreeName(".", stem, ".png").filename().string(), resolution_,
+                    d.a.noBackground, false);
       break;
     case Action::screenshotAs:
-      dialogs_.askPath("Save the picture as (.png or .pfm)",
-                       nextFreeName(".", stem, ".png").filename().string(), false,
-                       [this](const std::string& path) { savePictureTo(path, false); });
+      dialogs_.askPicture(
+          nextFreeName(".", stem, ".png").filename().string(), resolution_, d.a.noBackground,
+          [this](const std::string& path, glm::ivec2 size, bool transparent) {
+            savePictureTo(path, size, transparent, false);
+          });
       break;
     case Action::undo:
       if (!session_.history.undo(d)) session_.say("nothing to undo");
@@ -335,6 +128,61 @@ void App::execute(Action command) {
       d.a.shading = Shading((int(d.a.shading) + 1) % 5);
       session_.say("program " + std::string(shadingName(d.a.shading)));
       break;
+    case Action::keepAsB:
+      d.b = d.a;
+      d.exact = false;
+      if (d.compare == CompareMode::off) d.compare = CompareMode::split;
+      session_.say("kept the look as B");
+      break;
+    case Action::swapAB:
+      if (d.b) std::swap(d.a, *d.b);
+      break;
+    case Action::compareSplit:
+      setCompare(CompareMode::split, d.exact);
+      break;
+    case Action::compareBlink:
+      setCompare(CompareMode::blink, d.exact);
+      break;
+    case Action::compareDifference:
+      setCompare(CompareMode::difference, d.exact);
+      break;
+    case Action::compareExact:
+      if (comparesExact(d))
+        d.compare = CompareMode::off;
+      else
+        setCompare(d.compare == CompareMode::off ? CompareMode::split : d.compare, true);
+      break;
+    case Action::compareOff:
+      d.compare = CompareMode::off;
+      break;
+    case Action::copyPixel:
+      if (probe_) {
+        window_.setClipboard(probeText(session_.model->scene, *probe_));
+        session_.say("copied the values of the pixel");
+      } else {
+        session_.say("point at a pixel, with the tab Info open");
+      }
+      break;
+    case Action::wireframe:
+      overlay(Overlay::wireframe);
+      break;
+    case Action::normals:
+      overlay(Overlay::normals);
+      break;
+    case Action::facing:
+      overlay(Overlay::facing);
+      break;
+    case Action::clipped:
+      overlay(Overlay::clipped);
+      break;
+    default:  // those of the camera
+      break;
+  }
+}
+
+void App::executeCamera(Action command) {
+  Document& d = session_.document;
+  switch (command) {
     case Action::front:
       setView(d.a, StandardView::front);
       break;
@@ -382,37 +230,7 @@ void App::execute(Action command) {
         session_.say("the file has no camera");
       }
       break;
-    case Action::keepAsB:
-      d.b = d.a;
-      if (d.compare == CompareMode::off) d.compare = CompareMode::split;
-      session_.say("kept the look as B");
-      break;
-    case Action::swapAB:
-      if (d.b) std::swap(d.a, *d.b);
-      break;
-    case Action::compareSplit:
-      setCompare(CompareMode::split);
-      break;
-    case Action::compareBlink:
-      setCompare(CompareMode::blink);
-      break;
-    case Action::compareDifference:
-      setCompare(CompareMode::difference);
-      break;
-    case Action::compareOff:
-      d.compare = CompareMode::off;
-      break;
-    case Action::wireframe:
-      overlay(Overlay::wireframe);
-      break;
-    case Action::normals:
-      overlay(Overlay::normals);
-      break;
-    case Action::facing:
-      overlay(Overlay::facing);
-      break;
-    case Action::clipped:
-      overlay(Overlay::clipped);
+    default:
       break;
   }
 }

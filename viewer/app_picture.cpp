@@ -1,137 +1,185 @@
-#include "app.h"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 
+#include "app.h"
+#include "camera_control.h"
 #include "compose.h"
 #include "glint/gl/check.h"
 #include "glint/image/error.h"
-#include "interface.h"
-#include "materials.h"
-#include "widgets.h"
+#include "glint/image/srgb.h"
 
 namespace glint {
 namespace {
 
-constexpr double slowFrame = 1000.0 / 30;  // ms
+// So long a frame waits for the picture that it asks for; longer ones come in a later frame.
+constexpr double patience = 0.05;
 
-// A picture that is drawn fast enough to follow a hand: first without anti-aliasing, then smaller.
-Look fasterLook(const Look& look, double milliseconds) {
-  Look fast = look;
-  double expected = milliseconds;
-  if (look.antiAliasing.mode != AntiAliasing::Mode::none) {
-    const int n = look.antiAliasing.count;
-    expected /= look.antiAliasing.mode == AntiAliasing::Mode::ssaa ? n * n : 2.5;
-    fast.antiAliasing = {AntiAliasing::Mode::none, 1};
-  }
-  int divide = 1;
-  while (expected / (divide * divide) > slowFrame * 0.8 && divide < 6) ++divide;
-  fast.resolution = glm::max((look.resolution + divide - 1) / divide, glm::ivec2(1));
-  return fast;
+CodePicture codesOf(const DrawnPicture& picture) {
+  return {picture.look.resolution.x, picture.look.resolution.y, picture.codes.data()};
 }
 
 }  // namespace
 
-std::unique_ptr<App::Drawn> App::drawLook(const Look& look, bool preview) {
-  Scene& scene = session_.model->scene;
-  gpuScene_->addImages(
-      decodeImages(scene, look, [this](int image) { return gpuScene_->hasImage(image); }));
-  auto drawn = std::make_unique<Drawn>();
-  drawn->picture = drawPicture(*renderer_, *gpuScene_, session_.model->bounds, look);
-  drawn->preview = preview;
-  return drawn;
-}
-
-bool App::updatePicture() {
-  if (!gpuScene_) return false;
+// What the window wants to show now.
+PaintRequest App::wanted(bool& moving) {
   const auto now = Clock::now();
   const Document& document = session_.document;
-  Look full = document.a;
-  full.resolution = resolution_;
-  const bool moving = ImGui::IsAnyMouseDown() || seconds(now - lastScroll_) < restAfter;
-  Look look = full;
-  bool preview = false;
-  const bool isFull = a_ && !a_->preview && a_->picture.look == full;
-  if (!isFull && moving && fullMilliseconds_ > slowFrame) {
-    const Look fast = fasterLook(full, fullMilliseconds_);
-    const bool same = a_ && a_->preview && a_->picture.look == fast;
-    if (!same) lastChange_ = now;
-    preview = fast != full && (!same || seconds(now - lastChange_) < restAfter);
-    if (preview) look = fast;
+  PaintRequest want;
+  want.a = document.a;
+  want.a.resolution = resolution_;
+  if (comparesExact(document)) want.a = comparableLook(want.a);
+  if (want.a != lastFull_) {
+    lastFull_ = want.a;
+    lastChange_ = now;
   }
-  const bool compares = document.b && document.compare != CompareMode::off;
-  Look other;
-  if (compares) {
-    other = *document.b;
-    other.resolution = look.resolution;
-    if (preview) other.antiAliasing = look.antiAliasing;
+  moving = (ImGui::IsAnyMouseDown() || seconds(now - lastScroll_) < restAfter) &&
+           seconds(now - lastChange_) < restAfter;
+  const bool isWhole =
+      shownResult_.a && !shownResult_.request.preview && shownResult_.request.a == want.a;
+  if (moving && !isWhole && pace_.tooSlow()) {
+    const Look fast = pace_.faster(want.a);
+    want.preview = fast != want.a;
+    want.a = fast;
   }
-  bool changed = false;
-  const bool stale = !a_ || a_->picture.look != look || a_->preview != preview;
-  if (stale && !(failed_ && *failed_ == look)) {
-    try {
-      a_ = drawLook(look, preview);
-      if (!preview) fullMilliseconds_ = a_->picture.milliseconds - a_->picture.times.compile;
-      if (failed_ && session_.statusIsError) session_.say("drawn again");
-      failed_.reset();
-      changed = true;
-    } catch (const Error& error) {
-      failed_ = look;
-      session_.fail(error.what());
-    }
+  if (comparesLooks(document)) {
+    want.b = *document.b;
+    want.b->resolution = want.a.resolution;
+    if (want.preview) want.b->antiAliasing = want.a.antiAliasing;
   }
-  if (compares && (!b_ || b_->picture.look != other)) {
-    try {
-      b_ = drawLook(other, preview);
-      changed = true;
-    } catch (const Error& error) {
-      session_.fail(error.what());
+  want.overlay = session_.overlay;
+  // Once the picture itself is there.
+  if (probeShown_ && isWhole && want.a.antiAliasing.mode != AntiAliasing::Mode::none) {
+    want.plain = want.a;
+    want.plain->antiAliasing = {AntiAliasing::Mode::none, 1};
+  }
+  return want;
+}
+
+void App::updatePicture() {
+  if (!session_.model) return;
+  bool moving = false;
+  const PaintRequest want = wanted(moving);
+  bool asked = false;
+  // A picture that follows a hand is not given up for the next one, else none would ever be done.
+  const bool waits = painter_->pending() && requested_ && requested_->preview && want.preview;
+  if (requested_ != want && !waits && !(failed_ && *failed_ == want.a)) {
+    painter_->request(want);
+    requested_ = want;
+    asked = true;
+  }
+  if (auto result = painter_->take(asked || waits ? patience : 0)) receive(std::move(*result));
+  if (!shownResult_.a) return;
+  updateReference();
+  composeScreen();
+  updateProbe();
+}
+
+void App::receive(PaintResult result) {
+  const PaintRequest& request = result.request;
+  if (!result.error.empty()) {
+    session_.fail(result.error);
+    if (result.a) {  // it is B that cannot be drawn
       session_.document.compare = CompareMode::off;
+    } else {
+      failed_ = request.a;
     }
+    return;
   }
-  if (!a_) return false;
-  if (changed) probeStale_ = overlayStale_ = true;
-  const bool recompose = changed || screenStale_ || shown_.compare != document.compare ||
-                         shown_.divider != document.divider ||
-                         shown_.amplification != document.amplification ||
-                         shownOverlay_ != session_.overlay;
-  if (recompose) {
-    const auto codes = [](const Drawn& d) {
-      return CodePicture{d.picture.look.resolution.x, d.picture.look.resolution.y,
-                         d.picture.codes.data()};
-    };
-    const CodePicture a = codes(*a_), b = b_ ? codes(*b_) : CodePicture{};
-    std::vector<std::uint8_t> pixels =
-        compose(a, compares && b_ ? &b : nullptr, document, document.a.noBackground);
-    if (session_.overlay == Overlay::clipped) {
-      const std::size_t marked = markClipped(pixels, a_->picture.linear, a_->picture.look.exposure);
-      session_.say(std::to_string(marked) +
-                   " pixels are clipped (red), negative (blue) or not numbers (magenta)");
-    }
-    screen_.upload(pixels.data(), a.width, a.height);
-    screenStale_ = false;
-    shown_ = document;
-  }
-  const bool laid = session_.overlay == Overlay::wireframe ||
-                    session_.overlay == Overlay::normals || session_.overlay == Overlay::facing;
-  if (laid && (overlayStale_ || shownOverlay_ != session_.overlay)) {
-    if (!overlay_) overlay_ = std::make_unique<OverlayDrawer>();
-    overlay_->draw(*gpuScene_, a_->picture.list, session_.overlay, resolution_);
-    overlayStale_ = false;
-  }
-  shownOverlay_ = session_.overlay;
-  if (probeStale_) {
-    probeStale_ = false;
-    if (cursor_)
-      hover(*cursor_);
+  if (failed_ && session_.statusIsError) session_.say("drawn again");
+  failed_.reset();
+  if (result.a != shownResult_.a) {
+    if (request.preview)
+      pace_.drewFaster(result.a->milliseconds);
     else
-      session_.hovered.reset();
+      pace_.drewWhole(result.a->milliseconds, result.a->times.compile > 1);
   }
-  return changed;
+  shownResult_ = std::move(result);
+  screenStale_ = probeStale_ = true;
+}
+
+void App::updateReference() {
+  const bool exact = comparesExact(session_.document);
+  if (exact && !shownResult_.request.preview)
+    reference_->want(session_.model, shownResult_.a->look);
+  else if (reference_->picture())
+    reference_->stop();
+}
+
+void App::composeScreen() {
+  const Document& document = session_.document;
+  const bool exact = comparesExact(document);
+  const DrawnPicture& a = *shownResult_.a;
+  const auto reference = exact ? reference_->picture() : nullptr;
+  const int rows = reference && reference->look == exactLook(a.look) ? int(reference->rows) : 0;
+  const bool same = !screenStale_ && shown_.compare == document.compare &&
+                    shown_.exact == document.exact && shown_.divider == document.divider &&
+                    shown_.amplification == document.amplification &&
+                    shownOverlay_ == session_.overlay && shownRows_ == rows;
+  if (same) return;
+  if (exact && (encoded_ != reference.get() || rows < encodedRows_ || screenStale_)) {
+    exactCodes_ = a.codes;  // rows that are still to come show A
+    encoded_ = reference.get();
+    encodedRows_ = 0;
+  }
+  if (rows > encodedRows_ || (exact && screenStale_)) {
+    const std::size_t across = std::size_t(a.linear.width);
+    encodeSrgb8(reference->linear.row(encodedRows_), across * std::size_t(rows - encodedRows_),
+                float(std::exp2(a.look.exposure)),
+                exactCodes_.data() + 4 * across * std::size_t(encodedRows_));
+    encodedRows_ = rows;
+    errors_ = errorNumbers(a.linear, reference->linear, rows, a.look.exposure);
+  }
+  const CodePicture pictureA = codesOf(a);
+  CodePicture pictureB;
+  if (exact && !exactCodes_.empty())
+    pictureB = {pictureA.width, pictureA.height, exactCodes_.data()};
+  else if (shownResult_.b)
+    pictureB = codesOf(*shownResult_.b);
+  std::vector<std::uint8_t> pixels;
+  if (exact && document.compare == CompareMode::difference && reference && rows > 0)
+    pixels = errorMap(a.linear, reference->linear, rows);
+  else
+    pixels = compose(pictureA, pictureB.codes ? &pictureB : nullptr, document, a.look.noBackground);
+  if (pictureB.codes && !exact) difference_ = compareNumbers(pictureA, pictureB);
+  if (session_.overlay == Overlay::clipped) {
+    const std::size_t marked = markClipped(pixels, a.linear, a.look.exposure);
+    session_.say(std::to_string(marked) +
+                 " pixels are clipped (red), negative (blue) or not numbers (magenta)");
+  }
+  if (shownResult_.overlay) layOver(pixels, *shownResult_.overlay);
+  screen_.upload(pixels.data(), pictureA.width, pictureA.height);
+  screenStale_ = false;
+  shown_ = document;
+  shownOverlay_ = session_.overlay;
+  shownRows_ = rows;
+}
+
+void App::updateProbe() {
+  if (!probeStale_) return;
+  probeStale_ = false;
+  session_.hovered.reset();
+  probe_.reset();
+  if (!cursor_ || shownResult_.request.preview) return;
+  attempt([&] {
+    const DrawnPicture& a = *shownResult_.a;
+    const Model& model = *session_.model;
+    const glm::ivec2 at =
+        glm::clamp(glm::ivec2(glm::floor(*cursor_)), glm::ivec2(0), a.look.resolution - 1);
+    if (!probeShown_) {
+      const Camera camera = cameraFor(model.scene, model.bounds, a.look);
+      const auto hit = model.picker->pick(
+          model.scene, rayThrough(camera, glm::dvec2(at) + 0.5, a.look.resolution), a.look.twoSided);
+      if (hit) session_.hovered = hit->material;
+      return;
+    }
+    const Image* plain = shownResult_.plain ? &shownResult_.plain->linear : nullptr;
+    if (a.look.antiAliasing.mode == AntiAliasing::Mode::none) plain = &a.linear;
+    probe_ = probePixel({model.scene, model.images, model.bounds, *model.picker, a.list}, a.look,
+                        a.linear, plain, at);
+    if (probe_->hit) session_.hovered = probe_->hit->material;
+  });
 }
 
 void App::present() {
@@ -140,10 +188,7 @@ void App::present() {
   glDisable(GL_SCISSOR_TEST);
   glClearColor(0.1f, 0.1f, 0.1f, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  if (a_) screen_.show(0, 0, resolution_.x, resolution_.y, framebuffer_.y);
-  const bool laid = session_.overlay == Overlay::wireframe ||
-                    session_.overlay == Overlay::normals || session_.overlay == Overlay::facing;
-  if (laid && overlay_) overlay_->show(0, 0, framebuffer_.y);
+  if (shownResult_.a) screen_.show(0, 0, resolution_.x, resolution_.y, framebuffer_.y);
   checkGl("window");
 }
 

@@ -40,6 +40,16 @@ std::vector<std::uint8_t> compose(const CodePicture& a, const CodePicture* b,
   return out;
 }
 
+void layOver(std::vector<std::uint8_t>& pixels, const std::vector<std::uint8_t>& layer) {
+  for (std::size_t p = 0; p + 3 < pixels.size() && p + 3 < layer.size(); p += 4) {
+    const int alpha = layer[p + 3];
+    if (alpha == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      pixels[p + c] =
+          std::uint8_t((layer[p + c] * alpha + pixels[p + c] * (255 - alpha) + 127) / 255);
+  }
+}
+
 CompareNumbers compareNumbers(const CodePicture& a, const CodePicture& b) {
   CompareNumbers numbers;
   const std::size_t pixels = std::size_t(a.width) * std::size_t(a.height);

@@ -25,6 +25,9 @@ struct CompareNumbers {
 std::vector<std::uint8_t> compose(const CodePicture& a, const CodePicture* b, const Document&,
                                   bool transparent);
 
+/// Lays RGBA of straight alpha over opaque pixels of the same size.
+void layOver(std::vector<std::uint8_t>& pixels, const std::vector<std::uint8_t>& layer);
+
 /// How much two pictures differ.
 CompareNumbers compareNumbers(const CodePicture& a, const CodePicture& b);
 

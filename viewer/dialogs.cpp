@@ -23,6 +23,15 @@ void Dialogs::askPath(std::string title, std::string path, bool existing, PathAc
   listed_.clear();
 }
 
+void Dialogs::askPicture(std::string path, glm::ivec2 size, bool transparent,
+                         PictureAction action) {
+  askPath("Save the picture", std::move(path), false, {});
+  kind_ = Kind::picture;
+  size_ = windowSize_ = size;
+  transparent_ = transparent;
+  pictureAction_ = std::move(action);
+}
+
 void Dialogs::ask(std::string title, std::string question, std::vector<Answer> answers) {
   kind_ = Kind::question;
   appearing_ = true;
@@ -52,6 +61,8 @@ void Dialogs::draw() {
   const bool escape = std::exchange(escape_, false);
   if (kind_ == Kind::path)
     drawPath(escape);
+  else if (kind_ == Kind::picture)
+    drawPicture(escape);
   else
     drawQuestion(enter, escape);
   ImGui::EndPopup();
@@ -63,50 +74,88 @@ void Dialogs::drawPath(bool escape) {
   ImGui::SetNextItemWidth(width);
   const bool entered = ImGui::InputText(
       "##path", &text_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  if (existing_) {
-    std::error_code error;
-    const fs::path typed(text_);
-    const fs::path folder = fs::is_directory(typed, error) ? typed
-                            : typed.has_parent_path()      ? typed.parent_path()
-                                                           : fs::path(".");
-    if (folder.string() != listedFolder_) {
-      listedFolder_ = folder.string();
-      listed_.clear();
-      for (const auto& each : fs::directory_iterator(folder, error)) {
-        const std::string ending = each.path().extension().string();
-        std::error_code ignored;
-        if (each.is_directory(ignored))
-          listed_.push_back(each.path().filename().string() + "/");
-        else if (ending == ".glb" || ending == ".gltf" || ending == ".json")
-          listed_.push_back(each.path().filename().string());
-      }
-      std::sort(listed_.begin(), listed_.end());
-      if (folder.has_parent_path() || folder == ".") listed_.insert(listed_.begin(), "../");
-    }
-    if (ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12))) {
-      for (const std::string& name : listed_)
-        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
-          fs::path chosen = fs::path(listedFolder_) / name;
-          if (name.back() == '/') {
-            text_ = fs::weakly_canonical(chosen, error).string() + "/";
-          } else {
-            text_ = chosen.lexically_normal().string();
-          }
-        }
-      ImGui::EndListBox();
-    }
-  }
-  const float button = ImGui::GetFontSize() * 7;
-  const bool okay = ImGui::Button(existing_ ? "Open" : "Save", ImVec2(button, 0)) || entered;
-  ImGui::SameLine();
-  const bool cancel = ImGui::Button("Cancel", ImVec2(button, 0)) || escape;
+  if (existing_) drawFiles(width);
+  const int chosen = drawButtons(existing_ ? "Open" : "Save", entered, escape);
   std::error_code error;
-  if (okay && !text_.empty() && !fs::is_directory(text_, error)) {
+  if (chosen > 0 && !text_.empty() && !fs::is_directory(text_, error)) {
     const PathAction action = std::move(pathAction_);
     const std::string path = text_;
     close();
     action(path);
-  } else if (cancel) {
+  } else if (chosen < 0) {
+    close();
+  }
+}
+
+void Dialogs::drawFiles(float width) {
+  std::error_code error;
+  const fs::path typed(text_);
+  const fs::path folder = fs::is_directory(typed, error) ? typed
+                          : typed.has_parent_path()      ? typed.parent_path()
+                                                         : fs::path(".");
+  if (folder.string() != listedFolder_) {
+    listedFolder_ = folder.string();
+    listed_.clear();
+    for (const auto& each : fs::directory_iterator(folder, error)) {
+      const std::string ending = each.path().extension().string();
+      std::error_code ignored;
+      if (each.is_directory(ignored))
+        listed_.push_back(each.path().filename().string() + "/");
+      else if (ending == ".glb" || ending == ".gltf" || ending == ".json")
+        listed_.push_back(each.path().filename().string());
+    }
+    std::sort(listed_.begin(), listed_.end());
+    if (folder.has_parent_path() || folder == ".") listed_.insert(listed_.begin(), "../");
+  }
+  if (ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12))) {
+    for (const std::string& name : listed_)
+      if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
+        fs::path chosen = fs::path(listedFolder_) / name;
+        if (name.back() == '/') {
+          text_ = fs::weakly_canonical(chosen, error).string() + "/";
+        } else {
+          text_ = chosen.lexically_normal().string();
+        }
+      }
+    ImGui::EndListBox();
+  }
+}
+
+int Dialogs::drawButtons(const char* text, bool entered, bool escape) {
+  const float button = ImGui::GetFontSize() * 7;
+  const bool okay = ImGui::Button(text, ImVec2(button, 0)) || entered;
+  ImGui::SameLine();
+  const bool cancel = ImGui::Button("Cancel", ImVec2(button, 0)) || escape;
+  return cancel ? -1 : okay ? 1 : 0;
+}
+
+void Dialogs::drawPicture(bool escape) {
+  const float width = std::min(ImGui::GetFontSize() * 30, ImGui::GetIO().DisplaySize.x * 0.8f);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(width);
+  const bool entered = ImGui::InputText(
+      "##path", &text_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::TextDisabled(".png (8 bits, sRGB), .exr or .pfm (32-bit float, linear)");
+  ImGui::SetNextItemWidth(width * 0.5f);
+  ImGui::InputInt2("pixels", &size_.x);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("x 1")) size_ = windowSize_;
+  ImGui::SameLine();
+  if (ImGui::SmallButton("x 2")) size_ = windowSize_ * 2;
+  ImGui::SameLine();
+  if (ImGui::SmallButton("x 4")) size_ = windowSize_ * 4;
+  ImGui::Checkbox("transparent background", &transparent_);
+  const bool possible = size_.x >= 1 && size_.y >= 1 && size_.x <= 32768 && size_.y <= 32768;
+  if (!possible) ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "from 1 to 32768 pixels");
+  const int chosen = drawButtons("Save", entered, escape);
+  if (chosen > 0 && possible && !text_.empty()) {
+    const PictureAction action = std::move(pictureAction_);
+    const std::string path = text_;
+    const glm::ivec2 size = size_;
+    const bool transparent = transparent_;
+    close();
+    action(path, size, transparent);
+  } else if (chosen < 0) {
     close();
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace glint {
 class Dialogs {
  public:
   using PathAction = std::function<void(const std::string& path)>;
+  using PictureAction =
+      std::function<void(const std::string& path, glm::ivec2 size, bool transparent)>;
   struct Answer {
     std::string text;
     std::function<void()> action;
@@ -18,6 +21,8 @@ class Dialogs {
 
   /// Asks for a file name. `existing`: one that is there, offered in a list.
   void askPath(std::string title, std::string path, bool existing, PathAction action);
+  /// Asks what picture is saved: name, size and whether its background is transparent.
+  void askPicture(std::string path, glm::ivec2 size, bool transparent, PictureAction action);
   void ask(std::string title, std::string question, std::vector<Answer> answers);
 
   bool open() const { return kind_ != Kind::none; }
@@ -28,15 +33,22 @@ class Dialogs {
   void pressEscape() { escape_ = true; }
 
  private:
-  enum class Kind { none, path, question };
+  enum class Kind { none, path, picture, question };
   void close();
   void drawPath(bool escape);
+  void drawPicture(bool escape);
+  void drawFiles(float width);
+  /// The buttons at the end: 1 to go on, -1 to give up, else 0.
+  int drawButtons(const char* text, bool entered, bool escape);
   void drawQuestion(bool enter, bool escape);
 
   Kind kind_ = Kind::none;
   bool appearing_ = false, existing_ = false, enter_ = false, escape_ = false;
   std::string title_, text_;
   PathAction pathAction_;
+  PictureAction pictureAction_;
+  glm::ivec2 size_{1}, windowSize_{1};
+  bool transparent_ = false;
   std::vector<Answer> answers_;
   std::string listedFolder_;
   std::vector<std::string> listed_;

@@ -4,6 +4,12 @@
 
 namespace glint {
 
+bool comparesLooks(const Document& d) {
+  return d.compare != CompareMode::off && !d.exact && d.b.has_value();
+}
+
+bool comparesExact(const Document& d) { return d.compare != CompareMode::off && d.exact; }
+
 void History::settle(const Document& now, bool gesture) {
   if (gesture || now == settled_) return;
   undo_.push_back(std::exchange(settled_, now));

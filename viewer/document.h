@@ -14,10 +14,16 @@ struct Document {
   Look a;                 ///< what is drawn; its resolution is that of the window, not this one
   std::optional<Look> b;  ///< the look kept for comparison
   CompareMode compare = CompareMode::off;
+  bool exact = false;  ///< compares with the exact reference of A in place of B
   double divider = 0.5;         ///< of the split: share of the picture's width that shows A
   double amplification = 16.0;  ///< of the difference
   bool operator==(const Document&) const = default;
 };
+
+/// Whether the document compares A with the kept look, and there is one.
+bool comparesLooks(const Document&);
+/// Whether it compares A with its exact reference.
+bool comparesExact(const Document&);
 
 /// Undo and redo without limit. It is not told of edits: it sees them by comparison, so that none
 /// can be forgotten, and takes all that happens in one gesture (a drag, a typed number) as one

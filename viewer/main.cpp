@@ -42,7 +42,8 @@ int run(int argc, char** argv) {
   if (const CLI::Option* look = app.get_option("--look"); look->count() > 0)
     options.look = look->as<std::string>();
   const glint::Look look = makeLook();
-  glint::Window window("glint", {1372, 800});
+  options.settings = glint::loadSettings();
+  glint::Window window("glint", options.settings.window);
   glint::App viewer(window, look, options);
   viewer.run();
   return glint::done;

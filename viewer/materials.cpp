@@ -1,5 +1,6 @@
 #include "materials.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -47,6 +48,15 @@ void dropEmpty(Look& look) {
 }
 
 }  // namespace
+
+void dropMissing(Look& look, const Scene& scene) {
+  std::erase_if(look.material, [&](const auto& each) {
+    return !each.first.empty() &&
+           std::ranges::none_of(scene.materials,
+                                [&](const Material& m) { return m.name == each.first; });
+  });
+  if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) look.cameraIndex.reset();
+}
 
 void resetParameter(Look& look, const std::string& key, const MaterialParameter& p) {
   for (auto& [name, edit] : look.material)

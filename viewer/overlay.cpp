@@ -1,5 +1,6 @@
 #include "overlay.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "glint/gl/check.h"
@@ -35,19 +36,6 @@ void main() {
 }
 )";
 
-constexpr const char* layVertex = R"(#version 330 core
-void main() {
-  gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
-}
-)";
-
-constexpr const char* layFragment = R"(#version 330 core
-uniform sampler2D layer;
-uniform ivec2 origin;
-out vec4 color;
-void main() { color = texelFetch(layer, ivec2(gl_FragCoord.xy) - origin, 0); }
-)";
-
 Program make(const char* name, const char* vertex, const char* fragment) {
   const ShaderSource sources[] = {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}};
   return Program(name, sources);
@@ -56,11 +44,7 @@ Program make(const char* name, const char* vertex, const char* fragment) {
 }  // namespace
 
 OverlayDrawer::OverlayDrawer()
-    : surface_(make("overlay", surfaceVertex, surfaceFragment)),
-      lay_(make("overlay's layer", layVertex, layFragment)),
-      noVertices_(VertexArray::make()) {
-  lay_.bindSampler("layer", 0);
-}
+    : surface_(make("overlay", surfaceVertex, surfaceFragment)) {}
 
 void OverlayDrawer::resize(glm::ivec2 size) {
   if (size == size_) return;
@@ -80,7 +64,8 @@ void OverlayDrawer::resize(glm::ivec2 size) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
 }
 
-void OverlayDrawer::draw(GpuScene& scene, const DrawList& list, Overlay overlay, glm::ivec2 size) {
+std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& list,
+                                              Overlay overlay, glm::ivec2 size) {
   resize(size);
   const bool reversed = GLAD_GL_ARB_clip_control != 0;
   const glm::mat4 clip(projection(list.camera, {0, 0}, {1, 1}, reversed));
@@ -137,25 +122,14 @@ void OverlayDrawer::draw(GpuScene& scene, const DrawList& list, Overlay overlay,
     drawAll();
   }
   glDisable(GL_CULL_FACE);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  const std::size_t across = std::size_t(4) * std::size_t(size.x), height = std::size_t(size.y);
+  std::vector<std::uint8_t> bottomUp(across * height), layer(across * height);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
+  for (std::size_t y = 0; y < height; ++y)
+    std::copy_n(bottomUp.data() + across * (height - 1 - y), across, layer.data() + across * y);
   checkGl("overlay");
-}
-
-void OverlayDrawer::show(int x, int y, int framebufferHeight) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(x, framebufferHeight - y - size_.y, size_.x, size_.y);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, color_.id());
-  glBindSampler(0, 0);
-  lay_.use();
-  glUniform2i(lay_.uniform("origin"), x, framebufferHeight - y - size_.y);
-  glBindVertexArray(noVertices_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDisable(GL_BLEND);
+  return layer;
 }
 
 }  // namespace glint

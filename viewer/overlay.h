@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "glint/gl/handles.h"
 #include "glint/gl/program.h"
 #include "glint/render/draw_list.h"
@@ -8,27 +11,23 @@
 
 namespace glint {
 
-/// Edges, normals and facing, drawn over the picture in the window; the picture itself stays as it
+/// Edges, normals and facing, to lie over the picture in the window; the picture itself stays as it
 /// is.
 class OverlayDrawer {
  public:
   OverlayDrawer();
 
-  /// Draws what `list` drew, as `overlay` asks, into a buffer of its own.
-  void draw(GpuScene&, const DrawList& list, Overlay overlay, glm::ivec2 size);
-
-  /// Lays it over the window's framebuffer at (x, y) from its upper left corner.
-  void show(int x, int y, int framebufferHeight) const;
+  /// Draws what `list` drew, as `overlay` asks: RGBA with straight alpha, rows from the top.
+  std::vector<std::uint8_t> draw(GpuScene&, const DrawList& list, Overlay overlay, glm::ivec2 size);
 
  private:
   void resize(glm::ivec2 size);
 
-  Program surface_, lay_;
+  Program surface_;
   Buffer block_;
   TextureHandle color_;
   Renderbuffer depth_;
   Framebuffer framebuffer_;
-  VertexArray noVertices_;
   glm::ivec2 size_{0};
 };
 

@@ -7,16 +7,20 @@
 #include "picture.h"
 #include "probe.h"
 #include "session.h"
+#include "settings.h"
 
 namespace glint {
 
 /// What the panel shows and what it can ask for.
 struct PanelContext {
   Session& session;
+  Settings& settings;
   const DrawnPicture* picture = nullptr;  ///< null until one is drawn
   glm::ivec2 resolution{1};               ///< of the picture in the window
   bool preview = false;                   ///< a smaller one is shown while something moves
   const Probe* probe = nullptr;           ///< of the pixel under the cursor, or null
+  bool* probeShown = nullptr;             ///< set where the panel shows it
+  std::string comparison = {};            ///< how far A is from B or the reference
   double uiMilliseconds = 0;              ///< the last frame of the panel
   std::function<void(Action)> run = {};
   std::function<void(glm::ivec2)> resizePicture = {};

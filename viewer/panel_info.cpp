@@ -30,38 +30,64 @@ void vectorRow(const char* name, const glm::dvec3& v) {
   row(name, "%.5f  %.5f  %.5f", v.x, v.y, v.z);
 }
 
-void probeRows(const Session& session, const Probe& probe) {
-  row("pixel", "%d, %d", probe.pixel.x, probe.pixel.y);
-  if (probe.hit) {
-    row("material", "%s", materialLabel(session.model->scene, probe.hit->material).c_str());
-    vectorRow("N", probe.N);
-    vectorRow("V", probe.V);
-    row(style().greek ? "N\u00b7V" : "N.V", "%.6f%s", probe.nv,
-        probe.hit->backFace ? "  (back face)" : "");
-    row(style().greek ? "R(\u03b8)" : "R(theta)", "%.6g", probe.reflectance);
-    vectorRow("ambient", probe.ambient);
-    if (probe.emission != glm::dvec3(0.0)) vectorRow("emission", probe.emission);
-    int n = 0;
-    for (const LightProbe& light : probe.lights) {
-      ImGui::TextUnformatted(("Light " + std::to_string(++n) + " (" + light.name + ")").c_str());
-      vectorRow("  L", light.L);
-      row(style().greek ? "  N\u00b7L  R\u00b7V  N\u00b7H" : "  N.L R.V N.H", "%.5f  %.5f  %.5f",
-          light.nl, light.rv, light.nh);
-      vectorRow("  diffuse", light.diffuse);
-      vectorRow("  specular", light.specular);
-    }
+void lightRows(const LightProbe& light, int number) {
+  ImGui::TextUnformatted(("Light " + std::to_string(number) + " (" + light.name + ")").c_str());
+  vectorRow("  L", light.L);
+  row(style().greek ? "  N\u00b7L  R\u00b7V  N\u00b7H" : "  N.L R.V N.H", "%.5f  %.5f  %.5f",
+      light.nl, light.rv, light.nh);
+  vectorRow("  diffuse", light.diffuse);
+  vectorRow("  specular", light.specular);
+}
+
+void surfaceRows(const Session& session, const Probe& probe) {
+  row("material", "%s%s", materialLabel(session.model->scene, probe.hit->material).c_str(),
+      probe.layers > 1 ? "  (seen through)" : "");
+  vectorRow("C", probe.color);
+  if (probe.alpha != 1) row("alpha", "%.5f", probe.alpha);
+  if (probe.N == glm::dvec3(0.0)) {
+    ImGui::TextDisabled("unlit: shows C");
+    return;
   }
+  vectorRow("N", probe.N);
+  vectorRow("V", probe.V);
+  row(style().greek ? "N\u00b7V" : "N.V", "%.6f%s", probe.nv,
+      probe.hit->backFace ? "  (back face)" : "");
+  row(style().greek ? "R(\u03b8)" : "R(theta)", "%.6g", probe.reflectance);
+  vectorRow("ambient", probe.ambient);
+  int n = 0;
+  for (const LightProbe& light : probe.lights) lightRows(light, ++n);
+  if (probe.emission != glm::dvec3(0.0)) vectorRow("emission", probe.emission);
+  if (!probe.environment) return;
+  vectorRow("reflection", probe.reflection);
+  if (probe.transparency == 0) return;
+  vectorRow("refraction", probe.refraction);
+  row("transparency", "%.5f", probe.transparency);
+}
+
+void probeRows(PanelContext& context, const Probe& probe) {
+  row("pixel", "%d, %d", probe.pixel.x, probe.pixel.y);
+  if (probe.hit)
+    surfaceRows(context.session, probe);
+  else
+    ImGui::TextDisabled("background");
   ImGui::Spacing();
   row("shown", "%.6f  %.6f  %.6f", double(probe.shown.r), double(probe.shown.g),
       double(probe.shown.b));
   row("  as sRGB", "%d  %d  %d", probe.code[0], probe.code[1], probe.code[2]);
-  if (probe.computed) {
-    row("in double", "%.6f  %.6f  %.6f", probe.expected.r, probe.expected.g, probe.expected.b);
+  row("reference", "%.6f  %.6f  %.6f", probe.expected.r, probe.expected.g, probe.expected.b);
+  row("  levels off", "%+d  %+d  %+d of 255", probe.code[0] - probe.expectedCode[0],
+      probe.code[1] - probe.expectedCode[1], probe.code[2] - probe.expectedCode[2]);
+  if (probe.center) {
+    const bool same = *probe.center == probe.shown;
+    if (!same) vectorRow("at the centre", glm::dvec3(*probe.center));
     row("  off by", "%+.3g  %+.3g  %+.3g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
-    row("  levels", "%+d  %+d  %+d of 255", probe.code[0] - probe.expectedCode[0],
-        probe.code[1] - probe.expectedCode[1], probe.code[2] - probe.expectedCode[2]);
+    if (!same)
+      ImGui::TextDisabled("at the centre: without anti-aliasing");
+  } else {
+    ImGui::TextDisabled("  ulp: drawing without anti-aliasing ...");
   }
   if (!probe.remark.empty()) ImGui::TextWrapped("%s", probe.remark.c_str());
+  actionButton(context, Action::copyPixel, "Copy");
 }
 
 void variantRows(const Scene& scene, const DrawnPicture& picture) {
@@ -97,20 +123,35 @@ void drawCompareTab(PanelContext& context) {
   actionButton(context, Action::keepAsB, "Keep as B", half);
   ImGui::SameLine();
   actionButton(context, Action::swapAB, "Exchange A and B", half);
-  if (!document.b) {
+  if (!document.b)
     ImGui::TextWrapped(
         "Keep the look as B, then go on editing A: the two stand side by side, in turn, or as "
         "their difference. To compare two programs or forms of one look, keep it and choose "
         "another here or in the tab Shading.");
-    return;
+  ImGui::Separator();
+  ImGui::TextDisabled("A is compared with");
+  ImGui::BeginDisabled(!document.b);
+  if (ImGui::RadioButton("B", !document.exact)) document.exact = false;
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::RadioButton("its exact reference", document.exact)) {
+    if (document.compare == CompareMode::off) document.compare = CompareMode::split;
+    document.exact = true;
   }
+  widgets::tooltip(
+      "the same look in the exact forms, in double precision on the processor, drawn while you "
+      "wait; both without multisampling, which the reference does not have (" +
+      keyText(infoOf(Action::compareExact)) + ")");
+  if (!document.b && !document.exact) return;
   ImGui::Separator();
   const std::pair<CompareMode, Action> modes[] = {
       {CompareMode::off, Action::compareOff},
       {CompareMode::split, Action::compareSplit},
       {CompareMode::blink, Action::compareBlink},
       {CompareMode::difference, Action::compareDifference}};
-  const char* const names[] = {"A alone", "side by side", "B in place of A", "difference"};
+  const char* const names[] = {"A alone", "side by side",
+                               document.exact ? "reference in place of A" : "B in place of A",
+                               "difference"};
   for (int i = 0; i < 4; ++i) {
     if (ImGui::RadioButton(names[i], document.compare == modes[i].first))
       document.compare = modes[i].first;
@@ -122,12 +163,15 @@ void drawCompareTab(PanelContext& context) {
     widgets::slider("##divider", document.divider, {0, 1, false}, 0, 1);
     if (widgets::doubleClicked()) document.divider = 0.5;
   }
-  if (document.compare == CompareMode::difference) {
+  if (document.compare == CompareMode::difference && !document.exact) {
     widgets::label("times");
     widgets::slider("##times", document.amplification, {1, 256, true}, 1, 256);
     if (widgets::doubleClicked()) document.amplification = 16;
     widgets::tooltip("the difference of the 8-bit values is multiplied by this");
   }
+  if (!context.comparison.empty() && document.compare != CompareMode::off)
+    ImGui::TextWrapped("%s", context.comparison.c_str());
+  if (document.exact || !document.b) return;
   ImGui::Separator();
   ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
   for (const Parameter& p : lookParameters()) {
@@ -153,8 +197,9 @@ void drawCompareTab(PanelContext& context) {
 void drawInfoTab(PanelContext& context) {
   Session& session = context.session;
   if (session.model && ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen)) {
+    *context.probeShown = true;
     if (context.probe)
-      probeRows(session, *context.probe);
+      probeRows(context, *context.probe);
     else
       ImGui::TextDisabled("move the mouse over the picture");
   }

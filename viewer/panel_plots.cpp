@@ -139,16 +139,17 @@ void polarLobe(const LobePlot& plot) {
   rose(plot.chosen, chosenColor, 1.2f);
 }
 
-void lobePlots(const SumInput& input, const std::string& form) {
-  static float incidence = 30;
-  static bool polar = true;
+void lobePlots(Settings& settings, const SumInput& input, const std::string& form) {
+  bool& polar = settings.polar;
   if (ImGui::RadioButton("polar", polar)) polar = true;
   ImGui::SameLine();
   if (ImGui::RadioButton("over angle", !polar)) polar = false;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  ImGui::SliderFloat("##incidence", &incidence, 0, 89, "light at %.0f deg");
-  const LobePlot plot = lobePlot(input, double(incidence));
+  float incidence = float(settings.incidence);
+  if (ImGui::SliderFloat("##incidence", &incidence, 0, 89, "light at %.0f deg"))
+    settings.incidence = double(incidence);
+  const LobePlot plot = lobePlot(input, settings.incidence);
   if (polar) {
     polarLobe(plot);
   } else {
@@ -246,7 +247,7 @@ void drawPlots(PanelContext& context) {
   input.highlight = saved("highlight");
   if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
                               ImGuiTreeNodeFlags_DefaultOpen))
-    lobePlots(input, input.highlight);
+    lobePlots(context.settings, input, input.highlight);
   const bool fresnelOpen = look.shading == Shading::environment;
   ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
   if (ImGui::CollapsingHeader("Fresnel reflectance"))

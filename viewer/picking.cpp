@@ -46,9 +46,9 @@ Picker::Picker(const Scene& scene) {
   }
 }
 
-std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSided) const {
-  std::optional<Hit> best;
-  double nearest = std::numeric_limits<double>::infinity();
+template <typename Visit>
+void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, double& limit,
+                        Visit visit) const {
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
     const Instance& instance = scene.instances[n];
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -64,7 +64,7 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
     const glm::dvec3 direction = inverse * ray.direction;
     const glm::dvec3 reciprocal = 1.0 / direction;
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-      if (!meets(origin, reciprocal, chunks[c].low, chunks[c].high, nearest)) continue;
+      if (!meets(origin, reciprocal, chunks[c].low, chunks[c].high, limit)) continue;
       const std::size_t last = std::min((c + 1) * chunkSize, mesh.indices.size() / 3);
       for (std::size_t t = c * chunkSize; t < last; ++t) {
         const glm::dvec3 p0(mesh.positions[mesh.indices[3 * t]]);
@@ -81,11 +81,10 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
         const double v = glm::dot(direction, q) / det;
         if (!(v >= 0 && u + v <= 1)) continue;
         const double distance = glm::dot(e2, q) / det;
-        if (!(distance > 0 && distance < nearest)) continue;
+        if (!(distance > 0 && distance < limit)) continue;
         // In the space of the mesh: a mirrored instance keeps its faces.
         const bool back = det < 0;
         if (back && !both) continue;
-        nearest = distance;
         Hit hit;
         hit.instance = int(n);
         hit.mesh = instance.mesh;
@@ -95,10 +94,27 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
         hit.distance = distance;
         hit.position = ray.origin + ray.direction * distance;
         hit.backFace = back;
-        best = hit;
+        visit(hit);
       }
     }
   }
+}
+
+std::vector<Hit> Picker::pickAll(const Scene& scene, const Ray& ray, bool twoSided) const {
+  std::vector<Hit> hits;
+  double limit = std::numeric_limits<double>::infinity();
+  forEachHit(scene, ray, twoSided, limit, [&](const Hit& hit) { hits.push_back(hit); });
+  std::ranges::stable_sort(hits, {}, &Hit::distance);
+  return hits;
+}
+
+std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSided) const {
+  std::optional<Hit> best;
+  double nearest = std::numeric_limits<double>::infinity();
+  forEachHit(scene, ray, twoSided, nearest, [&](const Hit& hit) {
+    nearest = hit.distance;
+    best = hit;
+  });
   if (best) {
     const Mesh& mesh = scene.meshes[std::size_t(best->mesh)];
     const glm::dmat3 linear(scene.instances[std::size_t(best->instance)].world);

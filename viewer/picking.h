@@ -26,11 +26,17 @@ class Picker {
  public:
   explicit Picker(const Scene&);
   std::optional<Hit> pick(const Scene&, const Ray&, bool twoSided) const;
+  /// Everything that the ray meets, from the nearest; without `normal`.
+  std::vector<Hit> pickAll(const Scene&, const Ray&, bool twoSided) const;
 
  private:
   struct Chunk {
     glm::vec3 low, high;
   };
+  /// Calls visit(hit) for what lies nearer than `limit`, in no order; visit may lower it.
+  template <typename Visit>
+  void forEachHit(const Scene&, const Ray&, bool twoSided, double& limit, Visit visit) const;
+
   std::vector<std::vector<Chunk>> chunks_;  // of each mesh
 };
 

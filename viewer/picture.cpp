@@ -9,8 +9,8 @@
 
 namespace glint {
 
-DrawnPicture drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds,
-                         const Look& look) {
+std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds,
+                                        const Look& look, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
   auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);
   DrawnPicture drawn;
@@ -24,6 +24,7 @@ DrawnPicture drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& boun
   std::vector<std::uint8_t> rgb;
   std::size_t done = 0;
   for (int i = 0; i < picture.bandCount(); ++i) {
+    if (stop) return {};
     picture.drawBand(band);
     const std::size_t count = std::size_t(band.width) * std::size_t(band.height);
     std::uint8_t* out = drawn.codes.data() + 4 * done;
@@ -48,12 +49,18 @@ DrawnPicture drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& boun
   return drawn;
 }
 
-void writePicture(const DrawnPicture& picture, const std::string& path) {
+void writePicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const Look& look,
+                  const std::string& path) {
   PictureOptions options;
-  options.alpha = picture.look.noBackground;
-  options.exposureScale = float(std::exp2(picture.look.exposure));
-  const auto writer = openPictureWriter(path, picture.linear.width, picture.linear.height, options);
-  writer->write(picture.linear);
+  options.alpha = look.noBackground;
+  options.exposureScale = float(std::exp2(look.exposure));
+  auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);
+  const auto writer = openPictureWriter(path, look.resolution.x, look.resolution.y, options);
+  Image band;
+  for (int i = 0; i < picture.bandCount(); ++i) {
+    picture.drawBand(band);
+    writer->write(band);
+  }
   writer->finish();
 }
 

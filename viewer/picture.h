@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +23,13 @@ struct DrawnPicture {
   std::size_t notNumbers = 0;
 };
 
-/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode.
-DrawnPicture drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&);
+/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode. Nothing
+/// if `stop` becomes true meanwhile.
+std::optional<DrawnPicture> drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&,
+                                        const std::atomic<bool>& stop);
 
-/// Writes the picture as `glint render` would. Throws InputError.
-void writePicture(const DrawnPicture&, const std::string& path);
+/// Draws a look and writes it band by band, as `glint render` does. Throws InputError.
+void writePicture(Renderer&, GpuScene&, const Bounds&, const Look&, const std::string& path);
 
 /// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.
 class Screen {

@@ -2,193 +2,264 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
-#include "formulas.h"
 #include "glint/image/srgb.h"
-#include "glint/render/variant.h"
+#include "glint/render/reference_pixel.h"
+#include "glint/render/reference_renderer.h"
 #include "glint/scene/lights.h"
-#include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/shading/fresnel.h"
+#include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
+#include "materials.h"
 
 namespace glint {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
+constexpr std::size_t mostLayers = 64;
 
-std::string saved(const Look& look, std::string_view name) {
-  for (const Parameter& p : lookParameters())
-    if (p.name == name) return p.save(look).get<std::string>();
-  return {};
-}
-
-/// Light that reaches a point: the direction to it and its intensity there.
-struct Arriving {
-  glm::dvec3 L{0.0}, intensity{0.0};
-};
-
-double falloff(const Light& light, const glm::dvec3& point) {
-  return light.fallsOff ? distanceFalloff(glm::length(light.position - point), light.range) : 1.0;
-}
-
-Arriving arriving(const Light& light, const glm::dvec3& point, const Camera& camera) {
-  const auto unit = [](const glm::dvec3& v) { return v / glm::length(v); };
-  switch (light.type) {
-    case Light::Type::directional:
-      return {unit(light.direction), light.intensity};
-    case Light::Type::camera:
-      return {camera.axes * unit(light.direction), light.intensity};
-    case Light::Type::point:
-      return {unit(light.position - point), light.intensity * falloff(light, point)};
-    case Light::Type::spot: {
-      const glm::dvec3 L = unit(light.position - point);
-      const double c = glm::dot(-L, unit(light.direction));
-      const double outer = std::cos(light.outerAngle * radians);
-      const double inner = std::cos(light.innerAngle * radians);
-      const double share = std::clamp((c - outer) / (inner - outer), 0.0, 1.0);
-      return {L, light.intensity * (share * share * falloff(light, point))};
+// The triangles that the ray meets, each a mesh of its own under the transform that it has: all that
+// the reference needs of the scene for one pixel.
+Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
+  Scene scene;
+  scene.materials = from.materials;
+  scene.cameras = from.cameras;
+  for (const Hit& hit : hits) {
+    const Mesh& mesh = from.meshes[std::size_t(hit.mesh)];
+    Mesh one;
+    one.origin = mesh.origin;
+    one.normalsMayCancel = mesh.normalsMayCancel;
+    one.material = mesh.material;
+    one.texcoords.resize(mesh.texcoords.size());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.indices[3 * hit.triangle + i];
+      one.positions.push_back(mesh.positions[v]);
+      one.normals.push_back(mesh.normals[v]);
+      if (!mesh.colors.empty()) one.colors.push_back(mesh.colors[v]);
+      for (std::size_t set = 0; set < mesh.texcoords.size(); ++set)
+        if (!mesh.texcoords[set].empty()) one.texcoords[set].push_back(mesh.texcoords[set][v]);
+      one.indices.push_back(std::uint32_t(i));
     }
+    scene.instances.push_back(
+        {int(scene.meshes.size()), from.instances[std::size_t(hit.instance)].world});
+    scene.meshes.push_back(std::move(one));
   }
-  return {};
+  return scene;
 }
 
-/// A point where the sum is formed.
-struct Point {
-  glm::dvec3 position, N;
+// The item of a list that draws this side of an instance, or -1.
+int itemOf(const DrawList& list, int instance, bool back) {
+  const FaceSide side = back ? FaceSide::back : FaceSide::front;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const DrawItem& item = list.items[i];
+    if (item.instance == instance && (item.faces == FaceSide::both || item.faces == side))
+      return int(i);
+  }
+  return -1;
+}
+
+struct LayerValue {
+  int item;         ///< of the stage
+  int order;        ///< in the picture's list
+  std::size_t hit;
+  reference::Attributes attributes;
+  glm::dvec3 radiance;
 };
 
-}  // namespace
-
-Probe probePixel(const Scene& scene, const Bounds& bounds, const Picker& picker, const Look& look,
-                 const Image& linear, glm::ivec2 pixel) {
-  Probe probe;
-  probe.pixel = pixel;
-  const float* rgba = linear.row(pixel.y) + std::size_t(4) * std::size_t(pixel.x);
-  const float scale = float(std::exp2(look.exposure));
+void setShown(Probe& probe, const Image& shown, float scale) {
+  const float* rgba = shown.row(probe.pixel.y) + std::size_t(4) * std::size_t(probe.pixel.x);
   for (int i = 0; i < 3; ++i) {
     probe.shown[i] = rgba[i];
     probe.code[i] = encodeSrgb8(rgba[i] * scale);
   }
-  const Camera camera = cameraFor(scene, bounds, look);
-  const Ray ray = rayThrough(camera, glm::dvec2(pixel) + 0.5, look.resolution);
-  probe.hit = picker.pick(scene, ray, look.twoSided);
-  if (!probe.hit) {
-    probe.remark = "background";
-    return probe;
-  }
-  const Hit& hit = *probe.hit;
-  const Mesh& mesh = scene.meshes[std::size_t(hit.mesh)];
-  const Instance& instance = scene.instances[std::size_t(hit.instance)];
-  const Material material = editedMaterial(scene.materials[std::size_t(hit.material)], look);
-  const ShadingParameters& s = material.shading;
-  const Variant variant = variantFor(mesh, material, instance.world,
-                                     withFileLights(scene, look), camera.orthographic);
+}
 
-  const auto viewFrom = [&](const glm::dvec3& point) {
-    if (camera.orthographic || look.viewer == Viewer::infinite) return camera.axes[2];
-    return glm::normalize(camera.eye - point);
+void compareWith(Probe& probe, const Image* plain, float scale) {
+  for (int i = 0; i < 3; ++i) probe.expectedCode[i] = encodeSrgb8(float(probe.expected[i]) * scale);
+  if (!plain) return;
+  const float* rgba = plain->row(probe.pixel.y) + std::size_t(4) * std::size_t(probe.pixel.x);
+  probe.center = glm::vec3(rgba[0], rgba[1], rgba[2]);
+  for (int i = 0; i < 3; ++i) {
+    const float e = std::abs(float(probe.expected[i]));
+    const double unit = double(std::nextafter(e, INFINITY)) - double(e);
+    probe.ulps[i] = (double(rgba[i]) - probe.expected[i]) / unit;
+  }
+}
+
+// The background, by the reference: of a scene of nothing.
+glm::dvec3 backgroundAt(const ProbeScene& where, const Look& look, glm::ivec2 pixel) {
+  if (look.noBackground) return glm::dvec3(0.0);
+  if (!look.environmentBackground) return look.backgroundColor;
+  Scene none = sceneOf(where.scene, {});
+  ReferenceRenderer renderer(none, where.images, where.bounds, look, 1);
+  Image row;
+  renderer.drawRows(pixel.y, 1, row);
+  const float* rgba = row.row(0) + std::size_t(4) * std::size_t(pixel.x);
+  return {double(rgba[0]), double(rgba[1]), double(rgba[2])};
+}
+
+// The terms of the front-most layer, by light.
+void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& layer,
+              const std::vector<Light>& lights) {
+  const reference::Surface& s = stage.items[std::size_t(layer.item)].surface;
+  const glm::dmat3& toWorld = stage.camera.axes;
+  const reference::Attributes& a = layer.attributes;
+  probe.color = glm::dvec3(a.base);
+  probe.alpha = a.base.a;
+  if (s.unlit) return;
+  glm::dvec3 N = reference::shadingNormal(s, a), position = a.position;
+  if (s.program == reference::Program::flat) {
+    N = s.twoSided && !a.front ? -a.faceNormal : a.faceNormal;
+    const auto& eye = stage.vertices[stage.items[std::size_t(layer.item)].vertices].eye;
+    position = (eye[0] + eye[1] + eye[2]) / 3.0;
+  }
+  const glm::dvec3 V = reference::toViewer(stage.frame, position);
+  probe.N = toWorld * N;
+  probe.V = toWorld * V;
+  probe.nv = glm::dot(N, V);
+  const bool entering = a.front || !s.twoSided;
+  probe.reflectance = entering ? fresnelExact(probe.nv, s.mediumIor, s.ior)
+                               : fresnelExact(probe.nv, s.ior, s.mediumIor);
+  const auto termsWith = [&](std::vector<reference::Light> some, const glm::dvec3& ambient) {
+    reference::Stage alone = stage;
+    alone.frame.lights = std::move(some);
+    alone.frame.ambientLight = ambient;
+    reference::PixelShader shader(alone);
+    return reference::shade(
+        alone.frame, s, shader.attributes(layer.item, 0, probe.pixel.x, probe.pixel.y));
   };
-  const auto corner = [&](int i) {
-    const std::uint32_t index = mesh.indices[3 * hit.triangle + std::size_t(i)];
-    const glm::dmat3 toWorld(instance.world);
-    const glm::dmat3 normals = glm::transpose(glm::inverse(toWorld));
-    return Point{
-        toWorld * (mesh.origin + glm::dvec3(mesh.positions[index])) + glm::dvec3(instance.world[3]),
-        glm::normalize(normals * glm::dvec3(mesh.normals[index]))};
-  };
-  Point points[3] = {corner(0), corner(1), corner(2)};
-  glm::dvec3 weights = hit.barycentric;
-  Point shaded{hit.position, hit.normal};
-  if (look.shading == Shading::flat) {
-    const glm::dvec3 across = glm::cross(points[1].position - points[0].position,
-                                         points[2].position - points[0].position);
-    shaded.N = glm::normalize(across);
-    if (glm::determinant(glm::dmat3(instance.world)) < 0) shaded.N = -shaded.N;
-    shaded.position = (points[0].position + points[1].position + points[2].position) / 3.0;
-  }
-  const bool gouraud = look.shading == Shading::gouraud;
-  const int count = gouraud ? 3 : 1;
-  if (!gouraud) {
-    points[0] = shaded;
-    weights = {1, 0, 0};
-  }
-  if (hit.backFace) {
-    shaded.N = -shaded.N;
-    for (Point& p : points) p.N = -p.N;
-  }
-  probe.N = shaded.N;
-  probe.V = viewFrom(shaded.position);
-  probe.nv = glm::dot(probe.N, probe.V);
-
-  SumInput input;
-  input.ambient = s.ambient;
-  input.diffuse = s.diffuse;
-  input.specular = s.specular;
-  input.exponent = s.exponent;
-  input.blinnFactor = look.blinnFactor;
-  input.blinn = look.shading == Shading::blinnPhong || look.shading == Shading::environment;
-  input.highlight = saved(look, "highlight");
-  const double n1 = hit.backFace ? s.ior : look.mediumIor;
-  const double n2 = hit.backFace ? look.mediumIor : s.ior;
-  probe.reflectance = fresnelValue("exact", probe.nv, n1, n2, look.schlickExponent);
-
-  const glm::dvec3 C = s.color;
-  const glm::dvec3 S = s.metalness * C + (1 - s.metalness) * glm::dvec3(1.0);
-  probe.ambient = s.ambient * C * look.ambientLight;
-  probe.emission = material.emission;
-  glm::dvec3 sum = probe.ambient + probe.emission;
-  for (const Light& light : lightsOf(withFileLights(scene, look))) {
+  const reference::Terms dark = termsWith({}, stage.frame.ambientLight);
+  probe.ambient = sumColor({dark.matte, glm::dvec3(0.0)}, probe.color, s.metalness);
+  probe.emission = a.emission;
+  probe.environment = s.program == reference::Program::environment;
+  probe.reflection = dark.reflection;
+  probe.refraction = dark.refraction;
+  probe.transparency = dark.transparency;
+  static const char* const names[] = {"directional", "point", "spot", "camera"};
+  std::vector<const char*> named;
+  for (const Light& light : lights)
+    if (light.intensity != glm::dvec3(0.0)) named.push_back(names[int(light.type)]);
+  for (std::size_t i = 0; i < stage.frame.lights.size(); ++i) {
+    const reference::Light& light = stage.frame.lights[i];
+    const reference::Terms terms = termsWith({light}, glm::dvec3(0.0));
     LightProbe each;
-    const std::string text = lightText(light);
-    each.name = text.substr(0, text.find(':'));
-    for (int i = 0; i < count; ++i) {
-      const Arriving from = arriving(light, points[i].position, camera);
-      const SumValue value =
-          lightValue(input, points[i].N, from.L, viewFrom(points[i].position), from.intensity);
-      each.diffuse += weights[i] * C * value.matte;
-      each.specular += weights[i] * S * value.specular;
-    }
-    const Arriving from = arriving(light, shaded.position, camera);
-    each.L = from.L;
-    each.nl = glm::dot(probe.N, from.L);
-    each.rv = glm::dot(2 * each.nl * probe.N - from.L, probe.V);
-    const glm::dvec3 half = from.L + probe.V;
-    each.nh = glm::length(half) > 0 ? glm::dot(probe.N, glm::normalize(half)) : 0;
-    sum += each.diffuse + each.specular;
+    each.name = i < named.size() ? named[i] : "light";
+    each.diffuse = sumColor({terms.matte, glm::dvec3(0.0)}, probe.color, s.metalness);
+    each.specular = sumColor({glm::dvec3(0.0), terms.specular}, probe.color, s.metalness);
+    const glm::dvec3 L = light.type == reference::Light::Type::directional
+                             ? light.place
+                             : safeNormalize(light.place - position);
+    each.L = toWorld * L;
+    each.nl = glm::dot(N, L);
+    each.rv = glm::dot(2 * each.nl * N - L, V);
+    each.nh = glm::dot(N, safeNormalize(L + V));
     probe.lights.push_back(each);
   }
-  if (variant.unlit) {
-    probe.remark = "unlit: shows its colour";
-    return probe;
+}
+
+std::string remarkFor(const reference::Stage& stage, const std::vector<LayerValue>& layers) {
+  const reference::Item& item = stage.items[std::size_t(layers.front().item)];
+  if (layers.front().attributes.edgeDistance < 1.0 / 256)
+    return "an edge passes the pixel's centre so closely that the driver may show what is beside it";
+  if (item.colorTexture || item.emissionTexture)
+    return "textured: drivers filter textures in fixed point, to about 1/256";
+  return {};
+}
+
+}  // namespace
+
+Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& shown,
+                 const Image* plain, glm::ivec2 pixel) {
+  Probe probe;
+  probe.pixel = pixel;
+  const float scale = float(std::exp2(shownLook.exposure));
+  setShown(probe, shown, scale);
+  Look look = shownLook;
+  look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  const Camera camera = cameraFor(where.scene, where.bounds, look);
+  std::vector<Hit> hits = where.picker.pickAll(
+      where.scene, rayThrough(camera, glm::dvec2(pixel) + 0.5, look.resolution), look.twoSided);
+  if (hits.size() > mostLayers) hits.resize(mostLayers);
+  const Scene scene = sceneOf(where.scene, hits);
+  const DrawList list = makeDrawList(scene, where.bounds, look);
+  const reference::Stage stage(scene, where.images, list, look);
+  reference::PixelShader shader(stage);
+  std::vector<LayerValue> layers;  // from the front; the last one is opaque, if any is
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const int item = itemOf(list, int(k), hits[k].backFace);
+    if (item < 0) continue;
+    const reference::Item& drawn = stage.items[std::size_t(item)];
+    if (!reference::makePrimitive(drawn, stage.vertices[drawn.vertices], 0)) continue;
+    const reference::Attributes a = shader.attributes(item, 0, pixel.x, pixel.y);
+    if (drawn.mask && a.base.a < drawn.alphaCutoff) continue;
+    const glm::dvec3 radiance = reference::shade(stage.frame, drawn.surface, a).radiance;
+    layers.push_back(
+        {item, itemOf(where.list, hits[k].instance, hits[k].backFace), k, a, radiance});
+    if (!drawn.blended) break;
   }
-  if (variant.colorTexture || variant.vertexColors || variant.emissionTexture) {
-    probe.remark = "textured: the terms are those of the material's own colour";
-    return probe;
+  probe.layers = int(layers.size());
+  probe.expected = layers.empty() || stage.items[std::size_t(layers.back().item)].blended
+                       ? backgroundAt(where, look, pixel)
+                       : glm::dvec3(0.0);
+  if (!layers.empty()) {
+    probe.hit = hits[layers.front().hit];
+    setTerms(probe, stage, layers.front(), lightsOf(withFileLights(scene, look)));
+    probe.remark = remarkFor(stage, layers);
+    // In drawing order: what is blended comes after what is opaque.
+    std::vector<LayerValue> drawn = layers;
+    std::ranges::stable_sort(drawn, {}, &LayerValue::order);
+    for (const LayerValue& layer : drawn) {
+      const double alpha =
+          stage.items[std::size_t(layer.item)].blended ? layer.attributes.base.a : 1.0;
+      probe.expected = layer.radiance * alpha + (1 - alpha) * probe.expected;
+    }
   }
-  if (look.shading == Shading::environment || variant.alphaBlend) {
-    probe.remark = look.shading == Shading::environment
-                       ? "the terms are those of the sum; what is reflected and refracted comes on "
-                         "top"
-                       : "blended: what lies behind shows through";
-    return probe;
-  }
-  probe.computed = true;
-  probe.expected = sum;
-  for (int i = 0; i < 3; ++i) {
-    const float e = float(sum[i]);
-    const double unit = double(std::nextafter(std::abs(e), INFINITY)) - double(std::abs(e));
-    probe.ulps[i] = (double(probe.shown[i]) - sum[i]) / unit;
-    probe.expectedCode[i] = encodeSrgb8(e * scale);
-  }
-  if (look.antiAliasing.mode != AntiAliasing::Mode::none)
-    probe.remark =
-        "anti-aliased: the driver shades at another place within the pixel than its centre, and an "
-        "edge is "
-        "a mean; without anti-aliasing the two agree to a few ulp";
+  compareWith(probe, plain, scale);
   return probe;
+}
+
+std::string probeText(const Scene& scene, const Probe& p) {
+  using Json = nlohmann::ordered_json;
+  const auto vec = [](const auto& v) { return Json{v[0], v[1], v[2]}; };
+  Json json;
+  json["pixel"] = {p.pixel.x, p.pixel.y};
+  if (p.hit) {
+    json["material"] = materialLabel(scene, p.hit->material);
+    json["back-face"] = p.hit->backFace;
+    json["layers"] = p.layers;
+    json["N"] = vec(p.N);
+    json["V"] = vec(p.V);
+    json["N.V"] = p.nv;
+    json["R(theta)"] = p.reflectance;
+    json["C"] = vec(p.color);
+    json["alpha"] = p.alpha;
+    json["ambient"] = vec(p.ambient);
+    json["emission"] = vec(p.emission);
+    if (p.environment) {
+      json["reflection"] = vec(p.reflection);
+      json["refraction"] = vec(p.refraction);
+      json["transparency"] = p.transparency;
+    }
+    json["lights"] = Json::array();
+    for (const LightProbe& light : p.lights)
+      json["lights"].push_back({{"type", light.name},
+                                {"L", vec(light.L)},
+                                {"N.L", light.nl},
+                                {"R.V", light.rv},
+                                {"N.H", light.nh},
+                                {"diffuse", vec(light.diffuse)},
+                                {"specular", vec(light.specular)}});
+  }
+  json["shown"] = vec(p.shown);
+  json["code"] = {p.code[0], p.code[1], p.code[2]};
+  json["reference"] = vec(p.expected);
+  json["reference-code"] = {p.expectedCode[0], p.expectedCode[1], p.expectedCode[2]};
+  if (p.center) {
+    json["center"] = vec(*p.center);
+    json["ulp"] = {p.ulps[0], p.ulps[1], p.ulps[2]};
+  }
+  if (!p.remark.empty()) json["remark"] = p.remark;
+  return json.dump(2) + "\n";
 }
 
 }  // namespace glint

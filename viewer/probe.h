@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "glint/image/image.h"
+#include "glint/render/draw_list.h"
+#include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
 #include "glint/scene/look.h"
 #include "picking.h"
@@ -21,26 +23,48 @@ struct LightProbe {
   glm::dvec3 specular{0.0};  ///< S m_s I lobe
 };
 
-/// One pixel: what the window shows, and the same by the formulas in double.
+/// One pixel: what the window shows, and the same by the reference's formulas in double. The terms
+/// are those of the front-most surface.
 struct Probe {
   glm::ivec2 pixel{0};
   std::optional<Hit> hit;     ///< empty: the background
+  int layers = 0;             ///< surfaces that are seen, one through the other
   glm::dvec3 N{0.0}, V{0.0};  ///< unit, world space
   double nv = 0;
   double reflectance = 0;  ///< R(theta) at N.V, exact, from the look's medium into the material
-  glm::dvec3 ambient{0.0}, emission{0.0}, reflection{0.0};
+  glm::dvec3 color{0.0};   ///< C with textures and vertex colours
+  double alpha = 1;
+  glm::dvec3 ambient{0.0}, emission{0.0};
+  bool environment = false;                    ///< the three below say something
+  glm::dvec3 reflection{0.0}, refraction{0.0};
+  double transparency = 0;  ///< 1 - this of ambient, diffuse and specular light is left
   std::vector<LightProbe> lights;
   glm::vec3 shown{0};  ///< linear, from the framebuffer, before exposure
   int code[3] = {0, 0, 0};
-  bool computed = false;  ///< the members below say something
-  glm::dvec3 expected{0.0};
+  /// What the GL program gives at the pixel's centre, without anti-aliasing; empty if not drawn.
+  std::optional<glm::vec3> center;
+  glm::dvec3 expected{0.0};  ///< the reference's value there
   int expectedCode[3] = {0, 0, 0};
-  double ulps[3] = {0, 0, 0};  ///< shown - expected in units of the last place of a float there
-  std::string remark;          ///< why not computed, or what the comparison leaves out
+  double ulps[3] = {0, 0, 0};  ///< center - expected in units of the last place of a float there
+  std::string remark;          ///< what the comparison leaves out; empty if nothing
 };
 
-/// `look` has the resolution of `linear`. The surface is found by a ray through the pixel's centre.
-Probe probePixel(const Scene&, const Bounds&, const Picker&, const Look& look, const Image& linear,
+/// What a probe looks into.
+struct ProbeScene {
+  const Scene& scene;
+  const DecodedImages& images;
+  const Bounds& bounds;
+  const Picker& picker;
+  const DrawList& list;  ///< of the picture: the order of what is blended
+};
+
+/// `look` is that of `shown`; `plain` is the same picture without anti-aliasing, or null. The
+/// surfaces are found by a ray through the pixel's centre, and the reference draws them alone.
+/// Points and lines are not found.
+Probe probePixel(const ProbeScene&, const Look& look, const Image& shown, const Image* plain,
                  glm::ivec2 pixel);
+
+/// All of it as JSON, to be copied.
+std::string probeText(const Scene&, const Probe&);
 
 }  // namespace glint

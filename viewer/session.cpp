@@ -12,13 +12,13 @@
 
 namespace glint {
 
-std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const Look& look) {
+std::unique_ptr<Model> loadModel(const std::filesystem::path& path) {
   const auto start = std::chrono::steady_clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;
-  model->scene = loadGltf(path);
+  model->scene = loadGltf(path, poseOf(look));
   model->bounds = boundsOf(model->scene);
-  model->images = decodeImages(model->scene, look);
+  model->images = decodeImages(model->scene, Look());  // no look reads others
   model->picker.emplace(model->scene);
   model->loadTime =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -93,17 +93,8 @@ void Session::take(std::shared_ptr<Model> loaded) {
   const bool same = model && model->path == loaded->path;
   const bool first = !model;
   model = std::move(loaded);
-  const auto missing = [&](const auto& each) {
-    return !each.first.empty() &&
-           std::ranges::none_of(model->scene.materials,
-                                [&](const Material& m) { return m.name == each.first; });
-  };
-  std::erase_if(document.a.material, missing);
-  if (document.b) std::erase_if(document.b->material, missing);
-  const auto cameras = int(model->scene.cameras.size());
-  if (document.a.cameraIndex.value_or(-1) >= cameras) document.a.cameraIndex.reset();
-  if (document.b && document.b->cameraIndex.value_or(-1) >= cameras)
-    document.b->cameraIndex.reset();
+  dropMissing(document.a, model->scene);
+  if (document.b) dropMissing(*document.b, model->scene);
   if (!same) {
     writtenMaterials.clear();
     const std::vector<int> drawn = drawnMaterials(model->scene);

@@ -21,13 +21,13 @@ struct Model {
   std::filesystem::path path;
   Scene scene;
   Bounds bounds;
-  DecodedImages images;  ///< until they are uploaded
+  DecodedImages images;
   std::optional<Picker> picker;
   double loadTime = 0;  ///< ms
 };
 
 /// Reads a model; throws InputError.
-std::unique_ptr<Model> loadModel(const std::filesystem::path&, const Look&);
+std::unique_ptr<Model> loadModel(const std::filesystem::path&);
 
 /// When a file was last written, and how long it is: what tells that it has changed.
 struct FileState {

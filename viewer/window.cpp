@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <utility>
 
@@ -12,6 +13,8 @@
 
 namespace glint {
 namespace {
+
+std::atomic<bool> woken = false;
 
 Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
@@ -67,6 +70,15 @@ void installCallbacks(GLFWwindow* window) {
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).happened(); });
 }
 
+void hintContext() {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+}
+
 }  // namespace
 
 Window::Window(const std::string& title, glm::ivec2 size) {
@@ -74,13 +86,8 @@ Window::Window(const std::string& title, glm::ivec2 size) {
     throw ContextError("no window: " + lastError() +
                        ": start it in a desktop session or under xvfb-run, or draw offscreen with "
                        "glint render");
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  hintContext();
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "glint-viewer");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "glint-viewer");
   // What does not fit on the screen is cut off where there is no window manager.
@@ -145,10 +152,13 @@ bool Window::wait(double seconds) {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  return std::exchange(happened_, false);
+  return std::exchange(happened_, false) | woken.exchange(false);
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+  woken = true;
+  glfwPostEmptyEvent();
+}
 bool Window::closeRequested() const { return glfwWindowShouldClose(window_); }
 void Window::refuseClose() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 
@@ -160,5 +170,19 @@ std::string Window::clipboard() const {
 void Window::setClipboard(const std::string& text) {
   glfwSetClipboardString(window_, text.c_str());
 }
+
+OffscreenContext::OffscreenContext(const Window&) {
+  glfwDefaultWindowHints();
+  hintContext();
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  window_ = glfwCreateWindow(16, 16, "glint pictures", nullptr, nullptr);
+  if (!window_)
+    throw ContextError("no second OpenGL context: " + lastError() +
+                       ": draw offscreen with glint render");
+}
+
+OffscreenContext::~OffscreenContext() { glfwDestroyWindow(window_); }
+void OffscreenContext::makeCurrent() { glfwMakeContextCurrent(window_); }
+void OffscreenContext::release() { glfwMakeContextCurrent(nullptr); }
 
 }  // namespace glint

@@ -49,4 +49,21 @@ class Window {
   bool happened_ = true;
 };
 
+/// A context like a window's, of no use on the screen: for another thread to draw pictures with.
+class OffscreenContext {
+ public:
+  /// On the main thread. Throws ContextError.
+  explicit OffscreenContext(const Window&);
+  ~OffscreenContext();
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  /// For the calling thread.
+  void makeCurrent();
+  void release();
+
+ private:
+  GLFWwindow* window_ = nullptr;
+};
+
 }  // namespace glint

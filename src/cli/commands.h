@@ -20,6 +20,7 @@ using Command = std::function<int()>;
 Command addRender(CLI::App&);
 Command addView(CLI::App&);
 Command addDiff(CLI::App&);
+Command addStudy(CLI::App&);
 Command addInfo(CLI::App&);
 Command addBackends(CLI::App&);
 Command addEnvironment(CLI::App&);

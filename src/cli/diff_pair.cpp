@@ -8,14 +8,12 @@
 #include <chrono>
 #include <filesystem>
 #include <future>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
-#include "glint/image/report_page.h"
 
 namespace glint {
 namespace {
@@ -69,13 +67,15 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   } catch (const InputError& error) {
     errorB = error.what();
   }
+  entry.readableB = errorB.empty();
+  entry.textB = b.text;
   const StoredImage a = reading.get();
   if (!errorB.empty()) throw InputError(errorB);
   entry.width = a.width;
   entry.height = a.height;
   entry.textA = a.text;
-  entry.textB = b.text;
   entry.note = driverNote(entry);
+  entry.acrossDrivers = !entry.note.empty();
   CompareOptions options = settings.compare;
   if (settings.allMetrics) {
     for (const std::string& name : metricNames())
@@ -84,25 +84,27 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   const bool flipOutput = !settings.output.empty() && settings.difference == DifferenceKind::flip;
   std::optional<TemporaryPng> map;
   std::optional<FlipPicture> output;
-  if (pictures || flipOutput) {
-    // A picture that nobody can compare must not leave its file behind.
-    if (a.width == b.width && a.height == b.height) {
-      if (!flipOutput) map.emplace();
-      output.emplace(flipOutput ? settings.output : map->path, a.width, a.height);
-      options.metrics.push_back("flip");
-      options.flipMap = [&](int, const float* errors) { output->add(errors); };
-    }
+  const bool sameSize = a.width == b.width && a.height == b.height;
+  if (sameSize && (pictures || flipOutput)) {
+    if (!flipOutput) map.emplace();
+    output.emplace(flipOutput ? settings.output : map->path, a.width, a.height);
+    options.metrics.push_back("flip");
+    options.flipMap = [&](int, const float* errors) { output->add(errors); };
   }
-  entry.result = compare(a, b, options);
+  try {
+    entry.result = compare(a, b, options);
+  } catch (const InputError& error) {
+    throw InputError(printablePath(entry.a) + " and " + printablePath(entry.b) + ": " +
+                     error.what());
+  }
   if (output) output->finish();
-  if (!settings.output.empty() && !flipOutput)
+  if (sameSize && !settings.output.empty() && !flipOutput)
     writeDifference(settings.output, a, b, options, settings.difference, settings.scale);
   if (pictures) {
     pictures->a = pngOf(entry.a, a);
-    if (entry.result.differing > 0) {
-      pictures->b = pngOf(entry.b, b);
+    if (entry.result.differing > 0 || !sameSize) pictures->b = pngOf(entry.b, b);
+    if (entry.result.differing > 0)
       pictures->map = readFile(flipOutput ? settings.output : map->path);
-    }
   }
   entry.status = entry.result.same ? done : differs;
 }
@@ -121,6 +123,7 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
       entry.status = noBaseline;
       entry.error = "no baseline: accept it with --update";
       entry.textB = b.text;
+      entry.readableB = true;
       if (pictures) pictures->b = pngOf(entry.b, b);
     } else {
       compareFiles(settings, entry, pictures);
@@ -162,22 +165,6 @@ void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
   const std::string path = driverBaseline(folder, entry);
   std::error_code ignored;
   if (fs::exists(path, ignored)) entry.a = path;
-}
-
-extern const ReportPage diffPage;  // diff_page.html
-
-std::string diffHtml(const nlohmann::ordered_json& json,
-                     const std::vector<PairPictures>& pictures) {
-  std::string page(diffPage.begin);
-  page += jsonElement("data",
-                      json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const std::pair<const char*, const std::vector<std::byte>*> kinds[] = {
-        {"a", &pictures[i].a}, {"b", &pictures[i].b}, {"m", &pictures[i].map}};
-    for (const auto& [kind, bytes] : kinds)
-      if (!bytes->empty()) page += base64Element(kind + std::to_string(i), *bytes);
-  }
-  return page.append(diffPage.end);
 }
 
 }  // namespace glint

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
-#include "diff_picture.h"
+#include "diff_html.h"
 #include "diff_report.h"
+#include "glint/image/difference_picture.h"
 
 namespace glint {
 
@@ -16,12 +15,7 @@ struct DiffSettings {
   std::string output;  ///< of the difference picture; empty: none
   DifferenceKind difference = DifferenceKind::flip;
   double scale = 1;
-  std::string layer, mask;
-};
-
-/// PNG files for the report.
-struct PairPictures {
-  std::vector<std::byte> a, b, map;
+  std::string layer;
 };
 
 /// Compares one pair; never throws for what is wrong with it but notes it.
@@ -31,8 +25,5 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
 std::string driverBaseline(const std::string& folder, const DiffEntry& entry);
 /// Makes that the entry's baseline if there is one.
 void useDriverBaseline(const std::string& folder, DiffEntry& entry);
-
-/// The report: one page, from the JSON of a folder's comparison and the pairs' pictures.
-std::string diffHtml(const nlohmann::ordered_json& json, const std::vector<PairPictures>& pictures);
 
 }  // namespace glint

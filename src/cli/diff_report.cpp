@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "glint/image/file.h"
+
 namespace glint {
 namespace {
 
@@ -59,15 +61,25 @@ std::string driverNote(const DiffEntry& entry) {
   return "";
 }
 
+std::string jsonText(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json diffJson(const DiffEntry& entry, const CompareOptions& options) {
   Json json{{"name", entry.name}, {"a", entry.a}, {"b", entry.b}, {"status", entry.status}};
   if (!entry.error.empty()) {
     json["error"] = entry.error;
+    if (!entry.textB.empty()) json["textB"] = entry.textB;
     return json;
   }
   const Comparison& r = entry.result;
   json["same"] = r.same;
   json["failures"] = r.failures;
+  if (!entry.note.empty()) json["note"] = entry.note;
+  json["ms"] = entry.milliseconds;
+  if (!entry.textA.empty()) json["textA"] = entry.textA;
+  if (!entry.textB.empty()) json["textB"] = entry.textB;
+  if (r.values.empty()) return json;  // different sizes
   json["width"] = entry.width;
   json["height"] = entry.height;
   json["values"] = r.space == ValueSpace::encoded ? "encoded" : "linear";
@@ -112,20 +124,17 @@ Json diffJson(const DiffEntry& entry, const CompareOptions& options) {
                              {"b", b},
                              {"difference", numberJson(pixel.difference)}});
   }
-  if (!entry.textA.empty()) json["textA"] = entry.textA;
-  if (!entry.textB.empty()) json["textB"] = entry.textB;
-  if (!entry.note.empty()) json["note"] = entry.note;
-  json["ms"] = entry.milliseconds;
   return json;
 }
 
 std::string diffLine(const DiffEntry& entry) {
-  if (!entry.error.empty()) return entry.name + ": " + entry.error;
+  if (!entry.error.empty()) return printablePath(entry.name) + ": " + entry.error;
   const Comparison& r = entry.result;
-  std::string line = entry.name + ": " + (r.same ? "same" : "differs");
+  if (entry.updated) return printablePath(entry.name) + ": " + entry.note;
+  std::string line = printablePath(entry.name) + ": " + (r.same ? "same" : "differs");
   if (r.same && r.differing == 0) {
     line += ", equal in every pixel";
-  } else {
+  } else if (!r.values.empty()) {
     for (const std::string& name : metricNames()) {
       const auto found = r.values.find(name);
       if (found == r.values.end() || name == "mean" || name == "relative-rmse") continue;

@@ -14,12 +14,16 @@ struct DiffEntry {
   std::string a, b;   ///< paths; empty if missing
   int status = 0;     ///< an exit status
   std::string error;  ///< why it could not be compared
-  std::string note;   ///< of drivers that differ
+  std::string note;   ///< what else is to be said
+  bool readableB = false, updated = false, acrossDrivers = false;
   Comparison result;
   int width = 0, height = 0;
   std::map<std::string, std::string> textA, textB;
   double milliseconds = 0;
 };
+
+/// JSON as files have it; text that is no UTF-8 is made so.
+std::string jsonText(const nlohmann::ordered_json& json);
 
 nlohmann::ordered_json diffJson(const DiffEntry& entry, const CompareOptions& options);
 

@@ -37,8 +37,8 @@ int writeEnvironment(const EnvironmentOptions& options) {
     for (int x = 0; x < width; ++x) {
       const double phi = 2 * std::numbers::pi * ((x + 0.5) / width - 0.5);
       const glm::dvec3 e = environmentRadiance(
-          environment, {std::sin(theta) * std::sin(phi), std::cos(theta),
-                        -std::sin(theta) * std::cos(phi)});
+          environment,
+          {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)});
       float* pixel = row.values.data() + std::size_t(4) * x;
       for (int c = 0; c < 3; ++c) pixel[c] = float(e[c]);
       pixel[3] = 1;

@@ -65,7 +65,9 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
   std::string usage = "Usage: " + name;
   if (!app->get_subcommands({}).empty()) usage += " COMMAND";
   for (const CLI::Option* option : app->get_options())
-    if (option->get_positional()) usage += " " + option->get_name(true);
+    if (option->get_positional())
+      usage += option->get_required() ? " " + option->get_name(true)
+                                      : " [" + option->get_name(true) + "]";
   if (app->get_option_no_throw("--output") != nullptr) usage += "... -o OUT";
   return usage + " [OPTIONS]\n";
 }

@@ -19,12 +19,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "glint " GLINT_VERSION);
   app.require_subcommand(1);
   app.formatter(std::make_shared<glint::HelpFormatter>());
-  std::pair<const char*, glint::Command> commands[] = {{"render", glint::addRender(app)},
-                                                       {"view", glint::addView(app)},
-                                                       {"diff", glint::addDiff(app)},
-                                                       {"info", glint::addInfo(app)},
-                                                       {"environment", glint::addEnvironment(app)},
-                                                       {"backends", glint::addBackends(app)}};
+  std::pair<const char*, glint::Command> commands[] = {
+      {"render", glint::addRender(app)},    {"view", glint::addView(app)},
+      {"diff", glint::addDiff(app)},        {"study", glint::addStudy(app)},
+      {"info", glint::addInfo(app)},        {"environment", glint::addEnvironment(app)},
+      {"backends", glint::addBackends(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version

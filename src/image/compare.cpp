@@ -80,6 +80,7 @@ class Sums {
       row.square += difference * difference;
       row.relative += difference * difference / (double(a[c]) * a[c] + 0.01);
     }
+    if (channels == 4 && a[3] != b[3]) addSeenThrough(a, b);
     result_.nanA += nanA;
     result_.nanB += nanB;
     result_.infinityA += infinityA;
@@ -96,6 +97,18 @@ class Sums {
           finite ? largest : std::numeric_limits<double>::infinity()});
   }
 
+  /// How much of a difference shows over black and over white.
+  void addSeenThrough(const float* a, const float* b) {
+    ++result_.alphaDiffering;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double black = double(a[c]) * a[3] - double(b[c]) * b[3];
+      const double white = black - (double(a[3]) - double(b[3]));
+      if (!std::isfinite(black)) continue;
+      overBlack_ += black * black;
+      overWhite_ += white * white;
+    }
+  }
+
   /// Keeps the worst pixels; of equal ones the first.
   void keep(const WorstPixel& pixel) {
     auto& worst = result_.worst;
@@ -109,6 +122,7 @@ class Sums {
   }
 
   void finish() {
+    result_.seenOverWhite = overWhite_ > overBlack_;
     const double count = finite_ > 0 ? double(finite_) : 1;
     const double rmse = std::sqrt(square_ / count);
     result_.values["max"] = maximum_;
@@ -123,6 +137,7 @@ class Sums {
   std::size_t worst_;
   Comparison& result_;
   double absolute_ = 0, square_ = 0, relative_ = 0, maximum_ = 0;
+  double overBlack_ = 0, overWhite_ = 0;
   std::size_t finite_ = 0;
 };
 
@@ -188,15 +203,24 @@ Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOpti
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
     throw InputError("unknown metric '" + name + "': give one of " + all);
   }
-  const detail::ComparedRows rows(a, b, options);
   Comparison result;
+  if (a.width != b.width || a.height != b.height) {
+    result.failures.push_back(detail::sizesText(a, b));
+    return result;
+  }
+  detail::ComparedRows rows(a, b, options);
   result.space = rows.space();
   Sums(rows, options.worst, result).run();
   if (asked("pixels")) {
-    const auto count = detail::countPixels(rows, options.tolerance, options.ignoreAntiAliasing);
+    std::vector<const detail::ComparedRows*> views{&rows};
+    detail::ComparedRows white = rows;
+    white.showOver({1, 1, 1});
+    if (result.alphaDiffering > 0) views.push_back(&white);
+    const auto count = detail::countPixels(views, options.tolerance, options.ignoreAntiAliasing);
     result.values["pixels"] = double(count.over);
     result.antiAliased = count.antiAliased;
   }
+  if (result.seenOverWhite) rows.showOver({1, 1, 1});
   if (asked("ssim")) result.values["ssim"] = detail::structuralSimilarity(rows);
   std::function<void(int, unsigned char*)> counts;
   if (rows.ignoresSome()) counts = [&](int y, unsigned char* row) { rows.counted(y, row); };

@@ -47,7 +47,7 @@ struct CompareOptions {
   double tolerance = 0.1;           ///< of "pixels": [0, 1], distance of pixelmatch
   bool ignoreAntiAliasing = false;  ///< pixels that look like anti-aliasing are not counted
   AlphaUse alpha = AlphaUse::straight;
-  std::array<float, 3> background{};  ///< linear light, for AlphaUse::over and for FLIP
+  std::array<float, 3> background{};  ///< linear light, for AlphaUse::over
   ValueSpace values = ValueSpace::asStored;
   std::vector<PixelBox> ignored;
   const StoredImage* mask = nullptr;  ///< of the same size; black (below half) is ignored
@@ -63,7 +63,10 @@ struct WorstPixel {
   double difference = 0;          ///< the largest over the channels
 };
 
-/// The metrics' names, in the order in which they are reported:
+/// The metrics' names, in the order in which they are reported. max to psnr are of the values
+/// compared; the others are of what is seen: sRGB for pixels and ssim, linear light for FLIP, of
+/// straight alpha over black or, where the alphas differ and that shows more, over white (`pixels`
+/// counts a pixel that differs over either).
 ///
 ///   max            largest absolute difference of a channel
 ///   mean           mean absolute difference over channels and pixels
@@ -86,6 +89,8 @@ struct Comparison {
   std::size_t pixels = 0;                ///< that were compared
   std::size_t ignoredPixels = 0;         ///< by boxes and mask
   std::size_t differing = 0;             ///< pixels with any difference at all
+  std::size_t alphaDiffering = 0;        ///< pixels whose (straight) alphas differ
+  bool seenOverWhite = false;            ///< by ssim and FLIP; else over black or the background
   std::size_t antiAliased = 0;           ///< over the tolerance, but left out as anti-aliasing
   std::size_t nanA = 0, nanB = 0, infinityA = 0, infinityB = 0;  ///< pixels
   ValueSpace space = ValueSpace::encoded;                        ///< of the values below
@@ -97,8 +102,10 @@ struct Comparison {
 
 /// Compares two pictures, A being the baseline. Values that are not finite are counted and left
 /// out of the metrics; they fail every comparison but the one that asks for equality (no
-/// condition), where the same NaN or infinity is equal.
-/// Throws InputError for different sizes, unknown metrics, and value spaces that do not match.
+/// condition), where the same NaN or infinity is equal. Pictures of different sizes are not the
+/// same: one failure says so, and there are no values.
+/// Throws InputError for unknown metrics, a mask of another size, and value spaces that do not
+/// match.
 Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOptions& options = {});
 /// The same for pictures in linear light.
 Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});

@@ -8,16 +8,22 @@
 
 namespace glint::detail {
 
+namespace {
+
+std::string sizeOf(const StoredImage& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+}  // namespace
+
+std::string sizesText(const StoredImage& a, const StoredImage& b) {
+  return "the sizes differ: " + sizeOf(a) + " and " + sizeOf(b) + " pixels";
+}
+
 ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
                            const CompareOptions& options)
-    : a_(a), b_(b), options_(options), space_(options.values) {
-  const auto sizeOf = [](const StoredImage& image) {
-    return std::to_string(image.width) + " x " + std::to_string(image.height);
-  };
-  if (a.width != b.width || a.height != b.height) {
-    throw InputError("the sizes differ: " + sizeOf(a) + " and " + sizeOf(b) +
-                     " pixels: pictures of one size can be compared");
-  }
+    : a_(a), b_(b), options_(options), space_(options.values), background_(options.background) {
+  if (a.width != b.width || a.height != b.height) throw Error(sizesText(a, b));
   if (options.mask && (options.mask->width != a.width || options.mask->height != a.height)) {
     throw InputError("the mask has " + sizeOf(*options.mask) + " pixels, the pictures " +
                      sizeOf(a) + ": give a mask of their size");
@@ -25,8 +31,8 @@ ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
   if (space_ == ValueSpace::asStored) {
     if (a.isEncoded() != b.isEncoded()) {
       throw InputError(
-          "one picture is sRGB and the other linear light: say which values to compare (encoded or "
-          "linear)");
+          "one is sRGB, the other linear light: say which values to compare (--values encoded or "
+          "--values linear)");
     }
     space_ = a.isEncoded() ? ValueSpace::encoded : ValueSpace::linear;
   }
@@ -47,7 +53,7 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
     float* p = rgba + 4 * x;
     for (std::size_t c = 0; c < 3; ++c) {
       if (over) {
-        p[c] += (1 - p[3]) * options_.background[c];
+        p[c] += (1 - p[3]) * background_[c];
       } else if (p[3] > 0 && p[3] < 1) {
         p[c] /= p[3];
       }

@@ -6,11 +6,18 @@
 
 namespace glint::detail {
 
+/// "the sizes differ: ..."
+std::string sizesText(const StoredImage& a, const StoredImage& b);
+
+/// What is shown behind a picture that is seen through: linear light.
+using Background = std::array<float, 3>;
+
 /// Two pictures as a comparison sees them: with their alpha resolved, in the space asked for, and
 /// with what is to be ignored made equal to the baseline, so that it cannot reach its neighbours
 /// through a filter.
 class ComparedRows {
  public:
+  /// Throws Error for different sizes, InputError for what else cannot be compared.
   ComparedRows(const StoredImage& a, const StoredImage& b, const CompareOptions& options);
 
   int width() const { return a_.width; }
@@ -20,8 +27,9 @@ class ComparedRows {
 
   /// Row y of both in the space asked for: 4 * width values each.
   void values(int y, float* a, float* b) const;
-  /// In sRGB over the background (white where pixelmatch would), opaque.
+  /// In sRGB over the background, opaque.
   void encoded(int y, float* a, float* b) const;
+  void showOver(const Background& background) { background_ = background; }
   /// 1 for pixels that count, 0 for ignored ones.
   void counted(int y, unsigned char* row) const;
   bool ignoresSome() const { return ignoresSome_; }
@@ -38,6 +46,7 @@ class ComparedRows {
   const StoredImage& b_;
   const CompareOptions& options_;
   ValueSpace space_;
+  Background background_;
   int channels_ = 3;
   bool ignoresSome_ = false;
 };
@@ -48,10 +57,12 @@ class ComparedRows {
 double structuralSimilarity(const ComparedRows& rows);
 
 /// Counts the pixels that differ by more than a tolerance, as pixelmatch does: the distance in YIQ
-/// (Kotsarenko and Ramos 2010), anti-aliasing by Vysniauskas (2009).
+/// (Kotsarenko and Ramos 2010), anti-aliasing by Vysniauskas (2009). Given several views of the
+/// pictures, a pixel differs if it does in one of them.
 struct PixelCount {
   std::size_t over = 0, antiAliased = 0;
 };
-PixelCount countPixels(const ComparedRows& rows, double tolerance, bool ignoreAntiAliasing);
+PixelCount countPixels(const std::vector<const ComparedRows*>& views, double tolerance,
+                       bool ignoreAntiAliasing);
 
 }  // namespace glint::detail

@@ -80,34 +80,66 @@ struct Rows {
 
 }  // namespace
 
-PixelCount countPixels(const ComparedRows& compared, double tolerance, bool ignoreAntiAliasing) {
-  const int width = compared.width(), height = compared.height();
-  Rows a, b;
-  a.width = b.width = width;
-  const auto load = [&](int y, std::size_t slot) {
-    Row &rowA = a.rows[slot], &rowB = b.rows[slot];
-    rowA.clear();
-    rowB.clear();
-    if (y >= height) return;
-    rowA.resize(std::size_t(4) * width);
-    rowB.resize(std::size_t(4) * width);
-    compared.encoded(y, rowA.data(), rowB.data());
-  };
-  for (int y = 0; y < 2; ++y) load(y, std::size_t(3 + y));
-  PixelCount count;
-  for (int y = 0; y < height; ++y) {
-    for (Rows* rows : {&a, &b})
+namespace {
+
+/// One way to see both pictures.
+class View {
+ public:
+  explicit View(const ComparedRows& compared) : compared_(compared) {
+    a_.width = b_.width = compared.width();
+    for (int y = 0; y < 2; ++y) load(y, std::size_t(3 + y));
+  }
+
+  void next(int y) {
+    for (Rows* rows : {&a_, &b_})
       std::rotate(rows->rows.begin(), rows->rows.begin() + 1, rows->rows.end());
     load(y + 2, 4);
+  }
+
+  bool differs(int x, double tolerance) const {
+    const float *a = a_.at(x, 0), *b = b_.at(x, 0);
+    // A distance that is not a number is over every tolerance.
+    return !(distanceSquared(a, b) <= tolerance * tolerance) && !std::equal(a, a + 3, b);
+  }
+
+  bool looksAntiAliased(int x) const {
+    return a_.looksAntiAliased(x, b_) || b_.looksAntiAliased(x, a_);
+  }
+
+ private:
+  void load(int y, std::size_t slot) {
+    Row &rowA = a_.rows[slot], &rowB = b_.rows[slot];
+    rowA.clear();
+    rowB.clear();
+    if (y >= compared_.height()) return;
+    rowA.resize(std::size_t(4) * compared_.width());
+    rowB.resize(rowA.size());
+    compared_.encoded(y, rowA.data(), rowB.data());
+  }
+
+  const ComparedRows& compared_;
+  Rows a_, b_;
+};
+
+}  // namespace
+
+PixelCount countPixels(const std::vector<const ComparedRows*>& views, double tolerance,
+                       bool ignoreAntiAliasing) {
+  const int width = views[0]->width(), height = views[0]->height();
+  std::vector<View> seen;
+  for (const ComparedRows* rows : views) seen.emplace_back(*rows);
+  PixelCount count;
+  for (int y = 0; y < height; ++y) {
+    for (View& view : seen) view.next(y);
     for (int x = 0; x < width; ++x) {
-      // A distance that is not a number is over every tolerance.
-      if (distanceSquared(a.at(x, 0), b.at(x, 0)) <= tolerance * tolerance) continue;
-      if (std::equal(a.at(x, 0), a.at(x, 0) + 3, b.at(x, 0))) continue;
-      if (ignoreAntiAliasing && (a.looksAntiAliased(x, b) || b.looksAntiAliased(x, a))) {
-        ++count.antiAliased;
-      } else {
-        ++count.over;
+      bool over = false, antiAliased = false;
+      for (const View& view : seen) {
+        if (over || !view.differs(x, tolerance)) continue;
+        const bool looks = ignoreAntiAliasing && view.looksAntiAliased(x);
+        (looks ? antiAliased : over) = true;
       }
+      count.over += over;
+      count.antiAliased += antiAliased && !over;
     }
   }
   return count;

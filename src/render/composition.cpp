@@ -21,7 +21,8 @@ std::string stageDefines(bool vertex) {
 
 std::string environmentDefines(Environment environment) {
   return define("ENVIRONMENT_STUDIO", 0) + define("ENVIRONMENT_SKY", 1) +
-         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_IMAGE", 3) + define("ENVIRONMENT_MAP", int(environment));
+         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_IMAGE", 3) +
+         define("ENVIRONMENT_MAP", int(environment));
 }
 
 std::string defines(const Variant& v) {

@@ -71,13 +71,11 @@ void widenRow(float* row, int count, double width) {
     const double round = std::floor(x / count);
     x -= round * count;
     const std::size_t i = std::min(std::size_t(x), std::size_t(count) - 1);
-    return sums[std::size_t(count)] * round + sums[i] +
-           (x - double(i)) * (sums[i + 1] - sums[i]);
+    return sums[std::size_t(count)] * round + sums[i] + (x - double(i)) * (sums[i + 1] - sums[i]);
   };
   width = std::min(width, double(count));
   for (int i = 0; i < count; ++i) {
-    const glm::dvec3 mean =
-        (before(i + 0.5 + width / 2) - before(i + 0.5 - width / 2)) / width;
+    const glm::dvec3 mean = (before(i + 0.5 + width / 2) - before(i + 0.5 - width / 2)) / width;
     for (int c = 0; c < 3; ++c) row[3 * i + c] = float(std::max(mean[c], 0.0));
   }
 }
@@ -157,8 +155,8 @@ EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> 
 }
 
 std::shared_ptr<const EnvironmentImage> environmentImageFor(const Look& look) {
-  const bool shown = look.shading == Shading::environment ||
-                     (look.environmentBackground && !look.noBackground);
+  const bool shown =
+      look.shading == Shading::environment || (look.environmentBackground && !look.noBackground);
   if (look.hdriFile.empty() || !shown) return nullptr;
   static std::mutex mutex;
   static std::shared_ptr<const EnvironmentImage> last;

@@ -100,8 +100,8 @@ glm::dvec4 ReferenceRenderer::background(int column, int row) const {
     return safeNormalize(stage_.ray(x + 0.5, stage_.grid.y - y - 0.5));
   };
   const glm::dvec3 here = ray(column, row);
-  const double spread = std::max(glm::length(ray(column + 1, row) - here),
-                                 glm::length(ray(column, row + 1) - here));
+  const double spread =
+      std::max(glm::length(ray(column + 1, row) - here), glm::length(ray(column, row + 1) - here));
   return {environmentToward(stage_.frame, here, spread), 1.0};
 }
 

@@ -63,9 +63,8 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
     return direction ? safeNormalize(*direction) : glm::dvec3(0.0);
   };
   if (const auto direction = refract(-V, N, n1, n2))
-    terms.refraction =
-        terms.transparency * (1.0 - F) * C *
-        environmentToward(frame, *direction, frame.image ? spread(refracted) : 0);
+    terms.refraction = terms.transparency * (1.0 - F) * C *
+                       environmentToward(frame, *direction, frame.image ? spread(refracted) : 0);
 }
 
 }  // namespace

@@ -179,10 +179,15 @@ void Renderer::Picture::drawBand(Image& rows) {
   rows.width = look_.resolution.x;
   rows.height = band.front().height;
   rows.values.resize(std::size_t(4) * rows.width * rows.height);
-  for (const Tile& tile : band) drawTile(tile, rows);
+  for (const Tile& tile : band) drawTile(tile, &rows);
 }
 
-void Renderer::Picture::drawTile(const Tile& tile, Image& rows) {
+void Renderer::Picture::redraw() {
+  for (const auto& band : layout_.bands)
+    for (const Tile& tile : band) drawTile(tile, nullptr);
+}
+
+void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
   RenderTarget& target = *renderer_.target_;
   const int width = tile.width * layout_.scale, height = tile.height * layout_.scale;
   {
@@ -249,10 +254,11 @@ void Renderer::Picture::drawTile(const Tile& tile, Image& rows) {
     glFinish();  // reading back waits for it in any case; so each time is told apart
     checkGl("draw");
   }
+  if (!rows) return;
   const Stopwatch time(times_.read);
   scratch_.resize(std::size_t(4) * target.width() * height);
   target.readRows(scratch_.data(), 0, height);
-  copyRows(scratch_.data(), target.width(), layout_.scale, tile, rows);
+  copyRows(scratch_.data(), target.width(), layout_.scale, tile, *rows);
   checkGl("read");
 }
 

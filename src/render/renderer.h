@@ -33,6 +33,9 @@ class Renderer {
     /// The next band's rows: linear, premultiplied by alpha over the background, before exposure.
     /// The image is reused if it has room.
     void drawBand(Image& rows);
+    /// Draws the whole picture once more, without reading it back, and waits until it is done: what
+    /// is measured of a frame. The bands stay as they are.
+    void redraw();
     const DrawList& list() const { return list_; }
     /// Samples a pixel that the driver gave.
     int samples() const;
@@ -41,7 +44,8 @@ class Renderer {
    private:
     friend class Renderer;
     Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
-    void drawTile(const Tile& tile, Image& rows);
+    /// Without `rows` nothing is read back.
+    void drawTile(const Tile& tile, Image* rows);
 
     Renderer& renderer_;
     GpuScene& scene_;

@@ -112,9 +112,8 @@ void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, 
   for (const Channel& channel : found->second.channels) {
     tinygltf::Node& node = document.model.nodes[channel.node];
     atRest.try_emplace(channel.node, node);
-    std::vector<double> value =
-        valueAt(found->second.keys[channel.keys], channel.width,
-                channel.path == AnimatedPath::rotation, *request.time);
+    std::vector<double> value = valueAt(found->second.keys[channel.keys], channel.width,
+                                        channel.path == AnimatedPath::rotation, *request.time);
     switch (channel.path) {
       case AnimatedPath::translation:
         node.translation = std::move(value);
@@ -144,8 +143,7 @@ const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& ke
   result.moves = skin >= 0 || std::get<2>(key) >= 0;
   result.pass = pass;
   if (skin >= 0) {
-    pose.joints =
-        jointMatrices(document, static_cast<std::size_t>(skin), graph, budget, messages);
+    pose.joints = jointMatrices(document, static_cast<std::size_t>(skin), graph, budget, messages);
   }
   const auto index = static_cast<std::size_t>(mesh);
   const std::size_t count = document.model.meshes[index].primitives.size();

@@ -134,9 +134,8 @@ bool readLight(Cursor from, FileLight& light, Messages& messages) {
   if (!spot) return true;
   const Cursor cone = from.member("spot");
   constexpr double quarter = std::numbers::pi / 2;
-  light.outerAngle = within("outerConeAngle",
-                            cone.member("outerConeAngle").number(std::numbers::pi / 4), 1e-4,
-                            quarter);
+  light.outerAngle = within(
+      "outerConeAngle", cone.member("outerConeAngle").number(std::numbers::pi / 4), 1e-4, quarter);
   // The standard wants it below the outer one: the least that leaves an edge.
   light.innerAngle = within("innerConeAngle", cone.member("innerConeAngle").number(0), 0,
                             light.outerAngle * (1 - 1e-6));

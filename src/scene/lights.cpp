@@ -36,8 +36,7 @@ std::pair<double, glm::dvec3> arriving(const FileLight& light, const glm::dvec3&
 }
 
 bool isLit(const Scene& scene, const Mesh& mesh) {
-  return mesh.topology == Topology::triangles &&
-         !scene.materials[std::size_t(mesh.material)].unlit;
+  return mesh.topology == Topology::triangles && !scene.materials[std::size_t(mesh.material)].unlit;
 }
 
 /// Collects what the lights bring to points of the surface.

@@ -79,8 +79,8 @@ struct Look {
   double cameraZoomFactor = 0.9;
   bool cameraOrthographic = false;
   std::optional<int> cameraIndex;
-  std::optional<double> animationTime;  ///< seconds; empty: the pose the file stands in
-  std::string animation;                ///< name or number; empty: the first
+  std::optional<double> animationTime;      ///< seconds; empty: the pose the file stands in
+  std::string animation;                    ///< name or number; empty: the first
   std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
 
   glm::ivec2 resolution{1024, 1024};

@@ -155,6 +155,11 @@ Parameter lights() {
   return p;
 }
 
+std::string nonEmpty(const std::string& text, const std::string& what) {
+  if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
+  return text;
+}
+
 Parameter lightScale() {
   Parameter p = custom(
       "light-scale", "auto|FACTOR",
@@ -251,7 +256,9 @@ std::vector<Parameter> makeTable() {
                          "hdri-file", "FILE",
                          "a picture of the environment in place of --environment: Radiance .hdr, "
                          "OpenEXR, PNG or JPEG, equirectangular with -Z in the middle",
-                         [](Look& look, const std::string& text) { look.hdriFile = text; },
+                         [](Look& look, const std::string& text) {
+                           look.hdriFile = nonEmpty(text, "--hdri-file");
+                         },
                          [](const Look& look) {
                            return look.hdriFile.empty() ? Json() : Json(look.hdriFile);
                          }),
@@ -306,18 +313,21 @@ std::vector<Parameter> makeTable() {
                             : Json();
                }),
            &Look::clippingRange)});
-  section("Animation",
-          {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
-                         "the moment of the animation that is drawn, held after its end; without "
-                         "it the pose in which the file stands"),
-                  0, 10, false),
-           resetting(custom(
-                         "animation", "NAME|N", "which animation of the file; the first unless given",
-                         [](Look& look, const std::string& text) { look.animation = text; },
-                         [](const Look& look) {
-                           return look.animation.empty() ? Json() : Json(look.animation);
-                         }),
-                     &Look::animation)});
+  section(
+      "Animation",
+      {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
+                     "the moment of the animation that is drawn, held after its end; without "
+                     "it the pose in which the file stands"),
+              0, 10, false),
+       resetting(custom(
+                     "animation", "NAME|N", "which animation of the file; the first unless given",
+                     [](Look& look, const std::string& text) {
+                       look.animation = nonEmpty(text, "--animation");
+                     },
+                     [](const Look& look) {
+                       return look.animation.empty() ? Json() : Json(look.animation);
+                     }),
+                 &Look::animation)});
   section("Picture",
           {resetting(custom(
                          "resolution", "W,H", "width and height in pixels",

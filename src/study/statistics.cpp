@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace glint {
 
@@ -21,6 +22,24 @@ Spread spreadOf(const std::vector<double>& values) {
   if (values.empty()) return {};
   return {quantile(values, 0),    quantile(values, 0.25), quantile(values, 0.5),
           quantile(values, 0.75), quantile(values, 1),    values.size()};
+}
+
+Interval medianInterval(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  std::mt19937 random(1);
+  std::vector<double> sample(values.size()), medians(1000);
+  for (double& median : medians) {
+    for (double& value : sample)
+      value = values[std::size_t(std::uint64_t(random()) * values.size() >> 32)];
+    median = quantile(sample, 0.5);
+  }
+  return {quantile(medians, 0.025), quantile(medians, 0.975)};
+}
+
+std::vector<double> roundRatios(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> ratios(std::min(a.size(), b.size()));
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = a[i] / b[i];
+  return ratios;
 }
 
 }  // namespace glint

@@ -1,4 +1,4 @@
-#include "diff_picture.h"
+#include "glint/image/difference_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +45,13 @@ void FlipPicture::finish() { parts_->writer->finish(); }
 void writeDifference(const std::string& path, const StoredImage& a, const StoredImage& b,
                      const CompareOptions& options, DifferenceKind kind, double scale) {
   const detail::ComparedRows rows(a, b, options);
+  if (kind == DifferenceKind::flip) {
+    FlipPicture picture(path, rows.width(), rows.height());
+    flip(rows.linearA(), rows.linearB(), options.flip,
+         [&](int, const float* errors) { picture.add(errors); });
+    picture.finish();
+    return;
+  }
   const int width = rows.width(), height = rows.height();
   const bool beside = kind == DifferenceKind::sideBySide;
   const int outWidth = beside ? 3 * width : width;

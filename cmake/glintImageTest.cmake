@@ -1,0 +1,96 @@
+# glint_add_image_test(): a test that makes a picture and compares it with a baseline.
+#
+#   glint_add_image_test(
+#     NAME name                      # of the test, and of its files
+#     MODEL file | COMMAND words...  # a glTF model to be drawn, or a program that writes a picture;
+#                                    # {output} in a word stands for the picture's path
+#     BASELINE file                  # PNG, EXR, PFM; made by the test itself, see below
+#     [LOOK file.json]               # of glint render --look, with MODEL
+#     [RENDER_OPTIONS words...]      # more of glint render, with MODEL
+#     [METRIC names...]              # as glint diff knows them; without any, pictures must be equal
+#     [THRESHOLD numbers...]         # one for each metric
+#     [MAX_PIXELS n|p%]              # so many pixels may be over the tolerance
+#     [DIFF_OPTIONS words...]        # more of glint diff: --ignore, --mask, --tolerance ...
+#     [LABELS labels...])            # beside the label "image"
+#
+# Relative paths are of the current source folder. The test leaves its files in the folder
+# GLINT_IMAGE_TEST_OUTPUT (image-tests in the current build folder): actual/NAME, baseline/NAME,
+# difference/NAME.png and result/NAME.json. `glint diff baseline actual --html report.html` there
+# makes one page of all tests.
+#
+# Its exit status is that of glint diff: 4 for a missing baseline, whose candidate is the actual
+# picture. With GLINT_UPDATE_BASELINES=1 in the environment the test makes the baseline instead, or
+# replaces it where the comparison fails, and says so.
+
+set(_glint_image_test_script ${CMAKE_CURRENT_LIST_DIR}/glintImageTest.sh)
+
+function(glint_add_image_test)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;MODEL;BASELINE;LOOK;MAX_PIXELS"
+                        "COMMAND;RENDER_OPTIONS;METRIC;THRESHOLD;DIFF_OPTIONS;LABELS")
+  set(where "glint_add_image_test(NAME ${arg_NAME})")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${where}: unknown '${arg_UNPARSED_ARGUMENTS}'")
+  endif()
+  if(arg_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "${where}: nothing follows ${arg_KEYWORDS_MISSING_VALUES}")
+  endif()
+  if(NOT arg_NAME OR NOT arg_BASELINE)
+    message(FATAL_ERROR "${where}: give NAME and BASELINE")
+  endif()
+  if((arg_MODEL AND arg_COMMAND) OR NOT (arg_MODEL OR arg_COMMAND))
+    message(FATAL_ERROR "${where}: give MODEL or COMMAND")
+  endif()
+  if(arg_COMMAND AND (arg_LOOK OR arg_RENDER_OPTIONS))
+    message(FATAL_ERROR "${where}: LOOK and RENDER_OPTIONS are for MODEL")
+  endif()
+  list(LENGTH arg_METRIC metrics)
+  list(LENGTH arg_THRESHOLD thresholds)
+  if(NOT metrics EQUAL thresholds)
+    message(FATAL_ERROR "${where}: ${metrics} METRIC and ${thresholds} THRESHOLD: give one for each")
+  endif()
+
+  foreach(file BASELINE MODEL LOOK)
+    if(arg_${file})
+      get_filename_component(arg_${file} "${arg_${file}}" ABSOLUTE
+                             BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    endif()
+  endforeach()
+  set(folder "${GLINT_IMAGE_TEST_OUTPUT}")
+  if(NOT folder)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/image-tests)
+  endif()
+  string(REGEX REPLACE "[^A-Za-z0-9._-]" "_" file "${arg_NAME}")
+  get_filename_component(ending "${arg_BASELINE}" LAST_EXT)
+  set(output "${folder}/actual/${file}${ending}")
+
+  if(arg_MODEL)
+    set(command "$<TARGET_FILE:glint::program>" render "${arg_MODEL}" -o "${output}")
+    if(arg_LOOK)
+      list(APPEND command --look "${arg_LOOK}")
+    endif()
+    list(APPEND command ${arg_RENDER_OPTIONS})
+  else()
+    set(command ${arg_COMMAND})
+    string(FIND "${command}" "{output}" at)
+    if(at EQUAL -1)
+      message(FATAL_ERROR "${where}: no {output} in COMMAND: say where it takes the picture's path")
+    endif()
+    string(REPLACE "{output}" "${output}" command "${command}")
+  endif()
+
+  set(options ${arg_DIFF_OPTIONS})
+  foreach(metric threshold IN ZIP_LISTS arg_METRIC arg_THRESHOLD)
+    list(APPEND options --metric ${metric} --threshold ${threshold})
+  endforeach()
+  if(arg_MAX_PIXELS)
+    list(APPEND options --max-pixels ${arg_MAX_PIXELS})
+  endif()
+
+  list(LENGTH command words)
+  add_test(NAME ${arg_NAME}
+           COMMAND sh ${_glint_image_test_script} $<TARGET_FILE:glint::program> ${arg_BASELINE}
+                   ${folder} ${file} ${ending} ${words} ${command} ${options})
+  set_tests_properties(${arg_NAME} PROPERTIES
+    LABELS "image;${arg_LABELS}"
+    ATTACHED_FILES_ON_FAIL "${output};${folder}/difference/${file}.png;${folder}/result/${file}.json")
+endfunction()

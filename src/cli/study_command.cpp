@@ -1,0 +1,142 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "glint/image/error.h"
+#include "glint/scene/gltf.h"
+#include "glint/scene/parameters.h"
+#include "glint/study/study_report.h"
+#include "progress.h"
+
+namespace glint {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The first Ctrl-C ends the study with what there is; the second one kills.
+void stopOnInterrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+struct StudyArguments {
+  std::string model, output, json, backend = "auto";
+  bool quick = false;
+  int repetitions = 0;
+  double timeBudget = 0;
+  bool resolutionGiven = false;
+  StudyFilter filter;
+};
+
+constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
+
+/// A study measures single samples, with what the look does not say by itself.
+Look studyLook(const StudyArguments& given, Look look) {
+  if (look.antiAliasing != AntiAliasing{} && look.antiAliasing.mode != AntiAliasing::Mode::none)
+    throw InputError("--anti-aliasing: a study compares single samples: leave it out or give none");
+  look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  look.noBackground = true;
+  if (given.quick && !given.resolutionGiven && look.resolution == Look{}.resolution)
+    look.resolution = {quickSize, quickSize};
+  return look;
+}
+
+int runStudy(const StudyArguments& given, const Look& givenLook) {
+  if (given.backend == "reference")
+    throw InputError(
+        "--rendering-backend reference: a study measures GL against the reference: "
+        "give another");
+  const Backend backend = backendFromName(given.backend);
+  StudyOptions options;
+  options.look = studyLook(given, givenLook);
+  options.filter = given.filter;
+  options.filter.quick = given.quick;
+  options.rounds = given.repetitions > 0 ? given.repetitions
+                   : given.quick         ? quickRounds
+                                         : fullRounds;
+  // With it the times of compiling would be those of whatever was run before.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  auto opening = openContextAsync(backend);
+  // Levels of refinement: triangles of some ten pixels, as models have them.
+  Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial()) : loadGltf(given.model, poseOf(given.look));
+  checkMaterialNames(scene, options.look);
+  const StudyScene prepared(std::move(scene), options.look);
+  const auto context = opening.get();
+  context->makeCurrent();
+  for (const std::string& warning : prepared.scene.warnings)
+    printWarning((given.model.empty() ? "sphere" : given.model) + ": " + warning);
+  if (!context->remark().empty()) printWarning(context->remark());
+
+  stopOnInterrupt();
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(given.timeBudget);
+  const Stop stop = [&] {
+    return interrupted != 0 || (given.timeBudget > 0 && Clock::now() > end);
+  };
+  StudyResult result;
+  {
+    Progress progress("glint study");
+    result = study(prepared, options, stop,
+                   [&](std::string_view what, double share) { progress.show(share, what); });
+  }
+  StudyHead head;
+  head.version = GLINT_VERSION;
+  head.model = given.model.empty() ? "sphere (built in)" : given.model;
+  head.backend = backendName(context->backend());
+  head.quick = given.quick;
+  head.look = options.look;
+  head.rounds = options.rounds;
+  head.warmUp = options.warmUp;
+  if (given.json != "-") std::cout << studyTable(head, result);
+  if (!given.json.empty()) writeText(given.json, studyJson(head, result).dump(2) + "\n");
+  return done;
+}
+
+}  // namespace
+
+Command addStudy(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "study", "speed against error of every way of shading a model, on this machine's driver");
+  auto given = std::make_shared<StudyArguments>();
+  command->add_option("MODEL", given->model, "glTF 2.0 model, .gltf or .glb; without it a sphere");
+  command->add_flag("--quick", given->quick,
+                    "less than a minute on two cores: 512 x 512 pixels, fewer forms and frames");
+  command
+      ->add_option("--repetitions", given->repetitions,
+                   "frames of each variant that are measured, after 10 that are not [default: 60, "
+                   "with --quick 30]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
+  command
+      ->add_option("--time-budget", given->timeBudget,
+                   "end after so many seconds with what there is by then, as Ctrl-C does; the "
+                   "reports say what is missing")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.001, 1e6).description(""));
+  command
+      ->add_option("--rendering-backend", given->backend,
+                   "what to draw with; auto tries egl, then osmesa [default: auto]")
+      ->type_name("auto|egl|egl-software|osmesa")
+      ->take_last();
+  command->add_option("--json", given->json, "write the whole result; - is stdout")
+      ->type_name("FILE");
+  auto look = addLookOptions(*command);
+  return [given, look, command] {
+    const Look asked = look();
+    const auto only = [&](const char* name) {
+      const CLI::Option* option = command->get_option(std::string("--") + name);
+      return option->count() > 0 ? option->results().back() : std::string();
+    };
+    given->filter = {only("shading"), only("highlight"), only("fresnel"), false};
+    given->resolutionGiven = command->get_option("--resolution")->count() > 0;
+    return runStudy(*given, asked);
+  };
+}
+
+}  // namespace glint

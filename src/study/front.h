@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace glint {
+
+/// A variant as the front sees it.
+struct FrontCandidate {
+  double error = 0;
+  std::span<const double> rounds;  ///< times, of all candidates measured in turn
+};
+
+struct FrontPlace {
+  bool onFront = false;
+  int dominatedBy = -1;  ///< index of a member of the front that is as good or better in both
+};
+
+/// Errors that differ by less are the same.
+inline constexpr double sameError = 0.05;
+
+/// Whether a is faster than b: the upper end of the 95 % bootstrap interval of the median of a/b,
+/// round by round, lies below 1 / (1 + spread). `spread` is the noise floor, by which two
+/// measurements of one program may differ.
+bool isFaster(std::span<const double> a, std::span<const double> b, double spread);
+
+/// The Pareto front of time and error, as a staircase whose every step is faster than noise: in the
+/// order of rising error a candidate joins if it is faster (isFaster) than the member that joined
+/// last; with the same error as that one it takes its place. All others are dominated by the last
+/// member before them: at least as accurate, and not slower as far as can be told. So what is on it
+/// owes nothing to chance unless a step is about as large as the spread itself.
+std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread);
+
+/// The noise floor from controls, pairs of measurements of one program: the largest distance from 1
+/// of the ends of the bootstrap intervals of their ratios.
+double spreadOfControls(std::span<const std::vector<double>> ratios);
+
+}  // namespace glint

@@ -1,0 +1,224 @@
+#include "glint/study/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "glint/image/error.h"
+#include "glint/study/statistics.h"
+
+namespace glint {
+namespace {
+
+/// One study on its way.
+class Study {
+ public:
+  Study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,
+        const StudyProgress& progress)
+      : scene_(scene),
+        options_(options),
+        stop_(stop),
+        progress_(progress),
+        gpu_(scene.scene, scene.images) {}
+
+  StudyResult run() {
+    prepare();
+    if (!measureErrors()) return leave("errors of some variants");
+    measureTimes();
+    result_.complete = result_.missing.empty();
+    return std::move(result_);
+  }
+
+ private:
+  void tell(const std::string& what, double share) const {
+    if (progress_) progress_(what, share);
+  }
+
+  StudyResult leave(const char* what) {
+    result_.missing.emplace_back(what);
+    std::erase_if(result_.variants, [](const VariantResult& v) { return v.errors.empty(); });
+    return std::move(result_);
+  }
+
+  void prepare() {
+    tell("pixels to compare", 0);
+    result_.gl = glStrings();
+    result_.mask = maskOf(renderer_, gpu_, scene_, options_.look);
+    if (result_.mask.pixels.empty())
+      throw InputError(
+          scene_.scene.name +
+          ": no pixel shows a lit surface away from its edges: give a nearer camera or "
+          "a larger --resolution");
+    const DrawList list = makeDrawList(scene_.scene, scene_.bounds, options_.look);
+    result_.draws = list.items.size();
+    for (const DrawItem& item : list.items) {
+      const Mesh& mesh = scene_.scene.meshes[std::size_t(item.mesh)];
+      if (mesh.topology == Topology::triangles && item.faces != FaceSide::back)
+        result_.triangles += mesh.indices.size() / 3;
+    }
+    for (StudyVariant& v :
+         studyVariants(scene_.scene, scene_.bounds, options_.look, options_.filter))
+      result_.variants.push_back({std::move(v), {}, 0, 0, {}, {}, {}, {}, {}});
+    if (result_.variants.empty())
+      throw InputError(
+          "no variant is left to study: give no --shading, --highlight or --fresnel, "
+          "or ones that this model's materials use");
+  }
+
+  const Radiances& truth(Shading program) {
+    auto [place, isNew] = truths_.try_emplace(program);
+    if (isNew) place->second = truthOf(scene_, options_.look, program, result_.mask);
+    return place->second;
+  }
+  const Radiances& truthAtDriver(Shading program) {
+    auto [place, isNew] = driverTruths_.try_emplace(program);
+    if (isNew) place->second = truthAtInputs(scene_, options_.look, program, result_.mask);
+    return place->second;
+  }
+
+  /// False if it was stopped.
+  bool measureErrors() {
+    std::size_t number = 0;
+    for (VariantResult& v : result_.variants) {
+      if (stop_ && stop_()) return false;
+      tell("errors: " + v.variant.name, double(number++) / double(result_.variants.size()));
+      DrawList list = makeDrawList(scene_.scene, scene_.bounds, v.variant.look);
+      std::set<std::string> features;
+      for (const DrawItem& item : list.items)
+        for (const std::string& name : featureNames(item.variant))
+          if (features.insert(name).second) v.features.push_back(name);
+      pictures_.push_back(renderer_.begin(gpu_, std::move(list), v.variant.look));
+      v.compile = pictures_.back().times().compile;
+      v.firstFrame = timeOnce(pictures_.back());
+      Image picture = drawList(renderer_, gpu_, pictures_.back().list(), v.variant.look);
+      errorsOf(v, picture);
+      if (options_.keepPictures) v.picture = std::move(picture);
+    }
+    if (options_.keepPictures)
+      for (const auto& [program, values] : truths_)
+        if (program == modelOf(program)) result_.truths.emplace_back(program, values);
+    return true;
+  }
+
+  void errorsOf(VariantResult& v, const Image& picture) {
+    const Look& look = options_.look;
+    const double exposure = std::exp2(look.exposure);
+    const Shading program = v.variant.program, model = modelOf(program);
+    const Radiances drawn = radiancesOf(picture, result_.mask);
+    const auto against = [&](Shading other) {
+      const Radiances& exact = truth(other);
+      v.errors.push_back({other, errorOf(exact, drawn, exposure),
+                          flipOf(picture, result_.mask, exact, look.backgroundColor, exposure)});
+    };
+    against(model);
+    if (program == Shading::blinnPhong) against(Shading::phong);
+    const Radiances& given = program == model ? truthAtDriver(program) : truth(program);
+    v.shading = errorOf(given, drawn, exposure);
+    v.interpolation = errorOf(truth(model), given, exposure);
+  }
+
+  /// Floors and controls are measured among the variants.
+  void measureTimes() {
+    const std::size_t count = pictures_.size();
+    const Look exact = exactLook(options_.look, Shading::phong);
+    DrawList list = makeDrawList(scene_.scene, scene_.bounds, exact);
+    DrawList empty = list;
+    empty.items.clear();
+    for (DrawItem& item : list.items) {
+      Variant constant;
+      constant.unlit = true;
+      item.variant = constant;
+    }
+    pictures_.push_back(renderer_.begin(gpu_, std::move(empty), exact));
+    pictures_.push_back(renderer_.begin(gpu_, std::move(list), exact));
+    const std::vector<std::size_t> controls = controlled(count);
+    for (const std::size_t i : controls)
+      pictures_.push_back(
+          renderer_.begin(gpu_, pictures_[i].list(), result_.variants[i].variant.look));
+
+    std::vector<Renderer::Picture*> pictures;
+    for (Renderer::Picture& picture : pictures_) pictures.push_back(&picture);
+    const int whole = options_.warmUp + options_.rounds;
+    auto times = timeInTurn(pictures, options_.warmUp, options_.rounds, stop_, [&](int round) {
+      tell("frame times", double(round + options_.warmUp + 1) / whole);
+    });
+    if (times[0].wall.size() < std::size_t(options_.rounds))
+      result_.missing.emplace_back("frame times after " + std::to_string(times[0].wall.size()) +
+                                   " of " + std::to_string(options_.rounds) + " rounds");
+    for (std::size_t k = 0; k < controls.size(); ++k) {
+      result_.controls.push_back(result_.variants[controls[k]].variant.name);
+      result_.controlRatios.push_back(
+          roundRatios(times[count + 2 + k].wall, times[controls[k]].wall));
+    }
+    result_.spread = spreadOfControls(result_.controlRatios);
+    for (std::size_t i = 0; i < count; ++i) result_.variants[i].times = std::move(times[i]);
+    result_.floors = {{"empty", std::move(times[count])},
+                      {"constant", std::move(times[count + 1])}};
+    if (!result_.variants[0].times.wall.empty()) makeFronts();
+  }
+
+  /// Three variants from the first to the last, which are of different programs.
+  static std::vector<std::size_t> controlled(std::size_t count) {
+    std::set<std::size_t> chosen{0, count / 2, count - 1};
+    return {chosen.begin(), chosen.end()};
+  }
+
+  void makeFronts() {
+    for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
+      for (const std::string& metric : errorMetrics()) {
+        StudyFront front{model, metric, {}, {}};
+        std::vector<FrontCandidate> candidates;
+        for (std::size_t i = 0; i < result_.variants.size(); ++i) {
+          const VariantResult& v = result_.variants[i];
+          const VariantError* error = errorAgainst(v, model);
+          if (!error) continue;
+          front.variants.push_back(int(i));
+          candidates.push_back({metricOf(*error, metric), v.times.wall});
+        }
+        if (candidates.empty()) continue;
+        front.places = paretoFront(candidates, result_.spread);
+        result_.fronts.push_back(std::move(front));
+      }
+    }
+  }
+
+  const StudyScene& scene_;
+  const StudyOptions& options_;
+  const Stop& stop_;
+  const StudyProgress& progress_;
+  GpuScene gpu_;
+  Renderer renderer_;
+  StudyResult result_;
+  std::deque<Renderer::Picture> pictures_;  ///< of the variants, then floors and controls
+  std::map<Shading, Radiances> truths_, driverTruths_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& errorMetrics() {
+  static const std::vector<std::string> names{"rmse", "max", "p999", "relative-rmse", "flip"};
+  return names;
+}
+
+double metricOf(const VariantError& e, const std::string& metric) {
+  if (metric == "max") return e.whole.max;
+  if (metric == "p999") return e.whole.percentile999;
+  if (metric == "relative-rmse") return e.whole.relativeRmse;
+  if (metric == "flip") return e.flip;
+  return e.whole.rmse;
+}
+
+const VariantError* errorAgainst(const VariantResult& variant, Shading model) {
+  for (const VariantError& error : variant.errors)
+    if (error.against == model) return &error;
+  return nullptr;
+}
+
+StudyResult study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,
+                  const StudyProgress& progress) {
+  return Study(scene, options, stop, progress).run();
+}
+
+}  // namespace glint

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "glint/study/study.h"
+
+namespace glint {
+
+/// What is said of a study beside its figures.
+struct StudyHead {
+  std::string version, model, backend;
+  bool quick = false;
+  Look look;
+  int rounds = 0, warmUp = 0;
+};
+
+/// The whole result, without pictures.
+nlohmann::ordered_json studyJson(const StudyHead& head, const StudyResult& result);
+
+/// A line for each variant and model it is compared with.
+std::string studyCsv(const StudyResult& result);
+
+/// The table of a terminal: variants by model with times, errors and the front of RMSE.
+std::string studyTable(const StudyHead& head, const StudyResult& result);
+
+/// How it was measured, a sentence each.
+std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& result);
+
+}  // namespace glint

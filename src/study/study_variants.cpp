@@ -1,0 +1,103 @@
+#include "glint/study/study_variants.h"
+
+#include <algorithm>
+
+#include "glint/image/error.h"
+#include "glint/scene/parameters.h"
+
+namespace glint {
+namespace {
+
+const Parameter& parameterOf(const std::string& name) {
+  for (const Parameter& p : lookParameters())
+    if (p.name == name) return p;
+  throw Error("no parameter '" + name + "'");
+}
+
+bool accepts(const Parameter& p, const std::string& text) {
+  try {
+    Look look;
+    p.read(look, text);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool has(const DrawList& list, bool Variant::*feature) {
+  return std::any_of(list.items.begin(), list.items.end(),
+                     [&](const DrawItem& item) { return item.variant.*feature; });
+}
+
+}  // namespace
+
+std::vector<std::string> formsOf(const std::string& parameter, bool quick) {
+  const Parameter& p = parameterOf(parameter);
+  std::vector<std::string> forms;
+  for (const std::string& choice : p.choices()) {
+    const std::size_t colon = choice.find(':');
+    if (colon == std::string::npos) {
+      if (accepts(p, choice)) forms.push_back(choice);
+      continue;
+    }
+    for (const int number : {1, 2, 4, 8, 16, 32, 64}) {
+      const std::string form = choice.substr(0, colon + 1) + std::to_string(number);
+      if (accepts(p, form) && (!quick || number == 4 || number == 16)) forms.push_back(form);
+    }
+  }
+  return forms;
+}
+
+void setParameter(Look& look, const std::string& parameter, const std::string& text) {
+  parameterOf(parameter).read(look, text);
+}
+
+Shading modelOf(Shading program) {
+  return program == Shading::flat || program == Shading::gouraud ? Shading::phong : program;
+}
+
+Look exactLook(const Look& look, Shading program) {
+  Look exact = look;
+  exact.shading = program;
+  setParameter(exact, "highlight", "exact");
+  setParameter(exact, "fresnel", "exact");
+  return exact;
+}
+
+std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds, const Look& look,
+                                        const StudyFilter& filter) {
+  std::vector<StudyVariant> all;
+  const auto wanted = [](const std::string& only, std::string_view name) {
+    return only.empty() || only == name;
+  };
+  for (const std::string& name : formsOf("shading", filter.quick)) {
+    if (!wanted(filter.shading, name)) continue;
+    StudyVariant v;
+    v.look = look;
+    setParameter(v.look, "shading", name);
+    v.program = v.look.shading;
+    const bool environment = v.program == Shading::environment;
+    const bool perPixel = v.program == modelOf(v.program);
+    const DrawList list = makeDrawList(scene, bounds, exactLook(look, v.program));
+    std::vector<std::string> highlights{"exact"}, fresnels{""};
+    if (!environment && has(list, &Variant::specular))
+      highlights = formsOf("highlight", filter.quick);
+    if (environment) fresnels = {"exact"};
+    if (environment && has(list, &Variant::dielectric)) fresnels = formsOf("fresnel", filter.quick);
+    for (const std::string& highlight : highlights)
+      for (const std::string& fresnel : fresnels) {
+        if (!perPixel && highlight.find(':') != std::string::npos) continue;
+        if (!environment && !wanted(filter.highlight, highlight)) continue;
+        if (environment && !wanted(filter.fresnel, fresnel)) continue;
+        v.highlight = highlight;
+        v.fresnel = fresnel;
+        setParameter(v.look, "highlight", highlight);
+        setParameter(v.look, "fresnel", environment ? fresnel : "exact");
+        v.name = name + " " + (environment ? fresnel : highlight);
+        all.push_back(v);
+      }
+  }
+  return all;
+}
+
+}  // namespace glint

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glint/render/draw_list.h"
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// A way of shading a scene: a program with forms of its lobe and its reflectance.
+struct StudyVariant {
+  std::string name;  ///< "phong lyon:8", "environment schlick"
+  Shading program = Shading::phong;
+  std::string highlight;  ///< as `--highlight` takes it
+  std::string fresnel;    ///< as `--fresnel` takes it; empty but for the program environment
+  Look look;
+
+  bool operator==(const StudyVariant&) const = default;
+};
+
+/// What a study is asked to leave out: empty means all.
+struct StudyFilter {
+  std::string shading, highlight, fresnel;  ///< the only one, if given
+  bool quick = false;                       ///< of the forms with a number only a few numbers
+};
+
+/// All values that an option of one of several forms takes, from the table of parameters:
+/// of "lyon:G" and the like with the powers of two from 1 to 64 (quick: 4 and 16) that it accepts.
+std::vector<std::string> formsOf(const std::string& parameter, bool quick);
+
+/// Sets one of the look's parameters by its option's name.
+void setParameter(Look& look, const std::string& parameter, const std::string& text);
+
+/// The programs and forms that make a difference to a scene: no forms of a highlight that no
+/// material has, none of the reflectance without a dielectric. Per face and per vertex, where they
+/// cost next to nothing, only the forms without a number; the program environment draws its
+/// highlight in the exact form, blinn-phong's forms being its own.
+std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds, const Look& look,
+                                        const StudyFilter& filter);
+
+/// The model that a program's picture is an approximation of, whose exact form per pixel is its
+/// truth: phong of flat, gouraud and phong.
+Shading modelOf(Shading program);
+
+/// A look in the exact forms of a program.
+Look exactLook(const Look& look, Shading program);
+
+}  // namespace glint

@@ -1,0 +1,85 @@
+"""Installs glint into a folder, builds the project beside this file against it, and runs its tests,
+of which some are planted to fail: run.py BUILD_FOLDER SCRATCH_FOLDER"""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+build, scratch = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+prefix, outside = scratch / "prefix", scratch / "build"
+shutil.rmtree(scratch, ignore_errors=True)
+environment = {k: v for k, v in os.environ.items() if not k.startswith("GLINT_")}
+
+
+def run(*words, status=0, **variables):
+    ran = subprocess.run([str(w) for w in words], env={**environment, **variables}, text=True,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if ran.returncode != status:
+        sys.exit("%s\n%s\nended with status %d, not %d" % (" ".join(map(str, words)), ran.stdout,
+                                                         ran.returncode, status))
+    return ran.stdout
+
+
+def check(holds, what):
+    if not holds:
+        sys.exit("not so: " + what)
+
+
+run("cmake", "--install", build, "--prefix", prefix, "--component", "glint")
+check(not list(prefix.rglob("glint-viewer")), "the viewer is a part of its own")
+check((prefix / "include/glint/scene/scene.h").is_file(), "headers are installed")
+run("cmake", "-S", HERE, "-B", outside, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=%s" % prefix,
+    "-DMODELS=%s" % (HERE.parent.parent / "models"))
+run("cmake", "--build", outside)
+tests = {t["name"]: t["command"] for t in
+         json.loads(run("ctest", "--test-dir", outside, "--show-only=json-v1"))["tests"]}
+os.chdir(outside)
+pictures = outside / "image-tests"
+
+# What is right passes.
+run(*tests["gradient.same"])
+run(*tests["unit.Same"])
+
+# What was planted fails, says how, and leaves its pictures.
+said = run(*tests["gradient.planted"], status=1)
+check("flip 0.01" in said and "is above 0.001" in said, "the metric is told: " + said)
+check("worst at 20,10" in said, "the worst pixel is told: " + said)
+for name in ("actual/gradient.planted.png", "baseline/gradient.planted.png",
+             "difference/gradient.planted.png"):
+    check((pictures / name).stat().st_size > 0, name + " is left")
+result = json.loads((pictures / "result/gradient.planted.json").read_text())
+check(result["metrics"]["flip"]["mean"] > 0.01, "the result is left")
+said = run(*tests["unit.Planted"], status=1)
+check("flip 0.01" in said and "(20, 10): " in said and "-> " in said, "the worst pixels: " + said)
+check((pictures / "difference/gradient.png").is_file(), "the difference of the matcher is left")
+
+# Without a baseline: its candidate is left and the status is 4; the same command makes it.
+baseline = outside / "baselines/new.png"
+said = run(*tests["gradient.new"], status=4)
+check("no baseline" in said and str(pictures / "actual/gradient.new.png") in said, said)
+check((pictures / "actual/gradient.new.png").is_file() and not baseline.exists(), "a candidate")
+said = run(*tests["gradient.new"], GLINT_UPDATE_BASELINES="1")
+check("made the baseline " + str(baseline) in said, "it is said: " + said)
+run(*tests["gradient.new"])
+run(*tests["teapot"], status=4)
+run(*tests["teapot"], GLINT_UPDATE_BASELINES="1")
+run(*tests["teapot"])
+check("no baseline" in run(*tests["unit.Missing"], status=1), "the matcher says so, too")
+said = run(*tests["unit.Missing"], status=1, GLINT_UPDATE_BASELINES="1")
+check("made the baseline made/unit.png" in said, "the matcher makes it: " + said)
+run(*tests["unit.Missing"])
+
+# A program that fails is no picture that differs.
+said = run(*tests["gradient.crashes"], status=2)
+check("ended with status 2" in said, said)
+
+# All by ctest, and one page of them.
+said = run("ctest", "--test-dir", outside, status=8)
+check("3 tests failed out of 8" in said, said)
+run(prefix / "bin/glint", "diff", pictures / "baseline", pictures / "actual", "--html",
+    scratch / "report.html", status=1)
+check((scratch / "report.html").stat().st_size > 10000, "a report")

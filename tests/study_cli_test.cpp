@@ -1,0 +1,95 @@
+// glint study, as a user runs it, with pictures of a few pixels.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "command.h"
+
+namespace glint::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+const std::string sphere = GLINT_SOURCE_DIR "/models/sphere-series/sphere-3.glb";
+
+std::vector<std::string> tiny(std::vector<std::string> more) {
+  more.insert(more.begin(), {"study", "--quick", "--resolution", "48,48", "--repetitions", "3"});
+  return more;
+}
+
+TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
+  const Ran ran = runGlint(tiny({"--json", "-"}));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_TRUE(json["complete"].get<bool>()) << json["missing"];
+  EXPECT_EQ(json["triangles"], 20480);
+  EXPECT_GT(json["mask"]["pixels"].get<int>(), 800);
+  EXPECT_EQ(json["floors"].size(), 2u);
+  EXPECT_GE(json["controls"].size(), 2u);
+  std::set<std::string> names;
+  for (const Json& v : json["variants"]) {
+    SCOPED_TRACE(v["name"]);
+    names.insert(v["name"]);
+    EXPECT_EQ(v["times"]["wall"]["frames"], 3);
+    EXPECT_GT(v["times"]["wall"]["minimum"].get<double>(), 0);
+    EXPECT_LE(v["times"]["wall"]["minimum"], v["times"]["wall"]["median"]);
+    const Json& e = v["errors"][0];
+    EXPECT_GT(e["rmse"].get<double>(), 0);
+    EXPECT_LE(e["rmse"], e["max"]);
+    EXPECT_LE(e["p999"], e["max"]);
+    // Each is on the front or dominated by one that is.
+    EXPECT_TRUE(e["fronts"]["rmse"].is_boolean() || e["fronts"]["rmse"].is_string());
+    // What is exact differs by rounding alone, at most 1e-5 + 4e-6 sqrt(4 alpha) of accuracy.md.
+    const bool perPixel = v["shading"] != "flat" && v["shading"] != "gouraud";
+    if (perPixel && v["highlight"] == "exact" && v.value("fresnel", "exact") == "exact") {
+      EXPECT_LT(e["max"].get<double>(), 1e-5 + 4e-6 * std::sqrt(160));
+    }
+    // The whole is at most the sum of its parts.
+    EXPECT_LE(e["max"].get<double>(), 1.0001 * (v["parts"]["shading"]["max"].get<double>() +
+                                                v["parts"]["interpolation"]["max"].get<double>()));
+  }
+  for (const char* name : {"flat exact", "gouraud exact", "phong exact", "phong pow",
+                           "blinn-phong exact", "environment exact", "environment schlick"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_EQ(json["fronts"].size(), 15u);
+}
+
+TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
+  const Ran ran = runGlint(tiny({sphere, "--shading", "phong", "--json", "-"}));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // The model's material has no highlight: all forms are one.
+  const Json json = Json::parse(ran.out);
+  ASSERT_EQ(json["variants"].size(), 1u);
+  EXPECT_EQ(json["variants"][0]["name"], "phong exact");
+}
+
+TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
+  const Ran ran = runGlint(tiny({"--time-budget", "0.001", "--json", "-"}));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_FALSE(json["complete"].get<bool>());
+  EXPECT_FALSE(json["missing"].empty());
+}
+
+TEST(StudyCommand, RefusesWhatItCannotDo) {
+  const auto refused = [](std::vector<std::string> arguments, const std::string& words) {
+    const Ran ran = runGlint(tiny(std::move(arguments)));
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(words));
+    EXPECT_EQ(ran.out, "");
+  };
+  refused({"--rendering-backend", "reference"}, "a study measures GL against the reference");
+  refused({"--anti-aliasing", "ssaa:2"}, "single samples");
+  refused({"no-such.glb"}, "no-such.glb");
+  refused({"--time-budget", "0"}, "--time-budget");
+  refused({"--repetitions", "0"}, "--repetitions");
+  refused({"--material", "Nobody:ior=2"}, "Nobody");
+  refused({"--camera-position", "0,0,9", "--camera-focal-point", "0,0,20"}, "no pixel");
+}
+
+}  // namespace
+}  // namespace glint::test

@@ -1,0 +1,125 @@
+// The Pareto front of a study and the rule by which times differ.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "glint/study/front.h"
+#include "glint/study/statistics.h"
+
+namespace glint {
+namespace {
+
+using Times = std::vector<double>;
+
+/// Frames around a time, with noise of a tenth.
+Times framesOf(double milliseconds, unsigned seed, double noise = 0.1) {
+  std::mt19937 random(seed);
+  Times times(40);
+  for (double& t : times)
+    t = milliseconds * (1 + noise * (double(random()) / double(std::mt19937::max()) - 0.5));
+  return times;
+}
+
+std::vector<int> membersOf(const std::vector<FrontPlace>& places) {
+  std::vector<int> members;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].onFront) members.push_back(int(i));
+  return members;
+}
+
+TEST(StudyStatistics, BootstrapIntervalHoldsTheMedianAndNarrowsWithTheNoise) {
+  const Interval wide = medianInterval(framesOf(5, 1, 0.4)),
+                 narrow = medianInterval(framesOf(5, 1));
+  EXPECT_LT(wide.low, 5);
+  EXPECT_GT(wide.high, 5);
+  EXPECT_LT(narrow.high - narrow.low, (wide.high - wide.low) / 2);
+  EXPECT_EQ(medianInterval({3, 3, 3}).low, 3);
+}
+
+// About 95 of 100 intervals hold the true median; 80 would be one in 1e8.
+TEST(StudyStatistics, BootstrapIntervalCoversTheTrueMedian) {
+  int covered = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Interval interval = medianInterval(framesOf(1, seed));
+    covered += interval.low <= 1 && interval.high >= 1;
+  }
+  EXPECT_GE(covered, 85);
+}
+
+TEST(StudyStatistics, RatiosAreRoundByRound) {
+  EXPECT_EQ(roundRatios({2, 9, 4}, {1, 3}), (Times{2, 3}));
+}
+
+TEST(StudyFront, FasterMeansBeyondTheSpread) {
+  const Times a = framesOf(10, 1), b = framesOf(9, 2), c = framesOf(5, 3);
+  EXPECT_TRUE(isFaster(b, a, 0.01));
+  EXPECT_FALSE(isFaster(b, a, 0.2));
+  EXPECT_TRUE(isFaster(c, a, 0.2));
+  EXPECT_FALSE(isFaster(a, a, 0));
+  EXPECT_FALSE(isFaster({}, a, 0));
+}
+
+TEST(StudyFront, AllStepsOfAStaircaseAreOnIt) {
+  const Times times[] = {framesOf(8, 1), framesOf(4, 2), framesOf(2, 3)};
+  const FrontCandidate candidates[] = {{1e-6, times[0]}, {1e-3, times[1]}, {1e-1, times[2]}};
+  EXPECT_EQ(membersOf(paretoFront(candidates, 0.05)), (std::vector{0, 1, 2}));
+}
+
+TEST(StudyFront, NamesWhoDominates) {
+  const Times fast = framesOf(2, 1), slow = framesOf(4, 2);
+  const FrontCandidate candidates[] = {{1e-2, slow}, {1e-3, fast}, {1e-4, slow}};
+  const auto places = paretoFront(candidates, 0.05);
+  EXPECT_EQ(membersOf(places), (std::vector{1, 2}));
+  EXPECT_EQ(places[0].dominatedBy, 1);
+}
+
+TEST(StudyFront, ALargerErrorMustBePaidForByMoreThanNoise) {
+  const Times a = framesOf(4.0, 1), b = framesOf(3.95, 2);
+  const FrontCandidate candidates[] = {{1e-6, a}, {1e-3, b}};
+  EXPECT_EQ(membersOf(paretoFront(candidates, 0.1)), (std::vector{0}));
+}
+
+// None is beyond the spread of its neighbour, but the last is of the first.
+TEST(StudyFront, SmallStepsAddUp) {
+  const Times a = framesOf(4.0, 1, 0.01), b = framesOf(3.8, 2, 0.01), c = framesOf(3.5, 3, 0.01);
+  const FrontCandidate candidates[] = {{1e-6, a}, {1e-5, b}, {1e-4, c}};
+  const auto places = paretoFront(candidates, 0.08);
+  EXPECT_EQ(membersOf(places), (std::vector{0, 2}));
+  EXPECT_EQ(places[1].dominatedBy, 0);
+}
+
+TEST(StudyFront, OfTheSameErrorTheFasterStands) {
+  const Times slow = framesOf(4, 1), fast = framesOf(2, 2);
+  const FrontCandidate candidates[] = {{1.00e-6, slow}, {1.02e-6, fast}, {1.01e-6, slow}};
+  const auto places = paretoFront(candidates, 0.05);
+  EXPECT_EQ(membersOf(places), (std::vector{1}));
+  EXPECT_EQ(places[0].dominatedBy, 1);
+  EXPECT_EQ(places[2].dominatedBy, 1);
+}
+
+// Two runs of one machine: other noise, the same front, steps being larger than the spread.
+TEST(StudyFront, IsTheSameInAnotherRun) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::vector<Times> times;
+    const double milliseconds[] = {9, 8.9, 6, 6.1, 3, 3.05};
+    for (unsigned i = 0; i < 6; ++i) times.push_back(framesOf(milliseconds[i], 100 * seed + i));
+    std::vector<FrontCandidate> candidates;
+    for (unsigned i = 0; i < 6; ++i) candidates.push_back({std::pow(10.0, int(i) - 6), times[i]});
+    const std::vector<std::vector<double>> controls{
+        roundRatios(framesOf(6, seed + 5000), times[2])};
+    EXPECT_EQ(membersOf(paretoFront(candidates, spreadOfControls(controls))),
+              (std::vector{0, 2, 4}))
+        << seed;
+  }
+}
+
+TEST(StudyFront, SpreadIsTheFarEndOfTheControls) {
+  const std::vector<std::vector<double>> ratios{{1.0, 1.0, 1.0}, {0.9, 0.9, 0.9}};
+  EXPECT_DOUBLE_EQ(spreadOfControls(ratios), 1 - 0.9);
+  EXPECT_EQ(spreadOfControls({}), 0);
+}
+
+}  // namespace
+}  // namespace glint

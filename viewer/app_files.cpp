@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <ctime>
+
+#include "app.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/picture_writer.h"
+#include "glint/scene/parameters.h"
+#include "materials.h"
+
+namespace glint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+FileState stateOfFolder(const fs::path& folder) {
+  FileState all;
+  std::error_code error;
+  for (const auto& each : fs::directory_iterator(folder, error)) {
+    const FileState state = stateOf(each.path());
+    all.time = std::max(all.time, state.time);
+    all.size += state.size;
+  }
+  return all;
+}
+
+std::string readText(const fs::path& path) {
+  const auto bytes = readFile(path.string());
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+void App::load(const fs::path& path) {
+  if (loading_.valid()) {  // cannot be broken off; the window goes on meanwhile
+    nextPath_ = path;
+    return;
+  }
+  loadingPath_ = path;
+  modelState_ = stateOf(path);
+  loading_ = std::async(std::launch::async, [path] {
+    struct Wake {
+      ~Wake() { Window::wake(); }
+    } wake;
+    return loadModel(path);
+  });
+}
+
+void App::finishLoading() {
+  attempt([&] {
+    std::shared_ptr<Model> model = loading_.get();
+    session_.take(std::move(model));
+    painter_->setModel(session_.model);
+    reference_->stop();
+    shownResult_ = {};
+    requested_.reset();
+    failed_.reset();
+    probe_.reset();
+    screenStale_ = probeStale_ = true;
+    const std::size_t warnings = session_.model->scene.warnings.size();
+    session_.say("read " + session_.model->path.string() +
+                 (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
+  });
+  // A file that could not be read is tried again when it changes; another one is forgotten.
+  if (session_.model && session_.model->path != loadingPath_)
+    modelState_ = stateOf(session_.model->path);
+  if (!nextPath_.empty()) load(std::exchange(nextPath_, fs::path()));
+  if (restoring_ && session_.model) restore(*std::exchange(restoring_, std::nullopt));
+  offerRecovered();
+}
+
+// Once, at the start: edits that an earlier window left behind.
+void App::offerRecovered() {
+  if (std::exchange(offered_, true)) return;
+  const auto left = recovery_.left(options_.model);
+  if (left.empty()) return;
+  const Recovered found = left.front();
+  const auto since = std::chrono::file_clock::to_sys(found.time);
+  const std::time_t time = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(since));
+  char when[64] = "";
+  std::strftime(when, sizeof when, "%Y-%m-%d %H:%M", std::localtime(&time));
+  const std::string name = found.model.empty() ? "a look" : found.model.filename().string();
+  dialogs_.ask("Not saved last time",
+               "Edits of " + name + " of " + when + " were not saved when the window ended.",
+               {{"Restore",
+                 [this, found] {
+                   if (found.model.empty() || !options_.model.empty()) return restore(found);
+                   restoring_ = found;
+                   load(found.model);
+                 }},
+                {"Discard", [found] { Recovery::discard(found); }},
+                {"Later", {}}});
+}
+
+void App::restore(const Recovered& found) {
+  Look look = found.look;
+  if (session_.model) dropMissing(look, session_.model->scene);
+  session_.document.a = look;
+  Recovery::discard(found);
+  session_.say("restored the edits; they are not saved yet");
+}
+
+void App::watch() {
+  if (session_.model && !loading_.valid()) {
+    const FileState now = stateOf(session_.model->path);
+    // A file that is gone is being replaced; it is read when it is back.
+    if (now != modelState_ && now != FileState{}) load(session_.model->path);
+  }
+  if (!session_.lookPath.empty()) {
+    const FileState now = stateOf(session_.lookPath);
+    if (now != lookState_ && now != FileState{}) {
+      lookState_ = now;
+      attempt([&] {
+        Look look;
+        readLook(look, readText(session_.lookPath), session_.lookPath.string());
+        session_.document.a = look;
+        session_.saved = look;
+        session_.say("read " + session_.lookPath.string() + " again");
+      });
+    }
+  }
+  if (!options_.glsl.empty()) {
+    const FileState now = stateOfFolder(options_.glsl);
+    if (glslState_ == FileState{}) glslState_ = now;
+    if (now != glslState_) {
+      glslState_ = now;
+      Look look = session_.document.a;
+      look.resolution = resolution_;
+      // Shaders that do not compile leave the picture as it was; the next change is tried.
+      painter_->reload(options_.glsl, look, [this](const std::string& error) {
+        if (!error.empty()) return session_.fail(error);
+        requested_.reset();
+        failed_.reset();
+        shownResult_.request = {};
+        session_.say("compiled the shaders of " + options_.glsl.string() + " again");
+      });
+    }
+  }
+}
+
+void App::open(const std::string& path) {
+  const fs::path file(path);
+  if (file.extension() == ".json" || file.extension() == ".look") {
+    attempt([&] {
+      Look look;
+      readLook(look, readText(file), path);
+      if (session_.model) checkMaterialNames(session_.model->scene, look);
+      session_.document.a = look;
+      session_.saved = look;
+      session_.lookPath = file;
+      lookState_ = stateOf(file);
+      session_.say("read the look " + path);
+    });
+    return;
+  }
+  if (!session_.unsaved()) return load(file);
+  dialogs_.ask("Not saved", "Edits are not saved. Open " + file.filename().string() + " anyway?",
+               {{"Open, and lose them", [this, file] { load(file); }}, {"Cancel", {}}});
+}
+
+void App::saveLookTo(const std::string& path, bool sure, std::function<void()> then) {
+  if (!sure && fs::exists(path)) {
+    dialogs_.ask("Replace?", path + " exists. Replace it?",
+                 {{"Replace", [this, path, then] { saveLookTo(path, true, then); }}, {"Cancel", {}}});
+    return;
+  }
+  attempt([&] {
+    session_.saveLook(path, resolution_);
+    lookState_ = stateOf(path);
+    if (then) then();
+  });
+}
+
+void App::saveModelTo(const std::string& path, bool sure) {
+  if (!sure && fs::exists(path)) {
+    dialogs_.ask("Replace?",
+                 path + " exists. Write the materials into it? Everything else in it stays.",
+                 {{"Write", [this, path] { saveModelTo(path, true); }}, {"Cancel", {}}});
+    return;
+  }
+  attempt([&] {
+    session_.saveModel(path);
+    modelState_ = stateOf(session_.model->path);
+  });
+}
+
+void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure) {
+  if (!sure && fs::exists(path)) {
+    dialogs_.ask("Replace?", path + " exists. Replace it?",
+                 {{"Replace", [=, this] { savePictureTo(path, size, transparent, true); }},
+                  {"Cancel", {}}});
+    return;
+  }
+  Look look = session_.document.a;
+  look.resolution = size;
+  look.noBackground = transparent;
+  attempt([&] {
+    checkPictureName(path, {});
+    painter_->save(look, path, [this, path](const std::string& error) {
+      if (error.empty())
+        session_.say("saved the picture as " + path);
+      else
+        session_.fail(error);
+    });
+  });
+}
+
+void App::quit() {
+  if (!session_.unsaved()) {
+    quitting_ = true;
+    return;
+  }
+  std::vector<Dialogs::Answer> answers;
+  answers.push_back(
+      {"Save the look", [this] {
+         const auto quitNow = [this] { quitting_ = !session_.unsaved(); };
+         if (!session_.lookPath.empty())
+           return saveLookTo(session_.lookPath.string(), true, quitNow);
+         const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
+         dialogs_.askPath("Save the look as", nextFreeName(".", stem, ".json").filename(), false,
+                          [this, quitNow](const std::string& path) {
+                            saveLookTo(path, false, quitNow);
+                          });
+       }});
+  if (session_.model) {
+    Look rest = session_.document.a;
+    rest.material = session_.saved.material;
+    if (withoutCamera(rest) == withoutCamera(session_.saved))
+      answers.push_back({"Save into the model", [this] {
+                           saveModelTo(session_.model->path.string(), true);
+                           if (!session_.unsaved()) quitting_ = true;
+                         }});
+  }
+  answers.push_back({"Discard", [this] { quitting_ = true; }});
+  answers.push_back({"Cancel", {}});
+  dialogs_.ask("Not saved", "The look has edits that are not saved.", std::move(answers));
+}
+
+}  // namespace glint

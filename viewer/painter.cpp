@@ -1,0 +1,190 @@
+#include "painter.h"
+
+#include <cmath>
+#include <utility>
+
+#include "glint/image/error.h"
+#include "glint/image/picture_writer.h"
+
+namespace glint {
+
+struct Painter::Objects {
+  std::shared_ptr<const Model> model;
+  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<GpuScene> scene;
+  std::unique_ptr<OverlayDrawer> overlay;
+  SharedPicture a, b, plain;
+  Layer layer;
+  Look layerLook;
+  Overlay layerKind = Overlay::none;
+};
+
+Painter::Painter(const Window& window, const std::filesystem::path& glsl,
+                 std::function<void()> wake)
+    : context_(std::make_unique<OffscreenContext>(window)),
+      wake_(std::move(wake)),
+      objects_(std::make_unique<Objects>()) {
+  GlslSources sources = glsl.empty() ? GlslSources() : GlslSources(glsl);
+  worker_ = std::make_unique<Worker>([this] { context_->makeCurrent(); },
+                                     [this] {
+                                       *objects_ = {};
+                                       context_->release();
+                                     });
+  worker_->queue([this, sources = std::move(sources)](const std::atomic<bool>&) {
+    objects_->renderer = std::make_unique<Renderer>(sources);
+  });
+}
+
+Painter::~Painter() { worker_.reset(); }
+
+void Painter::setModel(std::shared_ptr<const Model> model) {
+  {
+    const std::lock_guard lock(mutex_);
+    ++model_;
+    result_.reset();
+    asked_.reset();
+  }
+  worker_->stopLatest();
+  worker_->queue([this, model = std::move(model)](const std::atomic<bool>&) {
+    Objects& o = *objects_;
+    // The old model's objects in the driver refer to its scene.
+    o.a.reset();
+    o.b.reset();
+    o.plain.reset();
+    o.layer.reset();
+    o.scene.reset();
+    o.model = model;
+    if (model) o.scene = std::make_unique<GpuScene>(model->scene, model->images);
+  });
+}
+
+void Painter::request(PaintRequest request) {
+  int model = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    asked_ = request;
+    model = model_;
+  }
+  worker_->latest([this, request = std::move(request), model](const std::atomic<bool>& stop) {
+    paint(request, stop, model);
+  });
+}
+
+void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, int model) {
+  Objects& o = *objects_;
+  if (!o.scene) return;
+  PaintResult result;
+  result.request = request;
+  const auto drawn = [&](SharedPicture& kept, const Look& look) {
+    if (!kept || kept->look != look) {
+      auto picture = drawPicture(*o.renderer, *o.scene, o.model->bounds, look, stop);
+      if (picture) kept = std::make_shared<const DrawnPicture>(std::move(*picture));
+    }
+    return !stop && kept && kept->look == look ? kept : nullptr;
+  };
+  try {
+    if (!(result.a = drawn(o.a, request.a))) return;
+    if (request.b && !(result.b = drawn(o.b, *request.b))) return;
+    if (request.plain && !(result.plain = drawn(o.plain, *request.plain))) return;
+    const bool laid = request.overlay == Overlay::wireframe ||
+                      request.overlay == Overlay::normals || request.overlay == Overlay::facing;
+    if (laid) {
+      if (!o.layer || o.layerKind != request.overlay || o.layerLook != request.a) {
+        if (!o.overlay) o.overlay = std::make_unique<OverlayDrawer>();
+        o.layer = std::make_shared<const std::vector<std::uint8_t>>(
+            o.overlay->draw(*o.scene, result.a->list, request.overlay, request.a.resolution));
+        o.layerKind = request.overlay;
+        o.layerLook = request.a;
+      }
+      result.overlay = o.layer;
+    }
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (stop || model != model_) return;
+    result_ = std::move(result);
+    if (asked_ && *asked_ == request) asked_.reset();
+  }
+  ready_.notify_all();
+  wake_();
+}
+
+std::optional<PaintResult> Painter::take(double seconds) {
+  std::unique_lock lock(mutex_);
+  if (seconds > 0 && asked_)
+    ready_.wait_for(lock, std::chrono::duration<double>(seconds),
+                    [&] { return result_.has_value(); });
+  return std::exchange(result_, std::nullopt);
+}
+
+bool Painter::pending() const {
+  const std::lock_guard lock(mutex_);
+  return asked_.has_value();
+}
+
+void Painter::report(Done done, std::string error) {
+  {
+    const std::lock_guard lock(mutex_);
+    reports_.emplace_back(std::move(done), std::move(error));
+  }
+  wake_();
+}
+
+bool Painter::poll() {
+  std::vector<std::pair<Done, std::string>> reports;
+  {
+    const std::lock_guard lock(mutex_);
+    reports.swap(reports_);
+  }
+  for (const auto& [done, error] : reports) done(error);
+  return !reports.empty();
+}
+
+bool Painter::saving() const {
+  const std::lock_guard lock(mutex_);
+  return saves_ > 0;
+}
+
+void Painter::save(const Look& look, const std::string& path, Done done) {
+  {
+    const std::lock_guard lock(mutex_);
+    ++saves_;
+  }
+  worker_->queue([this, look, path, done = std::move(done)](const std::atomic<bool>&) {
+    std::string text;
+    try {
+      Objects& o = *objects_;
+      if (!o.scene) throw InputError("there is no picture to save: open a model");
+      writePicture(*o.renderer, *o.scene, o.model->bounds, look, path);
+    } catch (const std::exception& error) {
+      text = error.what();
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      --saves_;
+    }
+    report(done, text);
+  });
+}
+
+void Painter::reload(const std::filesystem::path& glsl, const Look& trial, Done done) {
+  worker_->queue([this, glsl, trial, done = std::move(done)](const std::atomic<bool>& stop) {
+    std::string text;
+    try {
+      Objects& o = *objects_;
+      auto fresh = std::make_unique<Renderer>(GlslSources(glsl));
+      if (o.scene) (void)drawPicture(*fresh, *o.scene, o.model->bounds, trial, stop);
+      o.renderer = std::move(fresh);
+      o.a.reset();
+      o.b.reset();
+      o.plain.reset();
+    } catch (const std::exception& error) {
+      text = error.what();
+    }
+    report(done, text);
+  });
+}
+
+}  // namespace glint

@@ -1,0 +1,91 @@
+#include "settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "glint/image/file.h"
+#include "xdg.h"
+
+namespace glint {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+void number(const Json& json, const char* key, double low, double high, double& value) {
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_number()) return;
+  const double v = found->get<double>();
+  if (v >= low && v <= high) value = v;
+}
+
+void flag(const Json& json, const char* key, bool& value) {
+  const auto found = json.find(key);
+  if (found != json.end() && found->is_boolean()) value = found->get<bool>();
+}
+
+std::string textOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+std::filesystem::path settingsFile() {
+  const std::filesystem::path folder = configFolder();
+  return folder.empty() ? folder : folder / "viewer.json";
+}
+
+Settings readSettings(const std::string& text) {
+  Settings s;
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return s;
+  glm::dvec2 window(s.window);
+  if (const auto found = json.find("window");
+      found != json.end() && found->is_array() && found->size() == 2) {
+    const Json pair = {{"x", (*found)[0]}, {"y", (*found)[1]}};
+    number(pair, "x", 480, 16384, window.x);
+    number(pair, "y", 320, 16384, window.y);
+  }
+  s.window = glm::ivec2(window);
+  flag(json, "panel", s.panel);
+  if (json.contains("scale")) number(json, "scale", 0.5, 4, s.scale);
+  number(json, "incidence", 0, 89, s.incidence);
+  flag(json, "polar", s.polar);
+  number(json, "amplification", 1, 256, s.amplification);
+  return s;
+}
+
+std::string settingsText(const Settings& s) {
+  Json json;
+  json["glint-viewer"] = 1;
+  json["window"] = {s.window.x, s.window.y};
+  json["panel"] = s.panel;
+  if (s.scale > 0) json["scale"] = s.scale;
+  json["incidence"] = s.incidence;
+  json["polar"] = s.polar;
+  json["amplification"] = s.amplification;
+  return json.dump(2) + "\n";
+}
+
+Settings loadSettings() {
+  const std::filesystem::path path = settingsFile();
+  return path.empty() ? Settings{} : readSettings(textOf(path));
+}
+
+void saveSettings(const Settings& settings) {
+  const std::filesystem::path path = settingsFile();
+  const std::string text = settingsText(settings);
+  if (path.empty() || textOf(path) == text) return;
+  std::error_code error;  // OutputFile says it if there is no folder
+  std::filesystem::create_directories(path.parent_path(), error);
+  OutputFile file(path.string());
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
+}  // namespace glint
