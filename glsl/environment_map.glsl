@@ -9,7 +9,7 @@ float boxLight(vec3 d, vec3 axis, vec3 right, vec3 up, vec2 extent, float soft) 
 }
 #endif
 
-#if ENVIRONMENT_MAP == ENVIRONMENT_IMAGE
+#if ENVIRONMENT_MAP > ENVIRONMENT_WHITE  // ENVIRONMENT_IMAGE
 // Of src/render/environment_image.h, with its smaller levels.
 uniform sampler2D environmentImage;
 

@@ -205,7 +205,7 @@ void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
   std::vector<std::size_t> order(nodes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return meter.shares[i]; });
-  order.resize(maxLights);
+  order.erase(order.begin() + std::ptrdiff_t(maxLights), order.end());
   std::ranges::sort(order);
   std::vector<FileLight> kept;
   lightsOn->clear();
