@@ -68,7 +68,8 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     if (option->get_positional())
       usage += option->get_required() ? " " + option->get_name(true)
                                       : " [" + option->get_name(true) + "]";
-  if (app->get_option_no_throw("--output") != nullptr) usage += "... -o OUT";
+  const CLI::Option* output = app->get_option_no_throw("--output");
+  if (output != nullptr && output->get_required()) usage += "... -o OUT";
   return usage + " [OPTIONS]\n";
 }
 

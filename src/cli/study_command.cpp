@@ -1,14 +1,17 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
+#include "glint/study/study_page.h"
 #include "glint/study/study_report.h"
 #include "progress.h"
 
@@ -47,16 +50,27 @@ Look studyLook(const StudyArguments& given, Look look) {
   return look;
 }
 
+/// The folder of --output, made before anything is measured.
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!std::filesystem::is_directory(path, error))
+    throw InputError("--output " + printablePath(path) + ": cannot make the folder" +
+                     (error ? ": " + error.message() : std::string()) + ": give another");
+}
+
 int runStudy(const StudyArguments& given, const Look& givenLook) {
   if (given.backend == "reference")
     throw InputError(
         "--rendering-backend reference: a study measures GL against the reference: "
         "give another");
   const Backend backend = backendFromName(given.backend);
+  if (!given.output.empty()) makeFolder(given.output);
   StudyOptions options;
+  options.keepPictures = !given.output.empty();
   options.look = studyLook(given, givenLook);
   options.filter = given.filter;
-  options.filter.quick = given.quick;
+  options.filter.quick = options.quick = given.quick;
   options.rounds = given.repetitions > 0 ? given.repetitions
                    : given.quick         ? quickRounds
                                          : fullRounds;
@@ -95,7 +109,14 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   head.rounds = options.rounds;
   head.warmUp = options.warmUp;
   if (given.json != "-") std::cout << studyTable(head, result);
-  if (!given.json.empty()) writeText(given.json, studyJson(head, result).dump(2) + "\n");
+  const auto json = studyJson(head, result);
+  if (!given.json.empty()) writeText(given.json, json.dump(2) + "\n");
+  if (!given.output.empty()) {
+    writeText(given.output + "/study.json", json.dump(2) + "\n");
+    writeText(given.output + "/study.csv", studyCsv(result));
+    writeText(given.output + "/study.svg", studyPlot(json));
+    writeText(given.output + "/study.html", studyPage(json, result, options.look));
+  }
   return done;
 }
 
@@ -124,6 +145,12 @@ Command addStudy(CLI::App& app) {
       ->add_option("--rendering-backend", given->backend,
                    "what to draw with; auto tries egl, then osmesa [default: auto]")
       ->type_name("auto|egl|egl-software|osmesa")
+      ->take_last();
+  command
+      ->add_option("--output", given->output,
+                   "write study.html (a page to look at), study.svg (its plot), study.json and "
+                   "study.csv to this folder")
+      ->type_name("DIR")
       ->take_last();
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");

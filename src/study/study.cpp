@@ -7,6 +7,7 @@
 #include <set>
 
 #include "glint/image/error.h"
+#include "glint/study/series.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
@@ -27,6 +28,7 @@ class Study {
     prepare();
     if (!measureErrors()) return leave("errors of some variants");
     measureTimes();
+    measureSeries();
     result_.complete = result_.missing.empty();
     return std::move(result_);
   }
@@ -45,7 +47,10 @@ class Study {
   void prepare() {
     tell("pixels to compare", 0);
     result_.gl = glStrings();
-    result_.mask = maskOf(renderer_, gpu_, scene_, options_.look);
+    {
+      Renderer renderer;  // the variants' programs are to be compiled when that is timed
+      result_.mask = maskOf(renderer, gpu_, scene_, options_.look);
+    }
     if (result_.mask.pixels.empty())
       throw InputError(
           scene_.scene.name +
@@ -182,6 +187,30 @@ class Study {
         result_.fronts.push_back(std::move(front));
       }
     }
+  }
+
+  void measureSeries() {
+    pictures_.clear();
+    Renderer renderer;  // of pictures of another size
+    SeriesTools tools{scene_, gpu_, renderer, options_.look, options_.quick, 3, 30, stop_, {}};
+    tools.look.resolution = glm::max(glm::ivec2(1), options_.look.resolution / 2);
+    tools.rounds = std::min(options_.rounds, options_.quick ? 10 : 30);
+    using Make = std::optional<StudySeries> (*)(const SeriesTools&);
+    const std::pair<const char*, Make> all[] = {
+        {"exponent", exponentSeries}, {"ior", iorSeries},      {"incidence", incidenceSeries},
+        {"fineness", finenessSeries}, {"lights", lightSeries}, {"resolution", resolutionSeries}};
+    const auto begin = [&](const std::string& what) {
+      tools.progress = [this, what](double share) { tell(what, share); };
+      if (!tools.stopped()) return true;
+      result_.missing.push_back(what);
+      return false;
+    };
+    for (const auto& [name, make] : all) {
+      if (!begin(std::string("series ") + name)) continue;
+      if (auto series = make(tools)) result_.series.push_back(std::move(*series));
+      if (tools.stopped()) result_.missing.push_back(std::string("part of series ") + name);
+    }
+    if (begin("specialisation")) result_.specialisations = specialisations(tools);
   }
 
   const StudyScene& scene_;

@@ -18,8 +18,9 @@ namespace glint {
 struct StudyOptions {
   Look look;  ///< without anti-aliasing
   StudyFilter filter;
-  int warmUp = 10;  ///< rounds that are not counted
-  int rounds = 60;  ///< frames of each variant
+  int warmUp = 10;     ///< rounds that are not counted
+  int rounds = 60;     ///< frames of each variant
+  bool quick = false;  ///< series of fewer points
   bool keepPictures = false;
 };
 
@@ -80,7 +81,6 @@ struct StudySeries {
 
 /// Model and look drawn by shaders that hold what they need, and by ones that hold everything.
 struct Specialisation {
-  bool measured = false;
   std::string program;
   double compile = 0, generalCompile = 0, first = 0, generalFirst = 0;  ///< ms
   FrameTimes times, generalTimes;
@@ -100,7 +100,7 @@ struct StudyResult {
   double spread = 0;  ///< noise floor of a ratio of times
   std::vector<StudyFront> fronts;
   std::vector<StudySeries> series;
-  Specialisation specialisation;
+  std::vector<Specialisation> specialisations;
   std::vector<std::pair<Shading, Radiances>> truths;  ///< by model, if pictures are kept
 };
 

@@ -37,7 +37,9 @@ Json spreadJson(const std::vector<double>& values) {
 }
 
 Json timesJson(const FrameTimes& times) {
-  return {{"wall", spreadJson(times.wall)}, {"query", spreadJson(times.query)}};
+  Json rounds = Json::array();  // in whole microseconds
+  for (const double t : times.wall) rounds.push_back(std::round(t * 1000) / 1000);
+  return {{"wall", spreadJson(times.wall)}, {"query", spreadJson(times.query)}, {"rounds", rounds}};
 }
 
 Json errorJson(const PictureError& e) {
@@ -222,16 +224,17 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
   }
   json["series"] = Json::array();
   for (const StudySeries& s : r.series) json["series"].push_back(seriesJson(s));
-  if (const Specialisation& s = r.specialisation; s.measured)
-    json["specialisation"] = {
-        {"program", s.program},
-        {"specialised",
-         {{"compile", s.compile}, {"firstFrame", s.first}, {"times", timesJson(s.times)}}},
-        {"general",
-         {{"compile", s.generalCompile},
-          {"firstFrame", s.generalFirst},
-          {"times", timesJson(s.generalTimes)}}},
-        {"difference", number(s.difference)}};
+  json["specialisation"] = Json::array();
+  for (const Specialisation& s : r.specialisations)
+    json["specialisation"].push_back(
+        {{"program", s.program},
+         {"specialised",
+          {{"compile", s.compile}, {"firstFrame", s.first}, {"times", timesJson(s.times)}}},
+         {"general",
+          {{"compile", s.generalCompile},
+           {"firstFrame", s.generalFirst},
+           {"times", timesJson(s.generalTimes)}}},
+         {"difference", number(s.difference)}});
   return json;
 }
 

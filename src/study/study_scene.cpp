@@ -9,6 +9,9 @@ StudyScene::StudyScene(Scene given, const Look& look) : scene(std::move(given)) 
   images = decodeImages(scene, look);
 }
 
+StudyScene::StudyScene(Scene given, DecodedImages decoded)
+    : scene(std::move(given)), bounds(boundsOf(scene)), images(std::move(decoded)) {}
+
 Scene sphereScene(int level, const ShadingParameters& shading) {
   const models::Mesh from = models::icosphere(level);
   Mesh mesh;

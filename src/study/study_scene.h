@@ -16,6 +16,8 @@ struct StudyScene {
 
   /// Decodes the images that any program reads.
   StudyScene(Scene scene, const Look& look);
+  /// With its images decoded.
+  StudyScene(Scene scene, DecodedImages images);
   StudyScene(const StudyScene&) = delete;
   StudyScene& operator=(const StudyScene&) = delete;
 };

@@ -1,6 +1,7 @@
 #include "glint/study/study_variants.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "glint/image/error.h"
 #include "glint/scene/parameters.h"
@@ -14,36 +15,29 @@ const Parameter& parameterOf(const std::string& name) {
   throw Error("no parameter '" + name + "'");
 }
 
-bool accepts(const Parameter& p, const std::string& text) {
-  try {
-    Look look;
-    p.read(look, text);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 bool has(const DrawList& list, bool Variant::*feature) {
   return std::any_of(list.items.begin(), list.items.end(),
                      [&](const DrawItem& item) { return item.variant.*feature; });
 }
 
+/// Whether two looks are drawn by the same programs with the same constants.
+bool drawnAlike(const DrawList& a, const DrawList& b) {
+  return std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
+                    [](const DrawItem& x, const DrawItem& y) {
+                      return x.variant == y.variant &&
+                             std::memcmp(&x.materialBlock, &y.materialBlock,
+                                         sizeof x.materialBlock) == 0;
+                    });
+}
+
 }  // namespace
 
 std::vector<std::string> formsOf(const std::string& parameter, bool quick) {
-  const Parameter& p = parameterOf(parameter);
   std::vector<std::string> forms;
-  for (const std::string& choice : p.choices()) {
-    const std::size_t colon = choice.find(':');
-    if (colon == std::string::npos) {
-      if (accepts(p, choice)) forms.push_back(choice);
-      continue;
-    }
-    for (const int number : {1, 2, 4, 8, 16, 32, 64}) {
-      const std::string form = choice.substr(0, colon + 1) + std::to_string(number);
-      if (accepts(p, form) && (!quick || number == 4 || number == 16)) forms.push_back(form);
-    }
+  for (const std::string& form : parameterOf(parameter).choices()) {
+    const std::size_t colon = form.find(':');
+    const std::string number = colon == std::string::npos ? "" : form.substr(colon + 1);
+    if (!quick || number.empty() || number == "4" || number == "16") forms.push_back(form);
   }
   return forms;
 }
@@ -82,6 +76,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     std::vector<std::string> highlights{"exact"}, fresnels{""};
     if (!environment && has(list, &Variant::specular))
       highlights = formsOf("highlight", filter.quick);
+    std::vector<DrawList> drawn;
     if (environment) fresnels = {"exact"};
     if (environment && has(list, &Variant::dielectric)) fresnels = formsOf("fresnel", filter.quick);
     for (const std::string& highlight : highlights)
@@ -94,6 +89,11 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
         setParameter(v.look, "highlight", highlight);
         setParameter(v.look, "fresnel", environment ? fresnel : "exact");
         v.name = name + " " + (environment ? fresnel : highlight);
+        DrawList own = makeDrawList(scene, bounds, v.look);
+        if (std::any_of(drawn.begin(), drawn.end(),
+                        [&](const DrawList& other) { return drawnAlike(own, other); }))
+          continue;
+        drawn.push_back(std::move(own));
         all.push_back(v);
       }
   }

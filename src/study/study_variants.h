@@ -26,15 +26,16 @@ struct StudyFilter {
   bool quick = false;                       ///< of the forms with a number only a few numbers
 };
 
-/// All values that an option of one of several forms takes, from the table of parameters:
-/// of "lyon:G" and the like with the powers of two from 1 to 64 (quick: 4 and 16) that it accepts.
+/// All values that an option of one of several forms takes, from the table of parameters. Quick:
+/// of the forms with a number those with 4 and 16.
 std::vector<std::string> formsOf(const std::string& parameter, bool quick);
 
 /// Sets one of the look's parameters by its option's name.
 void setParameter(Look& look, const std::string& parameter, const std::string& text);
 
 /// The programs and forms that make a difference to a scene: no forms of a highlight that no
-/// material has, none of the reflectance without a dielectric. Per face and per vertex, where they
+/// material has, none of the reflectance without a dielectric, none that is drawn like an earlier
+/// one (such as a form that an exponent cannot have). Per face and per vertex, where they
 /// cost next to nothing, only the forms without a number; the program environment draws its
 /// highlight in the exact form, blinn-phong's forms being its own.
 std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds, const Look& look,

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace glint {
+
+// Small PNG files in memory, for pages that carry their pictures. picture_writer.h writes pictures
+// to files.
+
+/// 8-bit sRGB: 3 * width * height codes, rows from the top.
+std::vector<std::byte> pngOfRgb(std::span<const std::uint8_t> rgb, int width, int height);
+
+/// Indices into a palette of at most 256 sRGB colours, width * height of them.
+std::vector<std::byte> pngOfIndices(std::span<const std::uint8_t> indices, int width, int height,
+                                    std::span<const std::array<std::uint8_t, 3>> palette);
+
+}  // namespace glint

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "glint/study/study.h"
+
+namespace glint {
+
+/// What series are measured with. The renderer draws pictures of the look's size alone.
+struct SeriesTools {
+  const StudyScene& scene;
+  GpuScene& gpu;
+  Renderer& renderer;
+  Look look;  ///< the study's, at the size of series
+  bool quick = false;
+  int warmUp = 3, rounds = 30;
+  Stop stop;
+  std::function<void(double share)> progress;
+
+  bool stopped() const { return stop && stop(); }
+  void tell(double share) const {
+    if (progress) progress(share);
+  }
+};
+
+/// Points of a series in the making: the errors first, then the times of all in turn.
+class SeriesDrawer {
+ public:
+  SeriesDrawer(const SeriesTools& tools, StudySeries series);
+
+  /// Draws a point of the line `name`, and compares it with the truth where there is one.
+  void add(const std::string& name, double x, const Look& look, const StudyMask* mask,
+           const Radiances* truth);
+  /// The same of another scene.
+  void add(const std::string& name, double x, GpuScene& gpu, const StudyScene& scene,
+           const Look& look, const StudyMask* mask, const Radiances* truth);
+
+  /// Times what was added; without time left the points stay without.
+  StudySeries finish();
+
+ private:
+  struct Trial {
+    std::size_t line, point;
+    Renderer::Picture picture;
+  };
+  const SeriesTools& tools_;
+  StudySeries series_;
+  std::deque<Trial> trials_;
+};
+
+/// Error and time over one quantity. None where the scene has nothing that it changes.
+/// Of a stopped series there are the points measured by then.
+std::optional<StudySeries> exponentSeries(const SeriesTools&);    ///< forms of the highlight
+std::optional<StudySeries> iorSeries(const SeriesTools&);         ///< forms of the reflectance
+std::optional<StudySeries> lightSeries(const SeriesTools&);       ///< programs
+std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs; times alone
+/// Of built-in spheres, whatever the scene:
+std::optional<StudySeries> incidenceSeries(const SeriesTools&);  ///< Blinn-Phong against Phong
+std::optional<StudySeries> finenessSeries(const SeriesTools&);   ///< against the true sphere
+
+/// Sets the orders of a series whose x is a length, from the last two points of each line.
+void setOrders(StudySeries& series);
+
+/// The scene drawn by the variants it needs, and by ones with every feature of the program.
+std::vector<Specialisation> specialisations(const SeriesTools&);
+
+}  // namespace glint
