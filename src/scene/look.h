@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <glm/glm.hpp>
 #include <map>
 #include <optional>
@@ -9,11 +10,19 @@
 namespace glint {
 
 enum class Shading { flat, gouraud, phong, blinnPhong, environment };
-enum class Highlight { exact, pow };
-enum class Fresnel { exact, textbook, schlick };
+enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
+enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
 /// `image` is what `hdriFile` names; it cannot be chosen by name.
 enum class Environment { studio, sky, white, image };
+
+/// A form of the lobe (glint/shading/lobe.h) with its gamma.
+struct HighlightForm {
+  Highlight form = Highlight::exact;
+  int gamma = 0;  ///< of lyon, lyonTuned, lyonCross and pade: a power of two, [1, 64]; otherwise 0
+  constexpr HighlightForm(Highlight f = Highlight::exact, int g = 0) : form(f), gamma(g) {}
+  auto operator<=>(const HighlightForm&) const = default;
+};
 
 /// Lights that a picture may have; a uniform block of GL's least size holds them.
 inline constexpr std::size_t maxLights = 128;
@@ -47,6 +56,8 @@ struct AntiAliasing {
 struct MaterialEdit {
   std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
   std::optional<glm::dvec3> color;  ///< linear
+  std::optional<HighlightForm> highlight = {};
+  std::optional<Fresnel> fresnel = {};
   bool operator==(const MaterialEdit&) const = default;
 };
 
@@ -54,7 +65,7 @@ struct MaterialEdit {
 /// parameters.h says of each its name, unit, range, default and help.
 struct Look {
   Shading shading = Shading::phong;
-  Highlight highlight = Highlight::exact;
+  HighlightForm highlight;
   Fresnel fresnel = Fresnel::exact;
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;
