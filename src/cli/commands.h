@@ -22,6 +22,7 @@ Command addView(CLI::App&);
 Command addDiff(CLI::App&);
 Command addStudy(CLI::App&);
 Command addInfo(CLI::App&);
+Command addStability(CLI::App&);
 Command addBackends(CLI::App&);
 
 /// Adds the options of the look, from its table, with --look and --save-look. The returned function
