@@ -217,13 +217,14 @@ int diffFolders(const DiffRequest& request) {
   const bool toStdout = request.json == "-" || request.junit == "-" || request.html == "-";
   for (const DiffEntry& entry : entries) {
     json["pairs"].push_back(diffJson(entry, request.settings.compare));
-    if (entry.status != done && !toStdout) std::cout << diffLine(entry) << "\n";
   }
   json["summary"] = summary.json(entries.size());
-  if (!toStdout) std::cout << summary.line(entries.size()) << "\n";
   if (!request.json.empty()) writeText(request.json, jsonText(json));
   if (!request.junit.empty()) writeText(request.junit, junitXml(entries));
   if (page) page->finish(json);
+  for (const DiffEntry& entry : entries)
+    if (entry.status != done && !toStdout) std::cout << diffLine(entry) << "\n";
+  if (!toStdout) std::cout << summary.line(entries.size()) << "\n";
   return status;
 }
 
@@ -247,11 +248,6 @@ int diffPictures(const DiffRequest& request) {
                   " and accept it with --update";
   }
   if (request.updating) update(request, entry, request.a);
-  if (!entry.error.empty()) {
-    std::cerr << "glint: " << entry.error << "\n";
-  } else if (request.json != "-" && request.junit != "-" && request.html != "-") {
-    std::cout << diffLine(entry) << "\n";
-  }
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));
@@ -259,6 +255,11 @@ int diffPictures(const DiffRequest& request) {
   if (page) {
     page->add(0, entry.result.differing > 0, std::move(pictures));
     page->finish({{"a", request.a}, {"b", request.b}, {"pairs", Json::array({json})}});
+  }
+  if (!entry.error.empty()) {
+    std::cerr << "glint: " << entry.error << "\n";
+  } else if (request.json != "-" && request.junit != "-" && request.html != "-") {
+    std::cout << diffLine(entry) << "\n";
   }
   return entry.status;
 }

@@ -134,11 +134,13 @@ PixelRows ComparedRows::linearB() const {
 
 namespace {
 
-/// Luma as the authors' program makes grey of colours.
+/// Luma as the authors' program makes grey of colours (MATLAB's rgb2gray, which rounds to codes
+/// where this does not); the weights sum to 1, so that grey stays what it is.
 void lumaOf(const float* rgba, int width, double* luma) {
   for (int x = 0; x < width; ++x) {
     const float* p = rgba + 4 * x;
-    const double value = 0.2989 * p[0] + 0.5870 * p[1] + 0.1140 * p[2];
+    const double value =
+        0.298936021293775 * p[0] + 0.587043074451121 * p[1] + 0.114020904255104 * p[2];
     luma[x] = std::isfinite(value) ? value : 0;
   }
 }
