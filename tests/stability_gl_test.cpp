@@ -32,7 +32,7 @@ TEST_P(Stability, EveryCasePasses) {
 }
 
 // By section: C1 and C5 the peak, which the dot product of rounded vectors misses; D3 and D4 the
-// power at large exponents; K3 and K4 nearly equal indices.
+// power at large exponents; K3 and K4 nearly equal indices; P10 hunts what D3 and D4 sample.
 TEST(StabilityForms, TheTextbooksFailWhereTheyMust) {
   const auto context = openContext(Backend::osmesa);
   context->makeCurrent();
@@ -40,7 +40,7 @@ TEST(StabilityForms, TheTextbooksFailWhereTheyMust) {
   const auto results = run("pow", "textbook");
   for (const stability::CaseResult& r : results)
     if (!r.passed()) failed.emplace(r.item->id);
-  EXPECT_THAT(failed, testing::ElementsAre("C1", "C5", "D3", "D4", "K3", "K4"))
+  EXPECT_THAT(failed, testing::ElementsAre("C1", "C5", "D3", "D4", "K3", "K4", "P10"))
       << stability::summaryText(results);
 }
 

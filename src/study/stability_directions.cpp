@@ -134,10 +134,12 @@ void c5(Bench& bench, Record& record) {
 void c6(Bench& bench, Record& record) {
   const std::vector<Geometry> all{{{0, 0, 1}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}},
                                   {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
-  // R.V = -1: nothing by Phong. L + V is (1.2, 0, 0), at right angles to N, or 0.
+  // R.V = -1: nothing by Phong. L + V is (1.2, 0, 0), at right angles to N,
+  // or 0. At right angles some approximations jump: there they may be anything.
+  const double edge = bench.lobeIsExact() ? 1e-6 : 1;
   for (double alpha : {1.0, 5.0, 1e3})
     expectLight(bench, record, "V = -R, " + alphaText(alpha), alpha, all, {{0.8, 0, 0}, {1, 0, 0}},
-                {diffuseTolerance, 1e-6, 1e-6});
+                {diffuseTolerance, 1e-6, edge});
 }
 
 void c7(Bench& bench, Record& record) {

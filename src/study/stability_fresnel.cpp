@@ -339,6 +339,14 @@ void k15(Bench& bench, Record& record) {
   record.near("Schlick from 1.5 to 1 at 40 degrees", got, 0.2456, 1e-4);
   record.within("apart from Schlick with the cosine of incidence", got - 0.0407, 0.2, 0.21);
   record.near("the reference's", schlick(c, 1.5, 1), 0.2456, 1e-4);
+  // Other exponents at normal incidence, where the power's base is 0: R0, or 1 with exponent 0.
+  for (double exponent : {0.0, 2.5}) {
+    look.schlickExponent = exponent;
+    const double expected = exponent > 0 ? 0.04 : 1;
+    const std::string what = "Schlick with exponent " + numberText(exponent) + " at cosine 1";
+    record.near(what, bench.programs().reflectance({look, material}, {1}, true)[0], expected, 1e-6);
+    record.near(what + " in the reference", schlick(1.0, 1.5, 1, exponent), expected, 1e-12);
+  }
 }
 
 void k16(Bench& bench, Record& record) {
@@ -415,7 +423,8 @@ const Case cases[] = {
      "", k13},
     {"K14", "n = 0, negative, NaN, infinite, outside [1e-3, 1e3]", "refused", "exact",
      "NaN or 1 otherwise", "indices are refused outside [1e-3, 1e3]; formulas clamp", k14},
-    {"K15", "Schlick from 1.5 to 1 at 40 degrees", "0.2456, not 0.0407", "1e-4: published digits",
+    {"K15", "Schlick from 1.5 to 1 at 40 degrees; other exponents at cosine 1",
+     "0.2456, not 0.0407; R0", "1e-4: published digits; 1e-6",
      "with the cosine of incidence it is wrong", "", k15},
     {"K16", "a clear body in a white room", "white: R + T = 1, T >= 0", "1e-6; 1e-12 in double",
      "the sum without the half gives T = -1", "", k16},

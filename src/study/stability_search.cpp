@@ -7,8 +7,10 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "glint/image/error.h"
+#include "glint/scene/camera.h"
 #include "glint/study/stability_scenes.h"
 
 namespace glint::stability {
@@ -315,9 +317,22 @@ SearchReport searchNotFinite(Bench& bench, std::uint64_t evaluations,
     return std::all_of(image.values.begin(), image.values.end(),
                        [](float x) { return std::isfinite(x); });
   };
+  std::set<Variant> compiled;
+  const auto isNew = [&](const RandomScene& made) {
+    const DrawList list = makeDrawList(made.scene, boundsOf(made.scene), made.look);
+    std::set<Variant> own;
+    for (const DrawItem& item : list.items) own.insert(item.variant);
+    const auto known = [&](const Variant& v) { return compiled.contains(v); };
+    if (std::all_of(own.begin(), own.end(), known)) return false;
+    if (compiled.size() >= 2 * mostVariants) return true;
+    compiled.insert(own.begin(), own.end());
+    return false;
+  };
   for (std::uint64_t i = 0; i < scenes; ++i) {
     const bool pathological = i % 2 == 1;
-    const RandomScene made = randomScene(bench.look(), random, pathological);
+    RandomScene made = randomScene(bench.look(), random, pathological);
+    for (int again = 0; again < 1000 && isNew(made); ++again)
+      made = randomScene(bench.look(), random, pathological);
     ++report.scenes;
     report.pathological += pathological;
     try {
