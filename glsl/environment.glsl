@@ -32,7 +32,11 @@ vec3 shade(vec4 base) {
   float x = 1.0 - clamp(cosine, 0.0, 1.0), x2 = x * x;
   f += material.surface.x * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
 #endif
+#if OUTPUT == OUTPUT_SUM || OUTPUT == OUTPUT_REFRACTION
+  vec3 radiance = sum;
+#else
   vec3 radiance = sum + f * environmentToward(2.0 * cosine * n - v);
+#endif
 #if REFRACTION
 #if ALPHA_BLEND
   float t = 1.0 - (1.0 - material.surface.y) * base.a;
@@ -40,6 +44,7 @@ vec3 shade(vec4 base) {
   float t = material.surface.y;
 #endif
   radiance -= t * sum;
+#if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
   // Along the surface and against the normal. Total reflection leaves nothing to refract, also where
   // a share of metal reflects less than all.
   if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {
@@ -47,6 +52,7 @@ vec3 shade(vec4 base) {
     vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
     radiance += t * (1.0 - f) * base.rgb * environmentToward(along + inward);
   }
+#endif
 #endif
   return radiance;
 }

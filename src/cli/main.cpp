@@ -20,9 +20,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.formatter(std::make_shared<glint::HelpFormatter>());
   std::pair<const char*, glint::Command> commands[] = {
-      {"render", glint::addRender(app)}, {"view", glint::addView(app)},
-      {"diff", glint::addDiff(app)},     {"study", glint::addStudy(app)},
-      {"info", glint::addInfo(app)},     {"backends", glint::addBackends(app)}};
+      {"render", glint::addRender(app)},    {"view", glint::addView(app)},
+      {"diff", glint::addDiff(app)},        {"study", glint::addStudy(app)},
+      {"convert", glint::addConvert(app)},  {"info", glint::addInfo(app)},
+      {"backends", glint::addBackends(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
