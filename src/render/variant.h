@@ -17,7 +17,13 @@ enum class PixelOutput {
   position,  ///< xyz: eye space, w: 1
   normal,  ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
   color,   ///< C of the pixel and alpha: factor, vertex colour and texture
-  emission,  ///< rgb, w: 1
+  emission,       ///< rgb, w: 1
+  depth,          ///< x: the depth buffer's, y: 1 / w of clip space
+  shadingNormal,  ///< xyz: eye space, unit, turned as shading turns it; w: 1
+  // Parts of what the program environment shows; alpha as in the picture:
+  sum,         ///< (1 - t) times the sum over the lights, and emission
+  reflection,  ///< F E(reflect), where there are neither lights nor ambient light
+  refraction,  ///< t (1 - F) C E(refract), likewise
 };
 
 /// What a shader holds: the program and only the features that the scene needs of it. Equal
