@@ -328,3 +328,44 @@ TEST(Camera, PowersOfTwoChangeNothingButTheUnit) {
               glint::projection(camera, {0, 0}, {1, 1}, true));
   }
 }
+
+// Eye and axes turn rigidly about the axis +Y through the centre, whatever the camera was made of.
+TEST(TurnedLook, GoesRoundTheCentre) {
+  const Bounds bounds{{0.3, -0.2, 0.5}, 1.7};
+  Scene scene;
+  scene.cameras.resize(2);
+  scene.cameras[0].world = glint::test::translation({3, 1, 2}) * glint::test::rotation(0.4);
+  scene.cameras[1] = scene.cameras[0];
+  scene.cameras[1].orthographic = true;
+  scene.cameras[1].halfHeight = 0.8;
+  std::vector<Look> looks(8);
+  looks[1].cameraPosition = {1, 2, 6};
+  looks[2].cameraPosition = {1, 2, 6};
+  looks[2].cameraDirection = {0.1, -0.3, -1};
+  looks[3].cameraFocalPoint = {1, 0.5, 0};
+  looks[3].cameraOrthographic = true;
+  looks[4].cameraViewUp = {1, 1, 0};
+  looks[4].cameraAzimuthAngle = 20;
+  looks[4].cameraElevationAngle = -15;
+  looks[5].cameraIndex = 0;
+  looks[6].cameraIndex = 1;
+  looks[7].cameraIndex = 1;
+  looks[7].cameraViewAngle = 50;
+  for (const Look& look : looks)
+    for (const double angle : {0.0, 30.0, 90.0, 200.0}) {
+      const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
+      const auto turn = [&](const glm::dvec3& v) {
+        return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+      };
+      const Camera before = cameraFor(scene, bounds, look);
+      const Camera after = cameraFor(scene, bounds, glint::turnedLook(look, scene, bounds, angle));
+      SCOPED_TRACE(testing::Message() << "look " << &look - looks.data() << ", " << angle);
+      // Distances here are below 16.
+      expectNear(after.eye - bounds.center, turn(before.eye - bounds.center), 16 * tight);
+      for (int i = 0; i < 3; ++i) expectNear(after.axes[i], turn(before.axes[i]), 16 * tight);
+      EXPECT_EQ(after.orthographic, before.orthographic);
+      EXPECT_NEAR(after.halfHeight, before.halfHeight, tight);
+      EXPECT_NEAR(after.near, before.near, 16 * tight);
+      EXPECT_NEAR(after.far, before.far, 16 * tight);
+    }
+}

@@ -5,15 +5,24 @@
 #include "../src/cli/output_names.h"
 #include "glint/image/error.h"
 
-using glint::outputNames;
+using glint::OutputPattern;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 namespace {
 
-std::string failure(const std::string& pattern, const std::vector<std::string>& models) {
+std::vector<std::string> outputNames(const std::string& pattern,
+                                     const std::vector<std::string>& models) {
+  const OutputPattern names(pattern, false);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < models.size(); ++i)
+    all.push_back(names.name(models[i], i, models.size()));
+  return all;
+}
+
+std::string failure(const std::string& pattern, bool frames = false) {
   try {
-    outputNames(pattern, models);
+    OutputPattern names(pattern, frames);
   } catch (const glint::InputError& error) {
     return error.what();
   }
@@ -41,16 +50,31 @@ TEST(OutputNames, NumbersBeginAtZeroAndHaveOneWidth) {
   EXPECT_EQ(outputNames("{n}.png", {"a.glb"}).front(), "0.png");
 }
 
-TEST(OutputNames, TwoPicturesOfOneNameAreRefused) {
-  EXPECT_THAT(failure("a.png", {"x/a.glb", "y/b.glb"}),
-              testing::AllOf(HasSubstr("x/a.glb"), HasSubstr("y/b.glb"), HasSubstr("a.png"),
-                             HasSubstr("{model} or {n}")));
-  EXPECT_THAT(failure("{model}.png", {"x/a.glb", "y/a.gltf"}), HasSubstr("x/a.glb"));
-  EXPECT_EQ(failure("{model}-{n}.png", {"x/a.glb", "y/a.gltf"}), "no error");
+TEST(OutputNames, FramesAndListsOfUnknownLength) {
+  const OutputPattern names("{model}/{frame}.png", true);
+  EXPECT_EQ(names.name("a.glb", 0, 1, 7, 36), "a/07.png");
+  EXPECT_EQ(OutputPattern("{n}.png", false).name("a.glb", 7, 0), "000007.png");
+  EXPECT_EQ(OutputPattern("{n}.png", false).name("a.glb", 12345678, 0), "12345678.png");
+  EXPECT_THAT(failure("{frame}.png"), HasSubstr("--turntable"));
+  EXPECT_EQ(failure("{frame}.png", true), "no error");
+}
+
+TEST(OutputNames, TwoPicturesOfOneNameAreNoticed) {
+  glint::NamesTaken taken;
+  EXPECT_EQ(taken.take("out/a.png", 3), nullptr);
+  EXPECT_EQ(taken.take("out/b.png", 4), nullptr);
+  const std::size_t* other = taken.take("./out//a.png", 5);
+  ASSERT_NE(other, nullptr);
+  EXPECT_EQ(*other, 3u);
+}
+
+TEST(OutputNames, TakeAWordBeforeTheEnding) {
+  EXPECT_EQ(glint::withWord("a.b/c.png", "depth"), "a.b/c.depth.png");
+  EXPECT_EQ(glint::withWord("a.b/c", "depth"), "a.b/c.depth");
 }
 
 TEST(OutputNames, UnknownOrOpenBracesAreRefused) {
-  EXPECT_THAT(failure("{name}.png", {"a.glb"}), HasSubstr("unknown {name}"));
-  EXPECT_THAT(failure("{}.png", {"a.glb"}), HasSubstr("unknown {}"));
-  EXPECT_THAT(failure("a{model.png", {"a.glb"}), HasSubstr("'{' without '}'"));
+  EXPECT_THAT(failure("{name}.png"), HasSubstr("unknown {name}"));
+  EXPECT_THAT(failure("{}.png"), HasSubstr("unknown {}"));
+  EXPECT_THAT(failure("a{model.png"), HasSubstr("'{' without '}'"));
 }

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 #include "glint/image/srgb.h"
+#include "glint/image/stored_image.h"
 #include "glint/scene/parameters.h"
 #include "scenes.h"
 
@@ -184,6 +185,102 @@ TEST(Render, ASavedLookGivesTheSameBytes) {
       {"info", sphere, "--look", folder / "look.json", "--save-look", folder / "info.json"});
   EXPECT_EQ(info.status, 0);
   EXPECT_EQ(contents(folder / "look.json"), contents(folder / "info.json"));
+}
+
+// A picture says how it was made, and that makes it again.
+TEST(Render, ThePictureHoldsItsLook) {
+  Folder folder("picture_look");
+  for (const char* ending : {".png", ".exr"}) {
+    const std::string first = folder / (std::string("a") + ending),
+                      again = folder / (std::string("b") + ending);
+    const Ran ran =
+        runGlint({"render", torus, "-o", first, "--resolution", "33,21", "--shading", "environment",
+                  "--material", "ior=1.7,color=0.2,0.4,0.8", "--light", "point:2,3,4:1,0.9,0.8",
+                  "--camera-azimuth-angle", "12.3456789", "--exposure", "0.1", "--no-background",
+                  "--rendering-backend", "osmesa"});
+    expectDone(ran);
+    expectDone(
+        runGlint({"render", torus, "-o", again, "--look", first, "--rendering-backend", "osmesa"}));
+    EXPECT_EQ(contents(first), contents(again));
+    const auto text = glint::readPictureText(first);
+    EXPECT_THAT(text.at("GL_RENDERER"), HasSubstr("llvmpipe"));
+    EXPECT_THAT(text.at("Software"), StartsWith("glint "));
+    // As with a look file, options go before it.
+    expectDone(runGlint({"render", torus, "-o", again, "--look", first, "--exposure", "1",
+                         "--rendering-backend", "osmesa"}));
+    EXPECT_NE(contents(first), contents(again));
+  }
+  const std::string foreign = GLINT_SOURCE_DIR "/docs/programs.png";
+  const Ran ran = runGlint({"render", torus, "-o", folder / "c.png", "--look", foreign});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("does not say how it was made"));
+}
+
+TEST(Render, ExrHoldsTheLinearValues) {
+  Folder folder("exr");
+  picture(folder, {"--exposure", "2"});
+  picture(folder, {"--exposure", "2"}, "a.exr");
+  const glint::Image pfm = glint::readImage(folder / "a.pfm"),
+                     exr = glint::readImage(folder / "a.exr");
+  EXPECT_EQ(pfm.values, exr.values);
+  // With alpha: the sphere opaque, nothing around it.
+  picture(folder, {"--no-background"}, "a.exr");
+  const glint::Image alpha = glint::readImage(folder / "a.exr");
+  EXPECT_EQ(alpha.values[3], 0);
+  EXPECT_EQ(alpha.row(15)[4 * 20 + 3], 1);
+}
+
+// Straight alpha: where a surface covers a part of a pixel, its colour is the surface's own and
+// alpha says how much. A square of one colour has that colour wherever there is anything of it.
+TEST(Render, TransparentBackgroundHasStraightColoursAtTheEdges) {
+  Folder folder("straight");
+  const std::string model = glint::test::writeGltf(
+      "square", glint::test::quad(),
+      [](nlohmann::json& json) {
+        json["extensionsUsed"] = {"KHR_materials_unlit"};
+        json["materials"][0] = {
+            {"name", "paint"},
+            {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}},
+            {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}}}};
+      },
+      folder.path());
+  for (const char* antiAliasing : {"msaa:4", "ssaa:4"})
+    for (const char* depth : {"8", "16"}) {
+      const Ran ran =
+          runGlint({"render", model, "-o", folder / "a.png", "--no-background", "--resolution",
+                    "40,40", "--anti-aliasing", antiAliasing, "--bit-depth", depth,
+                    "--camera-zoom-factor", "0.7", "--rendering-backend", "osmesa"});
+      expectDone(ran);
+      const glint::StoredImage stored = glint::readStoredImage(folder / "a.png");
+      std::vector<float> rgba(4 * 1600);
+      stored.encodedRows(0, 40, rgba.data());
+      std::map<float, int> alphas;
+      const float codes = depth == std::string("8") ? 255.0f : 65535.0f;
+      for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        ++alphas[rgba[i + 3]];
+        if (rgba[i + 3] == 0) continue;
+        // One code of rounding: the mean of equal samples divided by their share.
+        const float colors[] = {0.5f, 0.25f, 0.125f};
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_NEAR(rgba[i + c], glint::encodedValue(colors[c]), 1 / codes) << antiAliasing;
+      }
+      EXPECT_GE(alphas.size(), 4u);
+      EXPECT_GT(alphas[0], 400);
+      EXPECT_GT(alphas[1], 200);
+    }
+}
+
+TEST(Render, TurntableGoesRoundToTheRight) {
+  Folder folder("turntable");
+  expectDone(runGlint(quick(
+      {"render", torus, "-o", folder / "{frame}.pfm", "--turntable", "12", "--shading", "flat"})));
+  EXPECT_EQ(folder.names().size(), 12u);
+  EXPECT_EQ(folder.names().front(), "00.pfm");
+  for (const auto& [azimuth, frame] : {std::pair("0", "00"), {"30", "01"}, {"330", "11"}}) {
+    expectDone(runGlint(quick({"render", torus, "-o", folder / "one.pfm", "--shading", "flat",
+                               "--camera-azimuth-angle", azimuth})));
+    EXPECT_EQ(contents(folder / "one.pfm"), contents(folder / (std::string(frame) + ".pfm")));
+  }
 }
 
 TEST(Render, CommandLineBeatsLookBeatsModelBeatsDefault) {

@@ -25,11 +25,6 @@ FileState stateOfFolder(const fs::path& folder) {
   return all;
 }
 
-std::string readText(const fs::path& path) {
-  const auto bytes = readFile(path.string());
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
 void App::load(const fs::path& path) {
@@ -114,7 +109,7 @@ void App::watch() {
       lookState_ = now;
       attempt([&] {
         Look look;
-        readLook(look, readText(session_.lookPath), session_.lookPath.string());
+        readLookFile(look, session_.lookPath.string());
         session_.document.a = look;
         session_.saved = look;
         session_.say("read " + session_.lookPath.string() + " again");
@@ -145,7 +140,7 @@ void App::open(const std::string& path) {
   if (file.extension() == ".json" || file.extension() == ".look") {
     attempt([&] {
       Look look;
-      readLook(look, readText(file), path);
+      readLookFile(look, path);
       if (session_.model) checkMaterialNames(session_.model->scene, look);
       session_.document.a = look;
       session_.saved = look;
@@ -162,8 +157,9 @@ void App::open(const std::string& path) {
 
 void App::saveLookTo(const std::string& path, bool sure, std::function<void()> then) {
   if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?", path + " exists. Replace it?",
-                 {{"Replace", [this, path, then] { saveLookTo(path, true, then); }}, {"Cancel", {}}});
+    dialogs_.ask(
+        "Replace?", path + " exists. Replace it?",
+        {{"Replace", [this, path, then] { saveLookTo(path, true, then); }}, {"Cancel", {}}});
     return;
   }
   attempt([&] {
@@ -188,9 +184,9 @@ void App::saveModelTo(const std::string& path, bool sure) {
 
 void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure) {
   if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?", path + " exists. Replace it?",
-                 {{"Replace", [=, this] { savePictureTo(path, size, transparent, true); }},
-                  {"Cancel", {}}});
+    dialogs_.ask(
+        "Replace?", path + " exists. Replace it?",
+        {{"Replace", [=, this] { savePictureTo(path, size, transparent, true); }}, {"Cancel", {}}});
     return;
   }
   Look look = session_.document.a;
@@ -219,10 +215,9 @@ void App::quit() {
          if (!session_.lookPath.empty())
            return saveLookTo(session_.lookPath.string(), true, quitNow);
          const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
-         dialogs_.askPath("Save the look as", nextFreeName(".", stem, ".json").filename(), false,
-                          [this, quitNow](const std::string& path) {
-                            saveLookTo(path, false, quitNow);
-                          });
+         dialogs_.askPath(
+             "Save the look as", nextFreeName(".", stem, ".json").filename(), false,
+             [this, quitNow](const std::string& path) { saveLookTo(path, false, quitNow); });
        }});
   if (session_.model) {
     Look rest = session_.document.a;

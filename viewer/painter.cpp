@@ -157,7 +157,7 @@ void Painter::save(const Look& look, const std::string& path, Done done) {
     try {
       Objects& o = *objects_;
       if (!o.scene) throw InputError("there is no picture to save: open a model");
-      writePicture(*o.renderer, *o.scene, o.model->bounds, look, path);
+      writePicture(*o.renderer, *o.scene, o.model->bounds, look, o.model->path.string(), path);
     } catch (const std::exception& error) {
       text = error.what();
     }

@@ -6,6 +6,8 @@
 #include "glint/gl/check.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
+#include "glint/render/picture_text.h"
+#include "glint/scene/model_hash.h"
 
 namespace glint {
 
@@ -50,8 +52,9 @@ std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, con
 }
 
 void writePicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const Look& look,
-                  const std::string& path) {
+                  const std::string& model, const std::string& path) {
   PictureOptions options;
+  options.text = pictureText(look, look, {modelHash(model), glStrings(), 8, {}});
   options.alpha = look.noBackground;
   options.exposureScale = float(std::exp2(look.exposure));
   auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);

@@ -23,13 +23,15 @@ struct DrawnPicture {
   std::size_t notNumbers = 0;
 };
 
-/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode. Nothing
-/// if `stop` becomes true meanwhile.
+/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode.
+/// Nothing if `stop` becomes true meanwhile.
 std::optional<DrawnPicture> drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&,
                                         const std::atomic<bool>& stop);
 
-/// Draws a look and writes it band by band, as `glint render` does. Throws InputError.
-void writePicture(Renderer&, GpuScene&, const Bounds&, const Look&, const std::string& path);
+/// Draws a look and writes it band by band, as `glint render` does; `model` is the model's file,
+/// of which the picture tells. Throws InputError.
+void writePicture(Renderer&, GpuScene&, const Bounds&, const Look&, const std::string& model,
+                  const std::string& path);
 
 /// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.
 class Screen {

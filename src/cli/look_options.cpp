@@ -66,7 +66,10 @@ std::function<Look()> addLookOptions(CLI::App& app) {
     option->group(p.section);
     state->options.emplace_back(&p, option);
   }
-  app.add_option("--look", state->lookFile, "begin with the look in this file (JSON)")
+  app.add_option(
+         "--look", state->lookFile,
+         "begin with the look in this file (JSON), or with that of a picture that glint has drawn "
+         "(PNG or EXR)")
       ->type_name("FILE")
       ->group("Looks");
   app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")
@@ -75,11 +78,7 @@ std::function<Look()> addLookOptions(CLI::App& app) {
 
   return [state] {
     Look look;
-    if (!state->lookFile.empty()) {
-      const auto bytes = readFile(state->lookFile);
-      readLook(look, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-               state->lookFile);
-    }
+    if (!state->lookFile.empty()) readLookFile(look, state->lookFile);
     Look materials;
     for (const auto& [p, option] : state->options) {
       if (option->count() == 0) continue;

@@ -31,6 +31,9 @@ StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name)
 StoredImage decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer);
+/// The string attributes of an EXR's first part; reads no pixels.
+std::map<std::string, std::string> exrText(std::span<const std::byte> bytes,
+                                           const std::string& name);
 
 /// A PNG whose header has been read and whose size is allowed. `bytes` must outlive it.
 class PngReader {
@@ -47,7 +50,8 @@ class PngReader {
   void decode(std::vector<std::uint16_t>& rgba);
   /// RGB of 8 bits, for a file without alpha: 3 * width * height values.
   void decodeOpaque(std::vector<std::uint8_t>& rgb);
-  /// The text chunks, in UTF-8, once the picture has been decoded.
+  /// The text chunks, in UTF-8: all of them once the picture has been decoded, before that those
+  /// that stand before the pixels, as the PNG writer puts them.
   std::map<std::string, std::string> text();
 
  private:

@@ -131,10 +131,22 @@ std::uint64_t largestExpansion(Imf::Compression compression) {
   }
 }
 
+std::map<std::string, std::string> textOf(const Imf::Header& header) {
+  std::map<std::string, std::string> all;
+  for (auto i = header.begin(); i != header.end(); ++i) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
+    if (text && std::strcmp(i.name(), "name") != 0 && std::strcmp(i.name(), "type") != 0)
+      all[i.name()] = text->value();
+  }
+  return all;
+}
+
 class ExrReader {
  public:
   ExrReader(std::span<const std::byte> bytes, const std::string& name)
       : bytes_(bytes), name_(name), stream_(bytes), file_(stream_, 0) {}
+
+  std::map<std::string, std::string> text() const { return textOf(file_.header(0)); }
 
   StoredImage read(const std::string& wanted) {
     const Layer layer = find(wanted);
@@ -143,11 +155,7 @@ class ExrReader {
       throw InputError(printablePath(name_) + ": deep pixels: flatten the picture first");
     }
     setSizes(header);
-    for (auto i = header.begin(); i != header.end(); ++i) {
-      const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
-      if (text && std::strcmp(i.name(), "name") != 0 && std::strcmp(i.name(), "type") != 0)
-        image_.text[i.name()] = text->value();
-    }
+    image_.text = textOf(header);
     image_.channels = layer.channels[3].empty() && data_ == display_ ? 3 : 4;
     values_.resize(std::size_t(image_.channels) * image_.width * image_.height);
     if (layer.chroma) {
@@ -306,15 +314,18 @@ bool isExr(std::span<const std::byte> bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), magic, 4) == 0;
 }
 
-StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
-                      const std::string& layer) {
+namespace {
+
+/// Runs `read`, whose errors of the library become ours.
+template <class Read>
+auto guarded(const std::string& name, Read read) {
   static std::once_flag once;
   std::call_once(once, [] {
     Imf::Header::setMaxImageSize(maxSide, maxSide);
     Imf::Header::setMaxTileSize(maxSide, maxSide);
   });
   try {
-    return ExrReader(bytes, name).read(layer);
+    return read();
   } catch (const Error& error) {
     if (dynamic_cast<const InputError*>(&error)) throw;
     throw damaged(name, std::string("the EXR is damaged (") + error.what() + ")");
@@ -323,6 +334,18 @@ StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
   } catch (const std::exception& error) {
     throw damaged(name, "the EXR is damaged (" + firstLine(error.what()) + ")");
   }
+}
+
+}  // namespace
+
+StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
+                      const std::string& layer) {
+  return guarded(name, [&] { return ExrReader(bytes, name).read(layer); });
+}
+
+std::map<std::string, std::string> exrText(std::span<const std::byte> bytes,
+                                           const std::string& name) {
+  return guarded(name, [&] { return ExrReader(bytes, name).text(); });
 }
 
 }  // namespace glint::detail

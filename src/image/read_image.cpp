@@ -86,4 +86,19 @@ Image readImage(const std::string& path, const std::string& layer) {
   return decodeImage(readFile(path), path, layer);
 }
 
+bool mayHoldText(std::span<const std::byte> bytes) {
+  return detail::isPng(bytes) || detail::isExr(bytes);
+}
+
+std::map<std::string, std::string> pictureTextIn(std::span<const std::byte> bytes,
+                                                 const std::string& name) {
+  if (detail::isPng(bytes)) return detail::PngReader(bytes, name).text();
+  if (detail::isExr(bytes)) return detail::exrText(bytes, name);
+  return {};
+}
+
+std::map<std::string, std::string> readPictureText(const std::string& path) {
+  return pictureTextIn(readFile(path), path);
+}
+
 }  // namespace glint

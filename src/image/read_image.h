@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 
@@ -31,5 +32,15 @@ Image readImage(const std::string& path, const std::string& layer = "");
 /// The same from memory; `name` stands in the messages.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name,
                   const std::string& layer = "");
+
+/// What a PNG or an EXR says of itself (text chunks before its pixels, string attributes), without
+/// decoding the picture; empty for other formats.
+/// Throws InputError "PATH: what: what to do" if the file cannot be read or is damaged.
+std::map<std::string, std::string> readPictureText(const std::string& path);
+
+/// Whether the bytes begin as one of the formats that readPictureText() reads texts of.
+bool mayHoldText(std::span<const std::byte> bytes);
+std::map<std::string, std::string> pictureTextIn(std::span<const std::byte> bytes,
+                                                 const std::string& name);
 
 }  // namespace glint

@@ -173,6 +173,35 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   return camera;
 }
 
+Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, double degrees) {
+  Look look = base;
+  const bool aboutCenter = !look.cameraViewUp && !look.cameraFocalPoint && !look.cameraIndex &&
+                           !(look.cameraPosition && look.cameraDirection);
+  if (aboutCenter) {  // then the azimuth is the same, and fits other models too
+    look.cameraAzimuthAngle += degrees;
+    return look;
+  }
+  // Made definite, then turned: position, focal point and way up.
+  const Camera camera = cameraFor(scene, bounds, base);
+  const double angle = degrees * radians, c = std::cos(angle), s = std::sin(angle);
+  const auto turn = [&](const glm::dvec3& v) {
+    return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+  };
+  const double ahead = glm::dot(camera.eye - bounds.center, camera.axes[2]);
+  const double distance = ahead > 0 ? ahead : bounds.radius > 0 ? bounds.radius : 1;
+  const glm::dvec3 eye = bounds.center + turn(camera.eye - bounds.center);
+  look.cameraPosition = eye;
+  look.cameraFocalPoint = eye - turn(camera.axes[2]) * distance;
+  look.cameraViewUp = turn(camera.axes[1]);
+  look.cameraDirection.reset();
+  look.cameraIndex.reset();
+  look.cameraAzimuthAngle = look.cameraElevationAngle = 0;
+  look.cameraOrthographic = camera.orthographic;
+  const double half = camera.orthographic ? camera.halfHeight / distance : camera.halfHeight;
+  look.cameraViewAngle = 2 * std::atan(half) / radians;
+  return look;
+}
+
 glm::dmat3 eyeRotation(const Camera& camera) {
   return glm::transpose(camera.axes) * (1 / camera.unit);
 }

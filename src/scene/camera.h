@@ -37,6 +37,10 @@ struct Camera {
 /// along the way up, another axis takes the place of the undefined one.
 Camera cameraFor(const Scene&, const Bounds&, const Look&);
 
+/// The look with its camera turned by `degrees` about +Y through the centre of the bounds, to the
+/// right; what it sees of the model is the same as if the model had turned to the left.
+Look turnedLook(const Look&, const Scene&, const Bounds&, double degrees);
+
 /// From world space to eye space (units of camera.unit, looking along -Z), without translation.
 glm::dmat3 eyeRotation(const Camera&);
 

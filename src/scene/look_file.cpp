@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/read_image.h"
 #include "glint/scene/parameters.h"
 #include "look_text.h"
 
@@ -67,6 +69,21 @@ void readLook(Look& look, const std::string& text, const std::string& source) {
       throw InputError(source + ": \"" + key + "\": " + error.what());
     }
   }
+}
+
+void readLookFile(Look& look, const std::string& path) {
+  const auto bytes = readFile(path);
+  if (!mayHoldText(bytes)) {
+    readLook(look, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path);
+    return;
+  }
+  const auto texts = pictureTextIn(bytes, path);
+  const auto found = texts.find("glint-look");
+  if (found == texts.end())
+    throw InputError(path +
+                     ": a picture that does not say how it was made: give a look file, or a "
+                     "PNG or EXR that glint has written");
+  readLook(look, found->second, path);
 }
 
 std::string saveLook(const Look& look) {

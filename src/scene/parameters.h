@@ -85,6 +85,10 @@ glm::dvec3 parseColor(const std::string& text, const std::string& what);
 /// name `source`.
 void readLook(Look& look, const std::string& json, const std::string& source);
 
+/// The same from a look file, or from a picture (PNG or EXR) that glint has written.
+/// Throws InputError if the file cannot be read or holds no look.
+void readLookFile(Look& look, const std::string& path);
+
 /// The text of a look file that gives the same look again.
 std::string saveLook(const Look&);
 

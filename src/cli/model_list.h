@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+/// A model to draw.
+struct ModelEntry {
+  std::string model;
+  std::string output;      ///< a picture of its own name; empty: by the template
+  std::size_t number = 0;  ///< its place among all, from 0
+};
+
+/// A share of the work: every `of`-th, beginning with number part - 1.
+struct Shard {
+  std::size_t part = 1, of = 1;
+  bool has(std::size_t number) const { return number % of == part - 1; }
+};
+
+/// "K/N", 1 <= K <= N. Throws InputError.
+Shard parseShard(const std::string& text);
+
+/// The models of a run, one after the other: those of the command line, or the lines of a list.
+///
+/// A line is the path of a model, or a path, a TAB and the name of its picture; empty lines are
+/// skipped. A list in a file is looked through once beforehand; one from a pipe is read line by
+/// line as they come.
+class ModelList {
+ public:
+  explicit ModelList(std::vector<std::string> models);
+  /// Opens a list; "-" is standard input. Throws InputError.
+  explicit ModelList(const std::string& path);
+  ~ModelList();
+  ModelList(const ModelList&) = delete;
+  ModelList& operator=(const ModelList&) = delete;
+
+  /// Looks through all of them, if they are known beforehand: from then on count() is known too.
+  void lookThrough(const std::function<void(const ModelEntry&)>& visit);
+  std::optional<std::size_t> count() const { return count_; }
+
+  /// The next one. Waits for its line; empty at the end, and when a signal has come.
+  /// Throws InputError if the list cannot be read.
+  std::optional<ModelEntry> next();
+
+ private:
+  bool readLine(std::string& line);
+  bool fill();
+
+  std::vector<std::string> models_;
+  std::string path_;
+  int file_ = -1;
+  bool seekable_ = false;
+  long long begin_ = 0;
+  std::vector<char> buffer_;
+  std::size_t at_ = 0;
+  bool ended_ = false;
+  std::size_t number_ = 0;
+  std::optional<std::size_t> count_;
+};
+
+}  // namespace glint

@@ -1,0 +1,148 @@
+#include "model_loader.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/read_image.h"
+#include "glint/render/picture_text.h"
+#include "glint/scene/gltf.h"
+#include "glint/scene/model_hash.h"
+#include "glint/scene/parameters.h"
+#include "interrupt.h"
+
+namespace glint {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Pictures appear whole or not at all: one that has the key is done.
+bool isPresent(const std::string& path, const std::string& key) {
+  try {
+    const auto text = readPictureText(path);
+    const auto found = text.find("glint-key");
+    return found != text.end() && found->second == key;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::size_t jobsOf(const RenderOptions& options) {
+  if (options.jobs > 0) return std::size_t(options.jobs);
+  return std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
+}
+
+}  // namespace
+
+ModelLoader::ModelLoader(ModelList& list, PicturePlan& plan, const RenderOptions& options,
+                         const Look& look)
+    : list_(list),
+      plan_(plan),
+      options_(options),
+      look_(look),
+      limit_(jobsOf(options)),
+      reader_([this] { readList(); }) {}
+
+ModelLoader::~ModelLoader() {
+  {
+    const std::lock_guard lock(mutex_);
+    abandoned_ = true;
+    changed_.notify_all();
+  }
+  reader_.join();
+}
+
+void ModelLoader::readList() {
+  try {
+    while (const auto entry = list_.next()) {
+      std::vector<PlannedPicture> pictures;
+      std::string error;
+      try {
+        pictures = plan_.picturesOf(*entry);
+        if (pictures.empty()) continue;
+      } catch (const InputError& refusal) {
+        pictures.resize(1);
+        error = refusal.what();
+      }
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
+      if (abandoned_) break;
+      models_.push_back(std::async(std::launch::async, &ModelLoader::load, this, *entry,
+                                   std::move(pictures), std::move(error)));
+      changed_.notify_all();
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
+                              std::string error) const {
+  LoadedModel model;
+  model.entry = entry;
+  model.pictures = std::move(pictures);
+  model.present.assign(model.pictures.size(), false);
+  model.error = std::move(error);
+  if (!model.error.empty()) return model;
+  try {
+    const auto start = Clock::now();
+    model.hash = modelHash(entry.model);
+    if (options_.resume) {
+      PictureOrigin origin{model.hash, {}, options_.bitDepth, {}};
+      if (!options_.usesReference()) origin.gl.emplace();
+      for (std::size_t i = 0; i < model.pictures.size(); ++i) {
+        origin.variation = model.pictures[i].variation;
+        model.present[i] = isPresent(model.pictures[i].output, pictureKey(look_, origin));
+      }
+      if (std::find(model.present.begin(), model.present.end(), false) == model.present.end())
+        return model;
+    }
+    model.scene = loadGltf(entry.model);
+    model.bounds = boundsOf(model.scene);
+    model.loadTime = since(start);
+    checkMaterialNames(model.scene, look_);
+    const auto decode = Clock::now();
+    model.images = decodeImages(model.scene, look_);
+    model.decodeTime = since(decode);
+  } catch (const Error& failure) {
+    model.error = failure.what();
+  } catch (const std::bad_alloc&) {
+    model.error =
+        printablePath(entry.model) + ": out of memory: the model is too large for this machine";
+  }
+  return model;
+}
+
+void ModelLoader::waitForFirst() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
+  if (models_.empty()) return;
+  const auto& first = models_.front();  // stays: only next() takes it away
+  lock.unlock();
+  first.wait();
+}
+
+std::optional<LoadedModel> ModelLoader::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
+  if (Interrupt::signal() != 0) return {};
+  if (models_.empty()) {
+    if (failure_) std::rethrow_exception(failure_);
+    return {};
+  }
+  std::future<LoadedModel> model = std::move(models_.front());
+  models_.pop_front();
+  changed_.notify_all();
+  lock.unlock();
+  return model.get();
+}
+
+}  // namespace glint

@@ -1,0 +1,85 @@
+#include "picture_plan.h"
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/picture_writer.h"
+
+namespace glint {
+PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
+    : options_(options),
+      pattern_(options.output, options.frameCount() > 1 || options.turntable > 0),
+      shardsFrames_(!options.hasList() && options.models.size() == 1) {
+  if (!options.reference.empty())
+    referencePattern_.emplace(options.reference, options.turntable > 0);
+  if (!options.shard.empty()) shard_ = parseShard(options.shard);
+  PictureOptions file;
+  file.bitDepth = options.bitDepth;
+  checkPictureName(options.output, file);
+  list.lookThrough([](const ModelEntry&) {});
+  models_ = list.count();
+  if (!models_) return;
+  std::size_t count = 0;
+  list.lookThrough([&](const ModelEntry& entry) {
+    const auto pictures = named(entry);
+    if (!entry.output.empty()) checkPictureName(entry.output, file);
+    take(entry, pictures);
+    count += pictures.size();
+  });
+  count_ = count;
+  namesChecked_ = true;
+}
+
+std::vector<PlannedPicture> PicturePlan::picturesOf(const ModelEntry& entry) {
+  auto pictures = named(entry);
+  if (!namesChecked_) {
+    PictureOptions file;
+    file.bitDepth = options_.bitDepth;
+    if (!entry.output.empty()) checkPictureName(entry.output, file);
+    take(entry, pictures);
+  }
+  return pictures;
+}
+
+std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
+  std::vector<PlannedPicture> pictures;
+  if (!shardsFrames_ && !shard_.has(entry.number)) return pictures;
+  const std::size_t frames = options_.frameCount(), models = models_.value_or(0);
+  const OutputPattern own =
+      entry.output.empty() ? pattern_ : OutputPattern(entry.output, options_.turntable > 0);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    if (shardsFrames_ && !shard_.has(frame)) continue;
+    PlannedPicture picture;
+    picture.frame = frame;
+    picture.output = own.name(entry.model, entry.number, models, frame, frames);
+    if (referencePattern_)
+      picture.reference = referencePattern_->name(entry.model, entry.number, models, frame, frames);
+    if (options_.turntable > 0)
+      picture.variation = "turntable " + std::to_string(frame) + "/" + std::to_string(frames);
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures) {
+  for (const PlannedPicture& picture : pictures) {
+    const std::size_t* const other = names_.take(picture.output, entry.number);
+    if (!other) continue;
+    const std::string name = printablePath(picture.output);
+    if (*other == entry.number)
+      throw InputError("-o " + options_.output + ": two pictures of " + printablePath(entry.model) +
+                       " would both become " + name + ": put {frame} into the name");
+    const std::string which = options_.hasList()
+                                  ? "model " + std::to_string(*other) + " of the list"
+                                  : printablePath(options_.models[*other]);
+    throw InputError("-o " + options_.output + ": " + which + " and " + printablePath(entry.model) +
+                     " would both become " + name + ": put {model} or {n} into the name");
+  }
+}
+
+Look lookOf(const PlannedPicture& picture, const RenderOptions& options, const Look& base,
+            const Scene& scene, const Bounds& bounds) {
+  if (options.turntable == 0 || picture.frame == 0) return base;
+  return turnedLook(base, scene, bounds, 360.0 * double(picture.frame) / options.turntable);
+}
+
+}  // namespace glint

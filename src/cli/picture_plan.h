@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glint/scene/camera.h"
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+#include "model_list.h"
+#include "output_names.h"
+#include "render_options.h"
+
+namespace glint {
+
+/// A picture to be.
+struct PlannedPicture {
+  std::string output;
+  std::string reference;  ///< to compare with; empty: none
+  std::size_t frame = 0;
+  std::string variation;  ///< what tells it from the others of its model, for its key
+};
+
+/// Which pictures a run makes and how they are called.
+class PicturePlan {
+ public:
+  /// Looks through the list if it is known beforehand. Throws InputError for names that cannot be
+  /// and for two pictures with one name.
+  PicturePlan(const RenderOptions& options, ModelList& list);
+
+  /// The pictures of a model, without those of other shards. To be asked for once for each model.
+  /// Throws InputError if a picture has the name of another.
+  std::vector<PlannedPicture> picturesOf(const ModelEntry& entry);
+
+  /// How many there are in all, if that is known.
+  std::optional<std::size_t> count() const { return count_; }
+
+ private:
+  std::vector<PlannedPicture> named(const ModelEntry& entry) const;
+  void take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures);
+
+  const RenderOptions& options_;
+  OutputPattern pattern_;
+  std::optional<OutputPattern> referencePattern_;
+  Shard shard_;
+  bool shardsFrames_;
+  bool namesChecked_ = false;
+  NamesTaken names_;
+  std::optional<std::size_t> models_, count_;
+};
+
+/// The look of a planned picture. `bounds` are those of the scene.
+Look lookOf(const PlannedPicture&, const RenderOptions&, const Look& base, const Scene&,
+            const Bounds& bounds);
+
+}  // namespace glint

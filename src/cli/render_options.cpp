@@ -1,0 +1,96 @@
+#include "render_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "glint/image/error.h"
+#include "glint/image/picture_writer.h"
+
+namespace glint {
+
+void addRenderOptions(CLI::App& command, RenderOptions& options) {
+  command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb");
+  command
+      .add_option("-o,--output", options.output,
+                  "the picture: .png (8 bit sRGB, or 16), .exr or .pfm (linear float), - (PNG to "
+                  "stdout); {model}, {n} and {frame} stand for the model's name and number and for "
+                  "the picture's number")
+      ->type_name("OUT")
+      ->required()
+      ->take_last();
+  command.add_option("--bit-depth", options.bitDepth, "of PNG: 8 or 16 [default: 8]")
+      ->type_name("BITS");
+  command
+      .add_option("--rendering-backend", options.backend,
+                  "what to draw with; auto tries egl, then osmesa; reference is double precision "
+                  "on the CPU, without GL [default: auto]")
+      ->type_name("auto|egl|egl-software|osmesa|reference")
+      ->take_last();
+  command.add_option("--json", options.json, "write a report of the run; - is stdout")
+      ->type_name("FILE");
+  command
+      .add_option("--glsl", options.glsl, "take shader files from this folder where it has them")
+      ->type_name("DIR");
+  command
+      .add_option("--turntable", options.turntable,
+                  "N pictures with the camera going once round the model, about +Y through its "
+                  "centre, to the right")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  const char* batch = "Batches";
+  command
+      .add_option("--from-list", options.list,
+                  "draw the models in this list, one a line, or - from stdin, each as soon as its "
+                  "line is there; reports each picture as a line of JSON on stdout")
+      ->type_name("FILE")
+      ->group(batch);
+  command
+      .add_option("--jobs", options.jobs,
+                  "how many models are read and decoded at once [default: the number of "
+                  "processors, 8 at most]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->group(batch);
+  command
+      .add_flag("--resume", options.resume,
+                "skip pictures that are there already, made of the same model with the same look")
+      ->group(batch);
+  command
+      .add_option("--shard", options.shard,
+                  "draw only every N-th model, beginning with the K-th, K from 1 to N; of a single "
+                  "model its pictures")
+      ->type_name("K/N")
+      ->group(batch);
+  command
+      .add_option("--reference", options.reference,
+                  "compare each picture with this one at once: status 1 if they differ, 4 if it is "
+                  "not there; a template like -o")
+      ->type_name("FILE")
+      ->group(batch);
+  command
+      .add_option("--reference-threshold", options.referenceThreshold,
+                  "the mean FLIP up to which pictures are the same; without it all values must be")
+      ->type_name("T")
+      ->check(CLI::NonNegativeNumber)
+      ->group(batch);
+}
+
+void checkRenderOptions(const RenderOptions& options) {
+  if (options.models.empty() && !options.hasList())
+    throw InputError("render: no MODEL: give models, or a list of them with --from-list");
+  if (!options.models.empty() && options.hasList())
+    throw InputError("render: MODEL and --from-list: give one of them");
+  if (options.output == "-" && options.json == "-")
+    throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
+  if (options.output == "-" && options.hasList())
+    throw InputError("-o - and --from-list: the list's report goes to stdout: give -o a file name");
+  if (options.output == "-" && !options.reference.empty())
+    throw InputError("-o - and --reference: a picture is compared in its file: give -o a name");
+  if (options.referenceThreshold && options.reference.empty())
+    throw InputError("--reference-threshold: needs --reference FILE");
+  const bool holdsText = options.output.ends_with(".png") || options.output.ends_with(".exr");
+  if (options.resume && !holdsText)
+    throw InputError("--resume: " + options.output +
+                     " does not hold what a picture was made from: use .png or .exr");
+}
+
+}  // namespace glint

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace glint {
+
+/// What `glint render` is asked for, beside the look.
+struct RenderOptions {
+  std::vector<std::string> models;
+  std::string list;  ///< of models, instead of them
+  std::string output, backend = "auto", json, glsl, shard;
+  int bitDepth = 8;
+  int turntable = 0;  ///< pictures of it; 0: none
+  int jobs = 0;       ///< models in the works at once; 0: by the machine
+  bool resume = false;
+  std::string reference;
+  std::optional<double> referenceThreshold;
+  bool antiAliasingGiven = false;
+
+  bool usesReference() const { return backend == "reference"; }
+  bool hasList() const { return !list.empty(); }
+  std::size_t frameCount() const { return turntable > 0 ? std::size_t(turntable) : 1; }
+};
+
+/// Adds the options to the command, which fill in `options` when it is parsed.
+void addRenderOptions(CLI::App& command, RenderOptions& options);
+
+/// Throws InputError for options that exclude each other or lack something.
+void checkRenderOptions(const RenderOptions& options);
+
+}  // namespace glint

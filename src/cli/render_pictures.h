@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "glint/render/renderer.h"
+#include "model_loader.h"
+#include "picture_encoder.h"
+#include "picture_source.h"
+#include "render_report.h"
+
+namespace glint {
+
+/// What the pictures of a run have in common.
+struct RenderRun {
+  const RenderOptions& options;
+  const Look& look;
+  Renderer* renderer = nullptr;  ///< without: the reference
+  std::optional<GlStrings> gl;
+  PictureEncoder& encoder;
+  RenderReport& report;
+  StatusLine& line;
+  double contextTime = 0, startTime = 0;  ///< ms, told of the first picture
+  bool first = true;
+};
+
+/// Draws a model's pictures and hands them on; what goes wrong becomes part of the report. Leaves
+/// off where it is if a signal has come.
+void drawModel(RenderRun& run, LoadedModel model);
+
+}  // namespace glint

@@ -1,0 +1,49 @@
+#include "status_line.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "glint/image/error.h"
+
+namespace glint {
+
+StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+StatusLine::~StatusLine() { clear(); }
+
+void StatusLine::clear() {
+  if (shown_) std::cerr << "\r\033[K";
+  shown_ = false;
+}
+
+void StatusLine::show(const std::string& text) {
+  if (!terminal_) return;
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (now - start_ < std::chrono::seconds(1) || now - last_ < std::chrono::milliseconds(100))
+    return;
+  last_ = now;
+  shown_ = true;
+  std::cerr << "\r" << text << "\033[K" << std::flush;
+}
+
+void StatusLine::print(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  std::cerr << line + "\n";
+}
+
+void StatusLine::printOut(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  std::cout << line + "\n" << std::flush;
+  if (!std::cout)
+    throw InputError("standard output: cannot be written: the reader of the report went away");
+}
+
+double StatusLine::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+}  // namespace glint

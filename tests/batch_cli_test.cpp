@@ -1,0 +1,443 @@
+// Many pictures in one run: lists, what is left after an interruption, shards, reports.
+
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "command.h"
+#include "glint/image/read_image.h"
+#include "scenes.h"
+
+using glint::test::contents;
+using glint::test::Folder;
+using glint::test::quick;
+using glint::test::Ran;
+using glint::test::runGlint;
+using glint::test::shipped;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string sphere = shipped + "sphere.glb", torus = shipped + "torus.glb";
+
+/// A cube to draw fast; with a material so that two can differ.
+std::string cube(const std::string& name, const Folder& folder) {
+  glint::Mesh mesh = glint::test::sphere(4, 2);
+  return glint::test::writeGltf(name, mesh, nullptr, folder.path());
+}
+
+std::string listOf(const Folder& folder, const std::vector<std::string>& lines) {
+  std::ofstream list(folder / "list");
+  for (const std::string& line : lines) list << line << "\n";
+  return folder / "list";
+}
+
+std::vector<Json> linesOf(const std::string& text) {
+  std::vector<Json> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
+  return lines;
+}
+
+std::vector<std::string> tiny(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--resolution", "32,32"});
+  return quick(arguments);
+}
+
+/// The binary with a pipe at each end.
+class Running {
+ public:
+  explicit Running(const std::vector<std::string>& arguments) {
+    int in[2], out[2];
+    EXPECT_EQ(pipe2(in, O_CLOEXEC), 0);
+    EXPECT_EQ(pipe2(out, O_CLOEXEC), 0);
+    child_ = fork();
+    if (child_ == 0) {
+      dup2(in[0], 0);
+      dup2(out[1], 1);
+      dup2(open("/dev/null", O_WRONLY), 2);
+      std::vector<char*> argv{const_cast<char*>(GLINT_EXECUTABLE)};
+      for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+      argv.push_back(nullptr);
+      execv(GLINT_EXECUTABLE, argv.data());
+      _exit(127);
+    }
+    close(in[0]);
+    close(out[1]);
+    in_ = in[1];
+    out_ = out[0];
+  }
+  ~Running() {
+    if (child_ > 0) {
+      kill(child_, SIGKILL);
+      waitpid(child_, nullptr, 0);
+    }
+    closeIn();
+    close(out_);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  void write(const std::string& text) {
+    EXPECT_EQ(::write(in_, text.data(), text.size()), ssize_t(text.size()));
+  }
+  void closeIn() {
+    if (in_ >= 0) close(in_);
+    in_ = -1;
+  }
+  void signal(int number) { kill(child_, number); }
+
+  /// The next line of its output; empty at the end or if there is none in time.
+  std::string line(int seconds = 30) {
+    for (;;) {
+      const auto end = text_.find('\n');
+      if (end != std::string::npos) {
+        const std::string first = text_.substr(0, end);
+        text_.erase(0, end + 1);
+        return first;
+      }
+      pollfd ready{out_, POLLIN, 0};
+      if (poll(&ready, 1, seconds * 1000) <= 0) return "";
+      char bytes[4096];
+      const ssize_t count = read(out_, bytes, sizeof bytes);
+      if (count <= 0) return "";
+      text_.append(bytes, std::size_t(count));
+    }
+  }
+  /// Its exit status, or minus the signal that ended it.
+  int wait() {
+    int status = 0;
+    waitpid(child_, &status, 0);
+    child_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  pid_t child_ = -1;
+  int in_ = -1, out_ = -1;
+  std::string text_;
+};
+
+}  // namespace
+
+TEST(List, EachLineIsAPictureAndALineOfJson) {
+  Folder folder("list");
+  const std::string list =
+      listOf(folder, {sphere, "", torus + "\t" + (folder / "own.png"), sphere + "\r"});
+  const Ran ran = runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}-{model}.png"}));
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.err, IsEmpty());
+  EXPECT_THAT(folder.names(), ElementsAre("0-sphere.png", "2-sphere.png", "list", "own.png"));
+  const auto lines = linesOf(ran.out);
+  ASSERT_EQ(lines.size(), 3u);
+  const std::string outputs[] = {"0-sphere.png", "own.png", "2-sphere.png"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(lines[i]["model"], i == 1 ? torus : sphere);
+    EXPECT_EQ(lines[i]["output"], folder / outputs[i]);
+    EXPECT_EQ(lines[i]["status"], 0);
+    for (const char* key : {"triangles", "draws", "samples", "variants", "ms", "warnings"})
+      EXPECT_TRUE(lines[i].contains(key)) << key;
+  }
+  // As when drawn alone.
+  EXPECT_EQ(runGlint(tiny({"render", torus, "-o", folder / "alone.png"})).status, 0);
+  EXPECT_EQ(contents(folder / "alone.png"), contents(folder / "own.png"));
+}
+
+TEST(List, AReportHasAllThatWasDrawn) {
+  Folder folder("list_report");
+  const std::string list = listOf(folder, {sphere, folder / "none.glb", torus});
+  const Ran ran = runGlint(tiny(
+      {"render", "--from-list", list, "-o", folder / "{n}.png", "--json", folder / "report.json"}));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(linesOf(ran.out).size(), 3u);
+  const Json report = Json::parse(contents(folder / "report.json"));
+  EXPECT_EQ(report["backend"], "osmesa");
+  EXPECT_TRUE(report["gl"]["renderer"].is_string());
+  ASSERT_EQ(report["pictures"].size(), 3u);
+  EXPECT_EQ(report["pictures"][1]["status"], 2);
+  // `--json -` is what stdout has in any case.
+  const Ran lines =
+      runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}.png", "--json", "-"}));
+  EXPECT_EQ(linesOf(lines.out).size(), 3u);
+}
+
+TEST(List, AFailedModelDoesNotStopTheRest) {
+  Folder folder("list_failed");
+  std::ofstream(folder / "broken.glb") << "glTF but not really";
+  std::vector<std::string> models{sphere, folder / "broken.glb", folder / "none.glb", folder.path(),
+                                  torus};
+  const std::string list = listOf(folder, models);
+  for (const bool fromList : {true, false}) {
+    std::vector<std::string> arguments{"render"};
+    if (fromList)
+      arguments.insert(arguments.end(), {"--from-list", list});
+    else
+      arguments.insert(arguments.end(), models.begin(), models.end());
+    arguments.insert(arguments.end(), {"-o", folder / "{n}.png"});
+    const Ran ran = runGlint(tiny(arguments));
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.errorLines().size(), 3u) << ran.err;
+    EXPECT_THAT(folder.names(), ElementsAre("0.png", "4.png", "broken.glb", "list"));
+    if (!fromList) continue;
+    std::vector<int> statuses;
+    for (const Json& line : linesOf(ran.out)) statuses.push_back(line["status"]);
+    EXPECT_THAT(statuses, ElementsAre(0, 2, 2, 2, 0));
+  }
+}
+
+// The first picture is told before the second line is written.
+TEST(List, FromAPipeEachPictureIsMadeAsSoonAsItsLineIsThere) {
+  Folder folder("stream");
+  Running run(tiny({"render", "--from-list", "-", "-o", folder / "{n}.png"}));
+  for (const char* name : {"000000.png", "000001.png", "000002.png"}) {
+    run.write(sphere + "\n");
+    const std::string line = run.line();
+    ASSERT_FALSE(line.empty());
+    EXPECT_EQ(Json::parse(line)["output"], folder / name);
+    EXPECT_EQ(glint::readImage(folder / name).width, 32);
+  }
+  run.write(torus);  // without an end of line
+  run.closeIn();
+  EXPECT_EQ(Json::parse(run.line())["model"], torus);
+  EXPECT_EQ(run.line(), "");
+  EXPECT_EQ(run.wait(), 0);
+}
+
+TEST(List, TwoPicturesWithOneNameAreRefusedBeforeAnythingIsDrawn) {
+  Folder folder("list_names");
+  const std::string list = listOf(folder, {sphere, torus, sphere});
+  const Ran ran = runGlint(tiny({"render", "--from-list", list, "-o", folder / "{model}.png"}));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("model 0"), HasSubstr("sphere.png"), HasSubstr("{n}")));
+  EXPECT_THAT(ran.out, IsEmpty());
+  EXPECT_THAT(folder.names(), ElementsAre("list"));
+  // From a pipe nobody can know: the second one fails alone.
+  Running run(tiny({"render", "--from-list", "-", "-o", folder / "{model}.png"}));
+  run.write(sphere + "\n" + sphere + "\n" + torus + "\n");
+  run.closeIn();
+  EXPECT_EQ(Json::parse(run.line())["status"], 0);
+  EXPECT_EQ(Json::parse(run.line())["status"], 2);
+  EXPECT_EQ(Json::parse(run.line())["status"], 0);
+  EXPECT_EQ(run.wait(), 2);
+}
+
+TEST(List, AnEmptyOneIsNoErrorButSaysSo) {
+  Folder folder("list_empty");
+  const Ran ran =
+      runGlint(tiny({"render", "--from-list", listOf(folder, {""}), "-o", folder / "a.png"}));
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.errorLines().size(), 1u);
+  EXPECT_THAT(ran.err, HasSubstr("no models"));
+}
+
+TEST(Shard, PartsAreDisjointAndTogetherAll) {
+  Folder folder("shards");
+  std::vector<std::string> models(11, cube("cube", folder));
+  const std::string list = listOf(folder, models);
+  std::multiset<std::string> drawn;
+  for (const char* shard : {"1/4", "2/4", "3/4", "4/4"}) {
+    const Ran ran =
+        runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}.png", "--shard", shard}));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    const auto lines = linesOf(ran.out);
+    EXPECT_EQ(lines.size(), shard == std::string("4/4") ? 2u : 3u);
+    for (const Json& line : lines) drawn.insert(line["output"]);
+  }
+  EXPECT_EQ(drawn.size(), 11u);
+  EXPECT_EQ(std::set<std::string>(drawn.begin(), drawn.end()).size(), 11u);
+  EXPECT_EQ(drawn.count(folder / "10.png"), 1u);
+  // Of a single model the pictures are divided.
+  std::size_t frames = 0;
+  for (const char* shard : {"1/2", "2/2"}) {
+    const Ran ran = runGlint(tiny({"render", models[0], "-o", folder / "t{frame}.png",
+                                   "--turntable", "5", "--shard", shard, "--json", "-"}));
+    frames += Json::parse(ran.out)["pictures"].size();
+  }
+  EXPECT_EQ(frames, 5u);
+}
+
+TEST(Resume, SkipsWhatIsDoneWithTheSameModelAndLook) {
+  Folder folder("resume");
+  const std::string a = cube("a", folder), b = cube("b", folder);
+  const std::string list = listOf(folder, {a, b});
+  const auto skipped = [&](std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"render", "--from-list",          list,
+                                       "-o",     folder / "{model}.png", "--resume"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = runGlint(tiny(arguments));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    std::vector<bool> all;
+    for (const Json& line : linesOf(ran.out)) all.push_back(line.contains("skipped"));
+    return all;
+  };
+  EXPECT_THAT(skipped(), ElementsAre(false, false));
+  const std::string bytes = contents(folder / "a.png");
+  EXPECT_THAT(skipped(), ElementsAre(true, true));
+  EXPECT_EQ(contents(folder / "a.png"), bytes);
+  // Another look, another depth: all anew.
+  EXPECT_THAT(skipped({"--exposure", "1"}), ElementsAre(false, false));
+  EXPECT_THAT(skipped({"--exposure", "1"}), ElementsAre(true, true));
+  EXPECT_THAT(skipped({"--bit-depth", "16"}), ElementsAre(false, false));
+  EXPECT_THAT(skipped(), ElementsAre(false, false));
+  // A model, or what it refers to, has changed.
+  {
+    std::fstream bin(folder / "a.bin", std::ios::in | std::ios::out | std::ios::binary);
+    bin.seekp(3);
+    bin.put('\x3e');
+  }
+  EXPECT_THAT(skipped(), ElementsAre(false, true));
+  std::ofstream(b, std::ios::app) << "\n";
+  EXPECT_THAT(skipped(), ElementsAre(true, false));
+  // A picture that is damaged, or another program's.
+  std::ofstream(folder / "b.png") << bytes.substr(0, 60);
+  EXPECT_THAT(skipped(), ElementsAre(true, false));
+  std::filesystem::remove(folder / "a.png");
+  EXPECT_THAT(skipped(), ElementsAre(false, true));
+}
+
+TEST(Resume, OfATurntableAndOfExr) {
+  Folder folder("resume_turntable");
+  const auto skipped = [&](const std::string& frames) {
+    const Ran ran = runGlint(tiny({"render", sphere, "-o", folder / "{frame}.exr", "--turntable",
+                                   frames, "--resume", "--json", "-"}));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    std::vector<bool> all;
+    const Json report = Json::parse(ran.out);
+    for (const Json& each : report["pictures"]) all.push_back(each.contains("skipped"));
+    return all;
+  };
+  EXPECT_THAT(skipped("3"), ElementsAre(false, false, false));
+  std::filesystem::remove(folder / "1.exr");
+  EXPECT_THAT(skipped("3"), ElementsAre(true, false, true));
+  EXPECT_THAT(skipped("4"), ElementsAre(false, false, false, false));
+}
+
+// 1000 pictures, ended in the middle, then resumed: what was told as done is not made again, and
+// all are there in the end.
+TEST(Resume, ABatchOfAThousandKilledInTheMiddleLosesAndRepeatsNothing) {
+  for (const int number : {SIGKILL, SIGINT, SIGTERM}) {
+    Folder folder("killed");
+    std::filesystem::create_directories(folder / "out");
+    const std::string list = listOf(folder, std::vector<std::string>(1000, cube("cube", folder)));
+    const std::vector<std::string> command =
+        tiny({"render", "--from-list", list, "-o", folder / "out/{n}.png", "--resume"});
+    std::set<std::string> told;
+    {
+      Running run(command);
+      for (int i = 0; i < 400; ++i) told.insert(Json::parse(run.line())["output"]);
+      run.signal(number);
+      for (std::string line = run.line(); !line.empty(); line = run.line())
+        told.insert(Json::parse(line)["output"]);
+      EXPECT_EQ(run.wait(), number == SIGKILL ? -SIGKILL : 128 + number);
+    }
+    EXPECT_GE(told.size(), 400u);
+    EXPECT_LT(told.size(), 1000u);
+    // Every file is whole; what is there but not told of is at most what was on its way.
+    std::set<std::string> there;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "out")) {
+      there.insert(file.path().string());
+      EXPECT_EQ(glint::readImage(file.path().string()).width, 32);
+    }
+    EXPECT_TRUE(std::includes(there.begin(), there.end(), told.begin(), told.end()));
+    EXPECT_LE(there.size(), told.size() + (number == SIGKILL ? 1 : 0));
+
+    const Ran rest = runGlint(command);
+    EXPECT_EQ(rest.status, 0) << rest.err;
+    std::set<std::string> skipped, drawn;
+    for (const Json& line : linesOf(rest.out))
+      (line.contains("skipped") ? skipped : drawn).insert(line["output"]);
+    EXPECT_EQ(skipped, there);
+    EXPECT_EQ(drawn.size(), 1000 - there.size());
+    std::size_t files = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "out"))
+      files += file.path().extension() == ".png";
+    EXPECT_EQ(files, 1000u);
+  }
+}
+
+TEST(Interrupt, EndsARunThatWaitsForItsList) {
+  Folder folder("waiting");
+  Running run(tiny({"render", "--from-list", "-", "-o", folder / "{n}.png"}));
+  run.write(sphere + "\n");
+  EXPECT_FALSE(run.line().empty());
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 130);
+  EXPECT_THAT(folder.names(), ElementsAre("000000.png"));
+}
+
+TEST(Batch, ReferencesAreComparedAtOnce) {
+  Folder folder("references");
+  std::filesystem::create_directories(folder / "baseline");
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render",
+                                       sphere,
+                                       torus,
+                                       "-o",
+                                       folder / "{model}.png",
+                                       "--reference",
+                                       folder / "baseline/{model}.png",
+                                       "--json",
+                                       folder / "report.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const int status = runGlint(tiny(arguments)).status;
+    std::vector<int> each;
+    const Json report = Json::parse(contents(folder / "report.json"));
+    for (const Json& p : report["pictures"]) each.push_back(p["status"]);
+    EXPECT_EQ(each.size(), 2u);
+    each.insert(each.begin(), status);
+    return each;
+  };
+  EXPECT_THAT(run({}), ElementsAre(4, 4, 4));
+  std::filesystem::copy_file(folder / "sphere.png", folder / "baseline/sphere.png");
+  EXPECT_THAT(run({}), ElementsAre(4, 0, 4));
+  std::filesystem::copy_file(folder / "torus.png", folder / "baseline/torus.png");
+  EXPECT_THAT(run({}), ElementsAre(0, 0, 0));
+  const std::vector<std::string> darker{"--exposure", "-0.1"};
+  EXPECT_THAT(run(darker), ElementsAre(1, 1, 1));
+  EXPECT_THAT(run({darker[0], darker[1], "--reference-threshold", "0.5"}), ElementsAre(0, 0, 0));
+  EXPECT_THAT(run({darker[0], darker[1], "--reference-threshold", "0.0001"}), ElementsAre(1, 1, 1));
+  std::ofstream(folder / "baseline/torus.png") << "no picture";
+  EXPECT_THAT(run({}), ElementsAre(2, 0, 2));
+  EXPECT_THAT(run(darker), ElementsAre(2, 1, 2));
+}
+
+TEST(Batch, OptionsThatExcludeEachOther) {
+  Folder folder("exclude");
+  const std::string list = listOf(folder, {sphere}), out = folder / "{n}.png";
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"-o", out}, "MODEL"},
+      {{sphere, "--from-list", list, "-o", out}, "--from-list"},
+      {{"--from-list", list, "-o", "-"}, "-o -"},
+      {{"--from-list", folder / "none", "-o", out}, "none"},
+      {{"--from-list", folder.path(), "-o", out}, "directory"},
+      {{sphere, "-o", folder / "a.pfm", "--resume"}, ".pfm"},
+      {{sphere, "-o", out, "--shard", "0/2"}, "--shard"},
+      {{sphere, "-o", out, "--shard", "3/2"}, "--shard"},
+      {{sphere, "-o", out, "--shard", "1"}, "--shard"},
+      {{sphere, "-o", out, "--shard", "1/2x"}, "--shard"},
+      {{sphere, "-o", out, "--jobs", "0"}, "--jobs"},
+      {{sphere, "-o", out, "--turntable", "0"}, "--turntable"},
+      {{sphere, "-o", out, "--turntable", "2"}, "{frame}"},
+      {{sphere, "-o", folder / "{frame}.png"}, "--turntable"},
+      {{sphere, "-o", out, "--reference-threshold", "1"}, "--reference"},
+      {{sphere, "-o", "-", "--reference", "a.png"}, "--reference"},
+      {{sphere, torus, "-o", "-"}, "would both become"}};
+  for (const auto& [options, expected] : cases) {
+    std::vector<std::string> arguments{"render"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ran ran = runGlint(tiny(arguments));
+    EXPECT_EQ(ran.status, 2) << testing::PrintToString(options);
+    ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(expected));
+    EXPECT_THAT(ran.out, IsEmpty());
+  }
+  EXPECT_THAT(folder.names(), ElementsAre("list"));
+}
