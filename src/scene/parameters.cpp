@@ -155,22 +155,6 @@ Parameter lights() {
   return p;
 }
 
-Parameter highlight() {
-  Parameter p = custom(
-      "highlight", "FORM",
-      "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
-      "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
-      "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
-      "powers G = 1, 2, 4, ... 64 by squaring; gaussian",
-      [](Look& look, const std::string& text) {
-        look.highlight = parseHighlight(text, "--highlight");
-      },
-      [](const Look& look) { return Json(highlightText(look.highlight)); });
-  finish(p, ParameterKind::choice, &Look::highlight);
-  p.words = highlightTexts();
-  return p;
-}
-
 std::string nonEmpty(const std::string& text, const std::string& what) {
   if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
   return text;
@@ -187,6 +171,22 @@ Parameter lightScale() {
       },
       [](const Look& look) { return look.lightScale ? Json(*look.lightScale) : Json(); });
   p.reset = [](Look& look) { look.lightScale.reset(); };
+  return p;
+}
+
+Parameter highlight() {
+  Parameter p = custom(
+      "highlight", "FORM",
+      "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
+      "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
+      "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
+      "powers G = 1, 2, 4, ... 64 by squaring; gaussian",
+      [](Look& look, const std::string& text) {
+        look.highlight = parseHighlight(text, "--highlight");
+      },
+      [](const Look& look) { return Json(highlightText(look.highlight)); });
+  finish(p, ParameterKind::choice, &Look::highlight);
+  p.words = highlightTexts();
   return p;
 }
 
