@@ -197,9 +197,11 @@ TEST(DiffReports, JUnit) {
   write(pictures / "x/two & <three>.png");
   write(pictures / "y/two & <three>.png", 3);
   write(pictures / "x/gone.png");
+  write(pictures / "x/caf\xe9.png");
   EXPECT_EQ(pictures.diff({"x", "y", "--junit", "r.xml"}).status, 2);
   const std::string xml = contents(pictures / "r.xml");
-  EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"3\" failures=\"1\" errors=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"4\" failures=\"1\" errors=\"2\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"caf\xef\xbf\xbd.png\""));  // no UTF-8: replaced
   EXPECT_THAT(xml, HasSubstr("name=\"one.png\""));
   EXPECT_THAT(xml, HasSubstr("name=\"two &amp; &lt;three&gt;.png\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"3 pixels differ\">"));
