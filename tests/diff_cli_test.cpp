@@ -146,7 +146,6 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending tells no known format"},
       {{"a.png", "b.png", "--json", "-", "--junit", "-"}, 2, "goes to stdout already"},
       {{"a.png", "b.png", "--json", "no/such/folder.json"}, 2, "no/such/folder.json"},
-      {{"a.png", "b.png", "--baselines-per-driver"}, 2, "give two folders"},
       // No baseline.
       {{"missing.png", "a.png"}, 4, "missing.png: no baseline: look at a.png and accept it"},
   };
@@ -322,6 +321,11 @@ TEST(DiffDrivers, AreTold) {
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, Not(HasSubstr("across")));
   EXPECT_EQ(pictures.diff({"x", "y"}).status, 1);
+  // Of single pictures likewise.
+  EXPECT_EQ(pictures.diff({"x/one.png", "y/one.png", "--baselines-per-driver"}).status, 0);
+  ran = pictures.diff({"a.png", "y/one.png", "--baselines-per-driver", "--update"});
+  EXPECT_EQ(ran.err, "glint: made the baseline ./driver-llvmpipe-llvm-15/a.png\n");
+  EXPECT_EQ(pictures.diff({"a.png", "y/one.png", "--baselines-per-driver"}).status, 0);
 }
 
 TEST(DiffJobs, DoNotChangeTheResult) {
