@@ -79,18 +79,20 @@ TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
 
 TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
   const std::string folder = temporaryFolder() + "/interrupted";
-  // Ctrl-C after a second, long before so many frames are done.
-  const std::string command = "timeout --preserve-status -s INT 1 " GLINT_EXECUTABLE
+  // Ctrl-C after two seconds, long before so many frames are done.
+  const std::string command = "timeout --preserve-status -s INT 2 " GLINT_EXECUTABLE
                               " study --resolution 64,64 --shading phong --highlight exact"
                               " --repetitions 100000 --output " +
                               folder + " > /dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const Json json = Json::parse(contents(folder + "/study.json"));
   EXPECT_FALSE(json["complete"].get<bool>());
-  ASSERT_EQ(json["variants"].size(), 1u);
-  EXPECT_GT(json["variants"][0]["errors"][0]["rmse"].get<double>(), 0);
+  EXPECT_FALSE(json["missing"].empty());
+  // On a machine that is very busy not even its error.
+  for (const Json& v : json["variants"]) EXPECT_GT(v["errors"][0]["rmse"].get<double>(), 0);
   EXPECT_THAT(contents(folder + "/study.html"), HasSubstr("</html>"));
-  EXPECT_THAT(contents(folder + "/study.csv"), HasSubstr("phong exact,phong,"));
+  EXPECT_THAT(contents(folder + "/study.svg"), HasSubstr("</svg>"));
+  EXPECT_THAT(contents(folder + "/study.csv"), HasSubstr("variant,against"));
 }
 
 TEST(StudyCommand, RefusesWhatItCannotDo) {

@@ -24,6 +24,7 @@ struct StudyVariant {
 struct StudyFilter {
   std::string shading, highlight, fresnel;  ///< the only one, if given
   bool quick = false;                       ///< of the forms with a number only a few numbers
+  bool isEmpty() const { return shading.empty() && highlight.empty() && fresnel.empty(); }
 };
 
 /// All values that an option of one of several forms takes, from the table of parameters. Quick:
