@@ -14,7 +14,8 @@ from browser import run_tests
 _folder = tempfile.TemporaryDirectory(prefix="glint-study-")
 _out = pathlib.Path(_folder.name)
 subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
-                "--repetitions", "5", "--output", str(_out)], check=True, stdout=subprocess.DEVNULL)
+                "--repetitions", "5", "--output", str(_out), "--markdown", str(_out / "results.md")],
+               check=True, stdout=subprocess.DEVNULL)
 _data = json.loads((_out / "study.json").read_text())
 _page = str(_out / "study.html")
 
@@ -94,11 +95,28 @@ def test_draws_the_series(browser):
 def test_says_what_an_interrupted_study_lacks(browser):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
-                        "--time-budget", "0.6", "--output", folder], check=True,
+                        "--time-budget", "1.5", "--output", folder], check=True,
                        stdout=subprocess.DEVNULL)
         browser.open(folder + "/study.html")
         browser.wait_for("$('incomplete').textContent.startsWith('Incomplete: ended before')")
         assert not browser.errors, browser.errors
+
+
+def test_every_form_joins(browser):
+    names = {v["name"] for v in _data["variants"]}
+    for name in ("flat exact", "gouraud pow", "phong exact", "phong pow", "phong lyon:4",
+                 "phong gaussian", "blinn-phong pade:16", "environment schlick",
+                 "environment rational"):
+        assert name in names, f"{name} is not in {sorted(names)}"
+    assert _data["complete"], _data["missing"]
+
+
+def test_answers_its_questions(browser):
+    markdown = (_out / "results.md").read_text()
+    for words in ("beat `pow`", "how far off is 4", "Gouraud enough", "Schlick ever",
+                  "only what the scene needs"):
+        assert words in markdown, words
+    assert "nan" not in markdown and "-inf" not in markdown
 
 
 def test_plot_and_table_files_are_whole(browser):
