@@ -3,19 +3,23 @@
 
     viewer_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
 
-What the window shows is taken from the X server (ImageMagick's import) and compared, byte for byte,
-with what `glint render` draws of the look that the viewer saves by Ctrl+S. Exit status 77 (skipped)
-if Xvfb, xdotool or ImageMagick are missing.
+What the window shows is taken from the X server and compared, byte for byte, with what `glint
+render` draws of the look that the viewer saves by Ctrl+S. Nothing is waited for by time alone: the
+machine may be busy. Exit status 77 (skipped) if Xvfb, xdotool or ImageMagick are missing.
 """
 
 import json
+import math
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+
+import x11
 
 PATIENCE = 60  # seconds; the machine may be busy
 
@@ -28,7 +32,20 @@ def wait_for(what, condition, patience=PATIENCE):
             return value
         if time.monotonic() > end:
             raise AssertionError("waited in vain for " + what)
-        time.sleep(0.1)
+        time.sleep(0.03)
+
+
+def pixels_of(png):
+    return subprocess.run(["convert", png, "-depth", "8", "rgb:-"], capture_output=True,
+                          check=True).stdout
+
+
+def pfm_pixel(data, x, y):
+    """The colour at a place of a PFM, whose rows begin at the bottom."""
+    kind, size, scale, values = data.split(b"\n", 3)
+    assert kind == b"PF" and float(scale) < 0
+    width, height = map(int, size.split())
+    return struct.unpack_from("<3f", values, 12 * (width * (height - 1 - y) + x))
 
 
 class Viewer:
@@ -42,7 +59,9 @@ class Viewer:
         self.model = os.path.join(self.folder, os.path.basename(model))
         shutil.copyfile(model, self.model)
         self.options = options
-        width, height = screen or self.screen
+        self.errors = os.path.join(self.folder, "errors")
+        self.screen = screen or self.screen
+        width, height = self.screen
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24",
@@ -55,7 +74,11 @@ class Viewer:
             assert piece, "Xvfb did not start"
             number += piece
         os.close(read)
-        self.environment = dict(os.environ, DISPLAY=":" + number.decode().strip())
+        display = ":" + number.decode().strip()
+        self.environment = dict(os.environ, DISPLAY=display,
+                                XDG_CONFIG_HOME=os.path.join(self.folder, "config"),
+                                XDG_STATE_HOME=os.path.join(self.folder, "state"))
+        self.x = x11.Server(display)
         self.process = None
         try:
             self.start()
@@ -66,11 +89,11 @@ class Viewer:
     def start(self, *options):
         self.process = subprocess.Popen(
             [VIEWER, os.path.basename(self.model), *self.options, *options], cwd=self.folder,
-            env=self.environment, stderr=subprocess.PIPE, text=True)
-        wait_for("the window", lambda: not self.alive() or
-                 self.xdotool("search", "--name", "glint", check=False))
-        assert self.alive(), self.process.stderr.read()
-        self.xdotool("mousemove", "500", "790")
+            env=self.environment, stderr=open(self.errors, "w"), text=True)
+        self.window = int(wait_for("the window", lambda: not self.alive() or self.xdotool(
+            "search", "--onlyvisible", "--name", "glint$", check=False)).split()[0])
+        assert self.alive(), self.told()
+        self.move(20, 20)
         self.settled(shaded=True)
 
     def __enter__(self):
@@ -83,12 +106,21 @@ class Viewer:
         self.end()
 
     def end(self):
-        if self.process and self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
+        self.kill()
+        self.x.close()
         self.server.send_signal(signal.SIGTERM)
         self.server.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+    def kill(self):
+        if self.process and self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+
+    def told(self):
+        """What it has written to the terminal."""
+        with open(self.errors) as file:
+            return file.read()
 
     # Hands and eyes.
 
@@ -102,7 +134,7 @@ class Viewer:
     def key(self, *keys):
         for each in keys:
             self.xdotool("key", each)
-            time.sleep(0.15)
+            time.sleep(0.05)
 
     def move(self, x, y):
         self.xdotool("mousemove", str(x), str(y))
@@ -123,21 +155,34 @@ class Viewer:
 
     def capture(self):
         """The bytes of the whole screen, RGB."""
-        return subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"],
-                              env=self.environment, capture_output=True, check=True).stdout
+        return self.x.capture(0, 0, *self.screen)
 
-    def settled(self, shaded=False):
-        """The screen once it no longer changes."""
-        last = [None]
+    def settled(self, shaded=False, quiet=0.35):
+        """The screen once it has not changed for a while."""
+        last, since = self.capture(), time.monotonic()
+        picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65)
 
         def still():
-            time.sleep(0.4)
+            nonlocal last, since
             now = self.capture()
-            same = now == last[0] and (not shaded or len(set(self.crop(now, (999, 775)))) > 20)
-            last[0] = now
-            return same
+            if now != last or (shaded and len(set(self.crop(now, picture))) <= 20):
+                last, since = now, time.monotonic()
+            return time.monotonic() - since > quiet
         wait_for("the picture to be still", still)
-        return last[0]
+        return last
+
+    def shows(self, size, expected, what):
+        """Waits until the picture is `expected`."""
+        shown = []
+
+        def same():
+            shown[:] = [self.x.capture(0, 0, *size)]
+            return shown[0] == expected
+        try:
+            wait_for(what, same, PATIENCE / 3)
+        except AssertionError:
+            differ = sum(a != b for a, b in zip(shown[0], expected))
+            raise AssertionError(f"waited in vain for {what}: {differ} of {len(expected)} bytes differ")
 
     def crop(self, screen, size, width=None):
         across = 3 * (width or self.screen[0])
@@ -152,7 +197,7 @@ class Viewer:
         before = os.stat(path).st_mtime_ns if os.path.exists(path) else None
         self.key("ctrl+s")
         if before is None:
-            time.sleep(0.5)
+            time.sleep(0.3)
             self.key("Return")
 
         def written():
@@ -161,24 +206,25 @@ class Viewer:
         with open(path) as file:
             return json.load(file), path
 
+    def render(self, *options, ending="png"):
+        """What glint render draws with these options: bytes of RGB for a PNG, else the file's."""
+        out = os.path.join(self.folder, "offscreen." + ending)
+        subprocess.run([GLINT, "render", self.model, *options, "-o", out], check=True,
+                       cwd=self.folder)
+        if ending != "png":
+            with open(out, "rb") as file:
+                return file.read()
+        return pixels_of(out)
+
     def picture(self):
         """The window's picture, checked against glint render of the saved look. Returns its bytes
         and the look."""
         look, path = self.save_look()
-        self.move(500, 790)
-        size = tuple(look["resolution"])
-        shown = self.crop(self.settled(), size)
-        out = os.path.join(self.folder, "offscreen.png")
-        subprocess.run([GLINT, "render", self.model, "--look", path, "-o", out], check=True,
-                       cwd=self.folder)
-        drawn = subprocess.run(["convert", out, "-depth", "8", "rgb:-"], capture_output=True,
-                               check=True).stdout
-        assert len(shown) == len(drawn), f"{size}: {len(shown)} and {len(drawn)} bytes"
-        if shown != drawn:
-            differ = sum(a != b for a, b in zip(shown, drawn))
-            raise AssertionError(f"{differ} of {len(drawn)} bytes differ from glint render's")
-        assert len(set(shown)) > 20, "the picture is one colour"
-        return shown, look
+        self.move(20, 20)
+        drawn = self.render("--look", path)
+        assert len(set(drawn)) > 20, "the picture is one colour"
+        self.shows(tuple(look["resolution"]), drawn, "the picture to be glint render's")
+        return drawn, look
 
     def alive(self):
         return self.process.poll() is None
@@ -193,6 +239,14 @@ PANEL_LEFT = 1000
 TWO_SIDED = (PANEL_LEFT + 174, 168)
 ROW = {"ambient": 270, "diffuse": 295, "specular": 320, "exponent": 345, "metalness": 370}
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
+
+
+TABS = {"Shading": 1040, "Lights": 1100, "Camera": 1159, "Picture": 1222, "Compare": 1287,
+        "Info": 1343}
+
+
+def open_tab(viewer, name):
+    viewer.click(TABS[name], 19)
 
 
 def drag_slider(viewer, name, start, end):
@@ -278,7 +332,7 @@ def test_saved_into_the_model_and_opened_again():
         drag_slider(viewer, "specular", 0.2, 0.8)
         edited, look = viewer.picture()
         viewer.key("ctrl+m")
-        time.sleep(0.6)
+        viewer.settled()
         viewer.key("Return")  # asks before it writes into the file
         wait_for("the model to be saved", lambda: open(viewer.model, "rb").read() != original)
         viewer.key("q")
@@ -298,12 +352,13 @@ def test_saved_into_the_model_and_opened_again():
 def test_closing_with_unsaved_edits_asks():
     with Viewer(TEAPOT) as viewer:
         drag_slider(viewer, "specular", 0.2, 0.8)
-        viewer.settled()
+        before = viewer.settled()
         viewer.key("q")
-        time.sleep(0.8)
+        wait_for("a question", lambda: viewer.capture() != before)
+        viewer.settled()
         assert viewer.alive(), "closed without asking"
         viewer.key("Escape")
-        time.sleep(0.8)
+        wait_for("the question to go", lambda: viewer.capture() == before)
         assert viewer.alive(), "Escape closed the window"
         viewer.key("ctrl+z", "q")
         assert viewer.left() == 0  # nothing is unsaved any more
@@ -314,9 +369,9 @@ def test_closing_can_save_first():
         drag_slider(viewer, "specular", 0.2, 0.8)
         viewer.settled()
         viewer.key("q")
-        time.sleep(0.8)
+        viewer.settled()
         viewer.key("Return")  # save the look
-        time.sleep(0.8)
+        viewer.settled()
         viewer.key("Return")  # under the name offered
         assert viewer.left() == 0
         with open(os.path.join(viewer.folder, "teapot_1.json")) as file:
@@ -325,43 +380,64 @@ def test_closing_can_save_first():
 
 def test_a_broken_file_leaves_the_old_model():
     with Viewer(TEAPOT) as viewer:
-        first, _ = viewer.picture()
+        first, look = viewer.picture()
         broken = os.path.join(viewer.folder, "broken.glb")
         with open(broken, "wb") as file:
             file.write(b"glTF\2\0\0\0 this is no model")
         viewer.key("ctrl+o")
-        time.sleep(0.6)
+        viewer.settled()
         viewer.key("ctrl+a")
         viewer.xdotool("type", "--delay", "20", "broken.glb")
         viewer.key("Return")
-        time.sleep(1)
+        wait_for("the message", lambda: "broken.glb" in viewer.told())
+        assert viewer.told().count("\n") == 1, viewer.told()
         assert viewer.alive()
-        assert viewer.picture()[0] == first
+        viewer.shows(tuple(look["resolution"]), first, "the old model")
+
+
+def test_files_are_dropped():
+    with Viewer(TEAPOT) as viewer:
+        first, look = viewer.picture()
+        size = tuple(look["resolution"])
+        broken = os.path.join(viewer.folder, "a broken one.glb")
+        with open(broken, "wb") as file:
+            file.write(b"no model")
+        viewer.x.drop(viewer.window, ["file://" + broken.replace(" ", "%20")], 400, 300)
+        wait_for("the message", lambda: "a broken one.glb" in viewer.told())
+        assert viewer.told().count("\n") == 1, viewer.told()
+        viewer.shows(size, first, "the old model")
+        sphere = os.path.join(viewer.folder, "sphere.glb")
+        shutil.copyfile(SPHERE, sphere)
+        viewer.x.drop(viewer.window, ["file://" + sphere], 400, 300)
+        viewer.model = sphere
+        viewer.shows(size, viewer.render("--resolution", "%d,%d" % size), "the sphere")
 
 
 def test_a_changed_model_is_read_again_and_edits_stay():
     with Viewer(TEAPOT) as viewer:
         drag_slider(viewer, "diffuse", 0.4, 0.7)
         first, look = viewer.picture()
+        size = tuple(look["resolution"])
         with open(viewer.model, "rb") as file:
             original = file.read()
         with open(viewer.model, "wb") as file:
             file.write(original[:1000])
-        time.sleep(2)
-        viewer.settled()
-        assert viewer.alive()
+        wait_for("the message", lambda: "teapot.glb" in viewer.told())
+        viewer.shows(size, first, "the model as it was")
         with open(SPHERE, "rb") as file:
             sphere = file.read()
         with open(viewer.model, "wb") as file:
             file.write(sphere)
-        time.sleep(2)
-        second = viewer.settled()
-        assert viewer.crop(second, tuple(look["resolution"])) != first
+        wait_for("the sphere", lambda: viewer.crop(viewer.capture(), size) != first)
+        # What the sphere does not have is gone; the camera is as it was.
         with open(viewer.model, "wb") as file:
             file.write(original)
-        time.sleep(2)
+        viewer.shows(size, viewer.render("--resolution", "%d,%d" % size), "the teapot")
+        drag_slider(viewer, "diffuse", 0.4, 0.7)
+        edited, _ = viewer.picture()
+        os.utime(viewer.model, ns=(1, 1))
         viewer.settled()
-        assert viewer.alive()
+        viewer.shows(size, edited, "the edits after the same model was read again")
 
 
 def test_shaders_are_watched():
@@ -376,54 +452,172 @@ def test_shaders_are_watched():
         size = tuple(look["resolution"])
         with open(mine, "w") as file:
             file.write(text + "\nthis does not compile\n")
-        time.sleep(2.5)
-        assert viewer.crop(viewer.settled(), size) == first, "a broken shader changed the picture"
-        assert viewer.alive()
+        line = text.count("\n") + 2
+        wait_for("the message", lambda: viewer.told().count("\n") >= 1)
+        assert f'"phong.glsl":{line}(' in viewer.told(), viewer.told()
+        viewer.shows(size, first, "the picture of the old shader")
+        changed = text.replace("vec3 shade(", "vec3 lit(") + \
+            "\n#if !VERTEX_STAGE\nvec3 shade(vec4 base) { return lit(base).bgr; }\n#endif\n"
+        assert changed.count("lit(") == 2
+        with open(mine, "w") as file:
+            file.write(changed)
+        swapped = bytearray(first)
+        swapped[0::3], swapped[2::3] = first[2::3], first[0::3]
+        viewer.shows(size, bytes(swapped), "the picture of the changed shader")
         with open(mine, "w") as file:
             file.write(text)
-        time.sleep(2.5)
-        assert viewer.crop(viewer.settled(), size) == first
+        viewer.shows(size, first, "the picture of the shader as it was")
     shutil.rmtree(glsl)
 
 
-def test_split_shows_both():
+def test_edits_survive_a_crash():
+    with Viewer(TEAPOT) as viewer:
+        state = os.path.join(viewer.folder, "state", "glint", "recovery")
+
+        def kept():
+            names = os.listdir(state) if os.path.isdir(state) else []
+            return [name for name in names if name.endswith(".json")]
+        drag_slider(viewer, "diffuse", 0.4, 0.9)
+        viewer.move(20, 20)
+        edited = viewer.crop(viewer.settled(), (1000, 776))
+        wait_for("the edits to be kept", kept)
+        viewer.kill()
+        viewer.start()  # asks, and stands still
+        viewer.key("Return")  # restore
+        viewer.shows((1000, 740), edited[:3000 * 740], "the edits")
+        picture, look = viewer.picture()  # saved: nothing is kept any more
+        assert look["material"]["Glazed ceramic"]["diffuse"] > 1
+        wait_for("nothing to be kept", lambda: not kept())
+        viewer.key("q")
+        assert viewer.left() == 0
+        assert os.listdir(state) == []
+
+
+def columns(picture, size, first, last, top=40, bottom=40):
+    return [picture[3 * (size[0] * y + first):3 * (size[0] * y + last)]
+            for y in range(top, size[1] - bottom)]
+
+
+def test_split_and_difference():
     with Viewer(TEAPOT) as viewer:
         a, look = viewer.picture()
         size = tuple(look["resolution"])
         viewer.key("b")  # keeps the look as B and splits
         drag_slider(viewer, "diffuse", 0.4, 0.9)
-        viewer.move(500, 790)
-        shown = viewer.crop(viewer.settled(), size)
-        viewer.key("a")
-        b, _ = viewer.picture()
-
-        def columns(picture, first, last):
-            return [picture[3 * (size[0] * y + first):3 * (size[0] * y + last)]
-                    for y in range(40, size[1])]
+        viewer.move(20, 20)
+        b = viewer.render("--look", viewer.save_look()[1])
         half = size[0] // 2
-        assert columns(shown, 0, half - 3) == columns(b, 0, half - 3), "A is not at the left"
-        assert columns(shown, half + 3, size[0]) == columns(a, half + 3, size[0]), \
-            "B is not at the right"
+
+        def split():
+            shown = viewer.crop(viewer.capture(), size)
+            return columns(shown, size, 0, half - 3) == columns(b, size, 0, half - 3) and \
+                columns(shown, size, half + 3, size[0]) == columns(a, size, half + 3, size[0])
+        wait_for("A at the left and B at the right", split)
+        viewer.drag(half, 300, half - 200, 300)  # the divider
+        viewer.move(20, 20)
+        half -= 200
+        wait_for("the divider to have moved", split)
+        viewer.key("d")
+        times = 16
+        expected = bytes(min(255, times * abs(p - q)) for p, q in zip(a, b))
+        wait_for("the difference", lambda: columns(
+            viewer.crop(viewer.capture(), size), size, 0, size[0]) == columns(
+                expected, size, 0, size[0]))
+        viewer.key("Tab")
+        wait_for("B in place of A", lambda: columns(
+            viewer.crop(viewer.capture(), size), size, 60, size[0]) == columns(
+                a, size, 60, size[0]))
+
+
+def test_the_reference_stands_beside_the_picture():
+    with Viewer(TEAPOT, "--highlight", "pow", screen=(900, 620)) as viewer:
+        _, look = viewer.picture()
+        size = tuple(look["resolution"])
+        path = os.path.join(viewer.folder, "teapot_1.json")
+        plain = ("--look", path, "--anti-aliasing", "none")
+        a = viewer.render(*plain)
+        exact = viewer.render(*plain, "--rendering-backend", "reference", "--highlight", "exact")
+        assert a != exact
+        viewer.key("r")
+        half = size[0] // 2
+
+        def split():
+            shown = viewer.crop(viewer.capture(), size)
+            return columns(shown, size, 0, half - 3) == columns(a, size, 0, half - 3) and \
+                columns(shown, size, half + 3, size[0]) == columns(exact, size, half + 3, size[0])
+        wait_for("the reference at the right", split)
+        viewer.key("d")
+        viewer.key("r")
+        viewer.picture()
+
+
+def test_the_probe_tells_what_the_reference_has():
+    with Viewer(TEAPOT) as viewer:
+        _, look = viewer.picture()
+        path = os.path.join(viewer.folder, "teapot_1.json")
+        plain = ("--look", path, "--anti-aliasing", "none")
+        center = viewer.render(*plain, ending="pfm")
+        exact = viewer.render(*plain, "--rendering-backend", "reference", ending="pfm")
+        open_tab(viewer, "Info")
+        for x, y in ((480, 420), (440, 347), (20, 30)):
+            viewer.move(x, y)
+            viewer.settled()
+            viewer.key("ctrl+shift+c")
+
+            def probed():
+                values = json.loads(viewer.x.clipboard())
+                return values if values["pixel"] == [x, y] and "center" in values else None
+            try:
+                values = wait_for("the pixel's values", probed, 20)
+            except (AssertionError, ValueError):
+                raise AssertionError("no values of the pixel on the clipboard")
+            rounded = [struct.unpack("<f", struct.pack("<f", v))[0] for v in values["reference"]]
+            assert rounded == list(pfm_pixel(exact, x, y)), values
+            assert values["center"] == list(pfm_pixel(center, x, y)), values
+            if "lights" in values:
+                parts = [sum(v) for v in zip(values["ambient"], values["emission"], *(
+                    light[term] for light in values["lights"] for term in ("diffuse", "specular")))]
+                assert all(abs(p - q) < 1e-12 for p, q in zip(parts, values["reference"])), values
+            for p, q, ulp in zip(values["center"], values["reference"], values["ulp"]):
+                place = 2.0 ** (math.frexp(struct.unpack("<f", struct.pack("<f", q))[0])[1] - 24)
+                assert abs(ulp - (p - q) / place) < 1e-6 * (1 + abs(ulp)), values
+
+
+def test_pictures_of_other_sizes_without_background():
+    with Viewer(TEAPOT, "--no-background") as viewer:
+        _, path = viewer.save_look()
+        viewer.key("shift+F12")
+        viewer.settled()
+        viewer.xdotool("type", "--delay", "20", "other.png")
+        viewer.key("Tab")
+        viewer.xdotool("type", "--delay", "20", "300")
+        viewer.key("Tab")
+        viewer.xdotool("type", "--delay", "20", "200")
+        viewer.key("Return")
+        other = os.path.join(viewer.folder, "other.png")
+        wait_for("the picture", lambda: os.path.exists(other))
+        viewer.render("--look", path, "--resolution", "300,200", "--no-background")
+        with open(other, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
+            assert a.read() == b.read()
 
 
 def test_other_sizes_and_scales():
     for screen, options in (((900, 700), ()), ((1400, 840), ("--scale", "2"))):
         with Viewer(TEAPOT, *options, screen=screen) as viewer:
-            viewer.screen = screen
             viewer.picture()
 
 
 def test_rests_when_nothing_changes():
     with Viewer(TEAPOT) as viewer:
-        time.sleep(1)
+        viewer.settled(quiet=1)
 
         def ticks():
             with open(f"/proc/{viewer.process.pid}/stat") as file:
                 fields = file.read().rsplit(")", 1)[1].split()
             return int(fields[11]) + int(fields[12])
         before = ticks()
-        time.sleep(6)
-        share = (ticks() - before) / os.sysconf("SC_CLK_TCK") / 6
+        time.sleep(5)
+        share = (ticks() - before) / os.sysconf("SC_CLK_TCK") / 5
         print(f"at rest: {100 * share:.2f} % of a core")
         assert share < 0.01
 

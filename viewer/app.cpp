@@ -70,8 +70,12 @@ void App::setTitle() {
 
 // The log is also for who started the window from a terminal.
 void App::tellLog() {
-  for (; told_ < session_.log.size(); ++told_)
-    std::cerr << "glint: " << session_.log[told_] << "\n";
+  for (; told_ < session_.log.size(); ++told_) {
+    std::string line = session_.log[told_];
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    for (std::size_t at; (at = line.find('\n')) != std::string::npos;) line.replace(at, 1, " | ");
+    std::cerr << "glint: " << line << "\n";
+  }
 }
 
 // Whether a frame is called for by anything else than input.

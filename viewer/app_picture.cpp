@@ -112,7 +112,9 @@ void App::composeScreen() {
   const bool exact = comparesExact(document);
   const DrawnPicture& a = *shownResult_.a;
   const auto reference = exact ? reference_->picture() : nullptr;
-  const int rows = reference && reference->look == exactLook(a.look) ? int(reference->rows) : 0;
+  const bool comparable = reference && reference->look == exactLook(a.look) &&
+                          a.look == comparableLook(a.look);
+  const int rows = comparable ? int(reference->rows) : 0;
   const bool same = !screenStale_ && shown_.compare == document.compare &&
                     shown_.exact == document.exact && shown_.divider == document.divider &&
                     shown_.amplification == document.amplification &&
@@ -123,13 +125,13 @@ void App::composeScreen() {
     encoded_ = reference.get();
     encodedRows_ = 0;
   }
-  if (rows > encodedRows_ || (exact && screenStale_)) {
+  if (rows > encodedRows_) {
     const std::size_t across = std::size_t(a.linear.width);
     encodeSrgb8(reference->linear.row(encodedRows_), across * std::size_t(rows - encodedRows_),
                 float(std::exp2(a.look.exposure)),
                 exactCodes_.data() + 4 * across * std::size_t(encodedRows_));
     encodedRows_ = rows;
-    errors_ = errorNumbers(a.linear, reference->linear, rows, a.look.exposure);
+    errors_ = errorNumbers(a.linear, reference->linear, reference->edges, rows, a.look.exposure);
   }
   const CodePicture pictureA = codesOf(a);
   CodePicture pictureB;

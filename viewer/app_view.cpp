@@ -102,7 +102,8 @@ std::string App::comparisonText() const {
   char text[240];
   if (comparesExact(document) && a) {
     const auto exact = reference_->picture();
-    if (shownResult_.request.preview || !exact || exact->look != exactLook(a->look))
+    if (shownResult_.request.preview || !exact || exact->look != exactLook(a->look) ||
+        a->look != comparableLook(a->look))
       return "the exact reference follows at rest";
     if (exact->failed) return exact->error;
     const int rows = exact->rows;
@@ -111,6 +112,8 @@ std::string App::comparisonText() const {
                   "most %d of 255 levels",
                   errors_.largest, errors_.where.x, errors_.where.y, errors_.rmse, errors_.levels);
     std::string all = text;
+    if (errors_.edges > 0)
+      all += ", " + std::to_string(errors_.edges) + " pixels at edges left out";
     if (errors_.notFinite > 0)
       all += ", " + std::to_string(errors_.notFinite) + " pixels not finite";
     if (rows < exact->linear.height)

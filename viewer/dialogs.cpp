@@ -62,7 +62,7 @@ void Dialogs::draw() {
   if (kind_ == Kind::path)
     drawPath(escape);
   else if (kind_ == Kind::picture)
-    drawPicture(escape);
+    drawPicture(enter, escape);
   else
     drawQuestion(enter, escape);
   ImGui::EndPopup();
@@ -129,12 +129,11 @@ int Dialogs::drawButtons(const char* text, bool entered, bool escape) {
   return cancel ? -1 : okay ? 1 : 0;
 }
 
-void Dialogs::drawPicture(bool escape) {
+void Dialogs::drawPicture(bool enter, bool escape) {
   const float width = std::min(ImGui::GetFontSize() * 30, ImGui::GetIO().DisplaySize.x * 0.8f);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(width);
-  const bool entered = ImGui::InputText(
-      "##path", &text_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::InputText("##path", &text_, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::TextDisabled(".png (8 bits, sRGB), .exr or .pfm (32-bit float, linear)");
   ImGui::SetNextItemWidth(width * 0.5f);
   ImGui::InputInt2("pixels", &size_.x);
@@ -147,7 +146,7 @@ void Dialogs::drawPicture(bool escape) {
   ImGui::Checkbox("transparent background", &transparent_);
   const bool possible = size_.x >= 1 && size_.y >= 1 && size_.x <= 32768 && size_.y <= 32768;
   if (!possible) ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "from 1 to 32768 pixels");
-  const int chosen = drawButtons("Save", entered, escape);
+  const int chosen = drawButtons("Save", enter, escape);
   if (chosen > 0 && possible && !text_.empty()) {
     const PictureAction action = std::move(pictureAction_);
     const std::string path = text_;

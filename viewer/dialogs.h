@@ -36,7 +36,7 @@ class Dialogs {
   enum class Kind { none, path, picture, question };
   void close();
   void drawPath(bool escape);
-  void drawPicture(bool escape);
+  void drawPicture(bool enter, bool escape);
   void drawFiles(float width);
   /// The buttons at the end: 1 to go on, -1 to give up, else 0.
   int drawButtons(const char* text, bool entered, bool escape);

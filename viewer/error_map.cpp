@@ -9,7 +9,8 @@
 
 namespace glint {
 
-ErrorNumbers errorNumbers(const Image& picture, const Image& exact, int rows, double exposure) {
+ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
+                          const std::vector<std::uint8_t>& edges, int rows, double exposure) {
   ErrorNumbers n;
   const float scale = float(std::exp2(exposure));
   double squares = 0;
@@ -17,6 +18,11 @@ ErrorNumbers errorNumbers(const Image& picture, const Image& exact, int rows, do
   for (int y = 0; y < rows; ++y) {
     const float *a = picture.row(y), *b = exact.row(y);
     for (int x = 0; x < picture.width; ++x, a += 4, b += 4) {
+      if (!edges.empty() &&
+          edges[std::size_t(picture.width) * std::size_t(y) + std::size_t(x)]) {
+        ++n.edges;
+        continue;
+      }
       double largest = 0, square = 0;
       for (int c = 0; c < 3; ++c) {
         const double d = std::abs(double(a[c]) - double(b[c]));

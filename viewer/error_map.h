@@ -14,11 +14,13 @@ struct ErrorNumbers {
   glm::ivec2 where{0};  ///< the pixel of the largest
   double rmse = 0;
   int levels = 0;             ///< the largest difference of 8-bit values, with exposure
+  std::size_t edges = 0;      ///< pixels left out: see ReferencePicture::edges
   std::size_t notFinite = 0;  ///< pixels left out, because one of the two is not finite
 };
 
-/// Of the first `rows` rows of two pictures of one size.
-ErrorNumbers errorNumbers(const Image& picture, const Image& exact, int rows, double exposure);
+/// Of the first `rows` rows of two pictures of one size. `edges` is empty or has one value a pixel.
+ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
+                          const std::vector<std::uint8_t>& edges, int rows, double exposure);
 
 /// Errors from this to 1 have colours, in steps as even as their logarithms; less is black.
 inline constexpr double leastError = 1e-8;

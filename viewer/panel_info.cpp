@@ -80,7 +80,7 @@ void probeRows(PanelContext& context, const Probe& probe) {
   if (probe.center) {
     const bool same = *probe.center == probe.shown;
     if (!same) vectorRow("at the centre", glm::dvec3(*probe.center));
-    row("  off by", "%+.3g  %+.3g  %+.3g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
+    row("  off by", "%+.2g  %+.2g  %+.2g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
     if (!same)
       ImGui::TextDisabled("at the centre: without anti-aliasing");
   } else {

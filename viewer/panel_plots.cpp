@@ -20,18 +20,21 @@ using widgets::style;
 constexpr ImU32 exactColor = IM_COL32(240, 190, 80, 255);
 constexpr ImU32 chosenColor = IM_COL32(90, 170, 255, 255);
 constexpr ImU32 sColor = IM_COL32(130, 220, 130, 255);
+constexpr ImU32 differenceColor = IM_COL32(240, 110, 90, 255);
 constexpr ImU32 pColor = IM_COL32(225, 120, 190, 255);
 
 /// Axes on a rectangle of the panel.
 class Plot {
  public:
-  Plot(glm::dvec2 low, glm::dvec2 high, float height) : low_(low), high_(high) {
+  /// `margin` is that of the labels at the left, in lines of text.
+  Plot(glm::dvec2 low, glm::dvec2 high, float height, float margin = 2.2f)
+      : low_(low), high_(high) {
     const float text = ImGui::GetTextLineHeight();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::Dummy(ImVec2(width, height * style().scale));
     hovered_ = ImGui::IsItemHovered();
-    begin_ = ImVec2(corner.x + 2.2f * text, corner.y + 0.4f * text);
+    begin_ = ImVec2(corner.x + margin * text, corner.y + 0.4f * text);
     end_ = ImVec2(corner.x + width - 0.6f * text, corner.y + height * style().scale - 1.3f * text);
     draw_ = ImGui::GetWindowDrawList();
     draw_->AddRectFilled(begin_, end_, ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -104,7 +107,41 @@ double yAt(const Curve& curve, double x) {
   return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
 }
 
-// The lobe as a rose: the length of a ray is what is sent along it, the difference in a band.
+// What the chosen form adds to the exact one, on a scale of its own.
+void differencePlot(const Curve& chosen, const Curve& exact, double largest,
+                    std::initializer_list<double> ticks) {
+  if (!(largest > 1e-13)) {  // rounding in double
+    ImGui::TextDisabled("the chosen form is the exact one");
+    return;
+  }
+  // Ticks at a round number below the largest value.
+  const double power = std::pow(10.0, std::floor(std::log10(largest)));
+  const double tick = largest >= 5 * power ? 5 * power : largest >= 2 * power ? 2 * power : power;
+  const auto first = exact.points.front().x, last = exact.points.back().x;
+  const Plot axes({first, -1.1 * largest}, {last, 1.1 * largest}, 74, 3.3f);
+  char text[32];
+  for (const double x : ticks) {
+    std::snprintf(text, sizeof text, "%.0f", x);
+    axes.gridX(x, text);
+  }
+  axes.gridY(0, "0");
+  std::snprintf(text, sizeof text, "%.0e", tick);
+  std::string shortened = text;  // 2e-03 as 2e-3
+  if (const auto zero = shortened.find("e-0"); zero != std::string::npos) shortened.erase(zero + 2, 1);
+  if (const auto plus = shortened.find("e+00"); plus != std::string::npos) shortened.erase(plus);
+  axes.gridY(tick, shortened.c_str());
+  axes.gridY(-tick, "");
+  const Curve d = difference(chosen, exact);
+  axes.curve(d, differenceColor, 1.4f);
+  if (const auto x = axes.hovered())
+    ImGui::SetTooltip("%.1f degrees: chosen - exact = %.4g", *x, yAt(d, *x));
+  legend(differenceColor, "chosen - exact");
+  ImGui::SameLine();
+  std::snprintf(text, sizeof text, "at most %.3g", largest);
+  ImGui::TextDisabled("%s", text);
+}
+
+// The lobe as a rose: the length of a ray is what is sent along it.
 void polarLobe(const LobePlot& plot) {
   const float text = ImGui::GetTextLineHeight();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -169,10 +206,9 @@ void lobePlots(Settings& settings, const SumInput& input, const std::string& for
   legend(exactColor, "exact");
   ImGui::SameLine();
   legend(chosenColor, form == "exact" ? "chosen: exact" : ("chosen: " + form).c_str());
-  char text[120];
-  std::snprintf(text, sizeof text, "differ by %.2g at most; half width %.3g degrees",
-                plot.largestDifference, plot.halfWidth);
-  ImGui::TextDisabled("%s", text);
+  ImGui::SameLine();
+  ImGui::TextDisabled("half width %.3g deg", plot.halfWidth);
+  differencePlot(plot.chosen, plot.exact, plot.largestDifference, {-90, -45, 0, 45, 90});
 }
 
 void fresnelPlots(const std::string& form, double n1, double n2, double schlickExponent) {
@@ -209,7 +245,7 @@ void fresnelPlots(const std::string& form, double n1, double n2, double schlickE
                 plot.normalIncidence, plot.brewster);
   ImGui::TextDisabled("%s", text);
   if (plot.critical) ImGui::TextDisabled("critical angle %.2f degrees", *plot.critical);
-  ImGui::TextDisabled("differ by %.2g at most", plot.largestDifference);
+  differencePlot(plot.chosen, plot.exact, plot.largestDifference, {0, 30, 60, 90});
 }
 
 void widthPlots(double exponent) {

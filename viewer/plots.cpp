@@ -21,6 +21,13 @@ double logOf(double lambda) { return lambda < 1 ? std::log1p(-lambda) : -INFINIT
 
 }  // namespace
 
+Curve difference(const Curve& chosen, const Curve& exact) {
+  Curve d;
+  for (std::size_t i = 0; i < std::min(chosen.points.size(), exact.points.size()); ++i)
+    d.points.emplace_back(exact.points[i].x, chosen.points[i].y - exact.points[i].y);
+  return d;
+}
+
 LobePlot lobePlot(const SumInput& input, double incidence) {
   LobePlot plot;
   plot.incidence = incidence;

@@ -14,6 +14,9 @@ struct Curve {
   std::vector<glm::dvec2> points;
 };
 
+/// The chosen curve less the exact one, which have the same x.
+Curve difference(const Curve& chosen, const Curve& exact);
+
 /// The lobe in the plane of incidence.
 struct LobePlot {
   double incidence = 0;  ///< of the light, degrees from the normal

@@ -18,6 +18,36 @@ constexpr int rowsAtOnce = 16;
 // Threads that it starts inherit this: the window comes first.
 void stepBack() { setpriority(PRIO_PROCESS, 0, 10); }
 
+// A surface in front of what is seen at a pixel, an edge of which may reach its sample: the next one
+// across, when that is nearer.
+bool mayCover(const reference::Attributes& next, const reference::Attributes& seen) {
+  constexpr double reach = 1.5, nearer = 1.002;  // samples; depth is 1 at the near plane, 0 far off
+  return next.item >= 0 && next.edgeDistance < reach &&
+         (seen.item < 0 || next.depth > seen.depth * nearer);
+}
+
+// The edges of rows y to y + rows - 1; `around` are the attributes of those and of one row more on
+// either side, where there are any, from row `from`.
+void markEdges(const std::vector<reference::Attributes>& around, int from, int y, int rows,
+               ReferencePicture& picture) {
+  const int width = picture.linear.width;
+  const int last = from + int(around.size() / std::size_t(width)) - 1;
+  const auto at = [&](int x, int row) -> const reference::Attributes& {
+    return around[std::size_t(width) * std::size_t(row - from) + std::size_t(x)];
+  };
+  constexpr double snapped = 1.0 / 128;  // twice the grid of 1/256
+  for (int row = y; row < y + rows; ++row)
+    for (int x = 0; x < width; ++x) {
+      const reference::Attributes& seen = at(x, row);
+      bool edge = seen.item >= 0 && seen.edgeDistance < snapped;
+      for (int dy = -1; dy <= 1 && !edge; ++dy)
+        for (int dx = -1; dx <= 1 && !edge; ++dx)
+          if (row + dy >= from && row + dy <= last && x + dx >= 0 && x + dx < width)
+            edge = mayCover(at(x + dx, row + dy), seen);
+      picture.edges[std::size_t(width) * std::size_t(row) + std::size_t(x)] = edge;
+    }
+}
+
 void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>& stop,
           const std::function<void()>& progressed) {
   using Clock = std::chrono::steady_clock;
@@ -30,6 +60,10 @@ void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>
     const int rows = std::min(rowsAtOnce, height - y);
     renderer.drawRows(y, rows, band);
     std::ranges::copy(band.values, picture.linear.row(y));
+    if (!picture.edges.empty()) {
+      const int from = std::max(0, y - 1), end = std::min(height, y + rows + 1);
+      markEdges(renderer.attributes(from, end - from), from, y, rows, picture);
+    }
     picture.rows = y + rows;
     if (progressed && Clock::now() - told > std::chrono::milliseconds(100)) {
       told = Clock::now();
@@ -66,6 +100,9 @@ void ReferenceTask::want(std::shared_ptr<const Model> model, const Look& look) {
   const glm::ivec2 size = exact.resolution;
   picture_->linear = {size.x, size.y, {}};
   picture_->linear.values.resize(std::size_t(4) * std::size_t(size.x) * std::size_t(size.y));
+  // A supersampled pixel is a mean over samples: an edge of one of them is no edge of the pixel.
+  if (exact.antiAliasing.mode != AntiAliasing::Mode::ssaa)
+    picture_->edges.resize(picture_->linear.values.size() / 4);
   worker_.latest([model = model_, picture = picture_, this](const std::atomic<bool>& stop) {
     try {
       draw(*model, *picture, stop, progressed_);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "glint/image/image.h"
 #include "session.h"
@@ -17,6 +18,9 @@ namespace glint {
 struct ReferencePicture {
   Look look;     ///< as drawn: see exactLook
   Image linear;  ///< before exposure
+  /// By pixel, 1 where an edge passes so close to a sample that a driver, which snaps vertices to a
+  /// grid, may show what is on its other side: shading is not what differs there.
+  std::vector<std::uint8_t> edges;
   std::atomic<int> rows = 0;
   std::string error;  ///< why there is none; set before `failed`
   std::atomic<bool> failed = false;

@@ -33,7 +33,7 @@ struct Frame {
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
 /// Which part of the radiance a surface shows.
 enum class Part { all, sum, reflection, refraction };
-enum class FresnelForm { exact, textbook, schlick };
+enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
 
 /// A material under a look.
 struct Surface {
@@ -41,11 +41,13 @@ struct Surface {
   bool unlit = false;
   bool twoSided = false;  ///< back faces turn the normal
   LobeForm lobe = LobeForm::exact;
+  int gamma = 8;  ///< of the forms that have one
   FresnelForm fresnel = FresnelForm::exact;
   double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0;
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
-  FresnelSides sides;  ///< of ior and mediumIor
+  FresnelSides sides;        ///< of ior and mediumIor
+  double rationalSlope = 0;  ///< k of FresnelForm::rational
   double transmission = 0;
   Part part = Part::all;  ///< `sum` goes with emission
   bool blend = false;     ///< 1 - alpha adds to the transparency of the program environment
