@@ -118,8 +118,8 @@ TEST(ReferenceTask, KnowsWhereAnotherRasteriserMayShowSomethingElse) {
   for (const std::uint8_t e : p.edges) edges += e;
   EXPECT_GT(edges, 40u);  // about the outline
   EXPECT_LT(edges, 64u * 48 / 4);
-  EXPECT_FALSE(p.edges[0]);                 // background far from anything
-  EXPECT_FALSE(p.edges[64 * 27 + 30]);      // the middle of the body
+  EXPECT_FALSE(p.edges[0]);             // background far from anything
+  EXPECT_FALSE(p.edges[64 * 27 + 30]);  // the middle of the body
 }
 
 Image picture(std::vector<float> red) {

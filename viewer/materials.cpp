@@ -51,9 +51,9 @@ void dropEmpty(Look& look) {
 
 void dropMissing(Look& look, const Scene& scene) {
   std::erase_if(look.material, [&](const auto& each) {
-    return !each.first.empty() &&
-           std::ranges::none_of(scene.materials,
-                                [&](const Material& m) { return m.name == each.first; });
+    return !each.first.empty() && std::ranges::none_of(scene.materials, [&](const Material& m) {
+      return m.name == each.first;
+    });
   });
   if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) look.cameraIndex.reset();
 }

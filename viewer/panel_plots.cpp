@@ -127,7 +127,8 @@ void differencePlot(const Curve& chosen, const Curve& exact, double largest,
   axes.gridY(0, "0");
   std::snprintf(text, sizeof text, "%.0e", tick);
   std::string shortened = text;  // 2e-03 as 2e-3
-  if (const auto zero = shortened.find("e-0"); zero != std::string::npos) shortened.erase(zero + 2, 1);
+  if (const auto zero = shortened.find("e-0"); zero != std::string::npos)
+    shortened.erase(zero + 2, 1);
   if (const auto plus = shortened.find("e+00"); plus != std::string::npos) shortened.erase(plus);
   axes.gridY(tick, shortened.c_str());
   axes.gridY(-tick, "");
