@@ -31,7 +31,8 @@ layout(std140) uniform MaterialBlock {
   vec4 color;            // rgb: C, a: alpha
   vec4 emission;         // rgb; a: alpha cutoff
   vec4 strength;         // m_a, m_d, m_s, exponent of the lobe
-  vec4 surface;          // x: metalness, y: transmission
+  vec4 surface;          // metalness, transmission, R0, k of the rational reflectance
   vec4 entering;         // Boundary of front faces
   vec4 leaving;          // Boundary of back faces
+  vec4 lobe;             // xy: constants of the lobe's form
 } material;

@@ -1,14 +1,22 @@
 // environment: the Blinn-Phong sum, plus what the surface reflects and refracts of the environment.
 #if !VERTEX_STAGE
+#if DIELECTRIC
 float reflectance(float cosine, Boundary boundary) {
 #if FRESNEL == FRESNEL_TEXTBOOK
   return fresnelTextbook(cosine, boundary);
+#elif FRESNEL == FRESNEL_SCHLICK && SCHLICK_FIFTH
+  return fresnelSchlickFifth(cosine, boundary, material.surface.z);
 #elif FRESNEL == FRESNEL_SCHLICK
-  return fresnelSchlick(cosine, boundary, frame.view.w);
+  return fresnelSchlick(cosine, boundary, material.surface.z, frame.view.w);
+#elif FRESNEL == FRESNEL_SCHLICK_EXP2
+  return fresnelSchlickExp2(cosine, boundary, material.surface.z);
+#elif FRESNEL == FRESNEL_RATIONAL
+  return fresnelRational(cosine, boundary, material.surface.z, material.surface.w);
 #else
   return fresnelExact(cosine, boundary);
 #endif
 }
+#endif
 
 vec3 environmentToward(vec3 eyeDirection) {
   return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection);

@@ -37,17 +37,40 @@ float fresnelTextbook(float cosine, Boundary b) {
   return min(0.5 * (rs * rs + rp * rp), 1.0);
 }
 
-// Schlick 1994: R0 + (1 - R0)(1 - c)^exponent, with the cosine on the thinner side: from the denser
-// side that is the refracted one, and beyond the critical angle R is 1. Equal indices give 0.
-float fresnelSchlick(float cosine, Boundary b, float exponent) {
-  float c = clamp(cosine, 0.0, 1.0), n = sqrt(b.square);
-  if (b.e == 0.0) return 0.0;
-  if (b.e < 0.0) {
-    float g2 = refractedSquare(c, b);
-    if (g2 <= 0.0) return 1.0;
-    c = min(sqrt(g2) / n, 1.0);
-  }
-  float normal = b.e / ((n + 1.0) * (n + 1.0)), x = 1.0 - c;
-  float r0 = normal * normal;
-  return r0 + (1.0 - r0) * (x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : 1.0);
+// The cosine on the thinner side, in which Schlick's family is written: from the denser side that is
+// the refracted one, 0 in total reflection.
+float thinnerCosine(float cosine, Boundary b) {
+  float c = clamp(cosine, 0.0, 1.0);
+  return b.e < 0.0 ? min(sqrt(max(refractedSquare(c, b), 0.0) / b.square), 1.0) : c;
+}
+
+// R0 + (1 - R0) fall, where `fall` stands for (1 - c)^5: 1 at grazing and in total reflection, where
+// c is 0; 0 for equal indices. `normal` is R0, the reflectance at normal incidence.
+float schlickFrame(float c, Boundary b, float normal, float fall) {
+  return b.e == 0.0 ? 0.0 : c > 0.0 ? normal + (1.0 - normal) * fall : 1.0;
+}
+
+// Schlick 1994, with any exponent in place of 5.
+float fresnelSchlick(float cosine, Boundary b, float normal, float exponent) {
+  float c = thinnerCosine(cosine, b), x = 1.0 - c;
+  return schlickFrame(c, b, normal, x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : 1.0);
+}
+
+// With the exponent 5, by products.
+float fresnelSchlickFifth(float cosine, Boundary b, float normal) {
+  float c = thinnerCosine(cosine, b), x = 1.0 - c, x2 = x * x;
+  return schlickFrame(c, b, normal, x2 * x2 * x);
+}
+
+// Lagarde 2013: one exp2 in place of the products.
+float fresnelSchlickExp2(float cosine, Boundary b, float normal) {
+  float c = thinnerCosine(cosine, b);
+  return schlickFrame(c, b, normal, exp2((-5.55473 * c - 6.98316) * c));
+}
+
+// R0 + (1 - R0) ((1 - c) / (1 + k c))^2 with the k that suits the indices best (rationalMinimax of
+// src/shading/fresnel.h).
+float fresnelRational(float cosine, Boundary b, float normal, float k) {
+  float c = thinnerCosine(cosine, b), ratio = (1.0 - c) / (1.0 + k * c);
+  return schlickFrame(c, b, normal, ratio * ratio);
 }

@@ -1,5 +1,7 @@
 // The highlight's lobe: max(1 - lambda, 0)^exponent, where 1 - lambda is the cosine R.V (Phong) or
-// N.H (Blinn-Phong).
+// N.H (Blinn-Phong), and forms that come near it for less. src/shading/lobe.h has the same in
+// double, src/shading/bounds.h how far each is off. What depends on the exponent alone comes from
+// the CPU (material.lobe).
 
 // lambda = 1 - R.V = |V - R|^2 / 2 from D = L + V - 2 (N.L) N (Lyon 1993): near the peak, where the
 // lobe is steep, D is small and exact while R.V rounds to a staircase. `lightPlusView` is L + V.
@@ -33,3 +35,50 @@ float lobeExact(float lambda, float exponent) {
 float lobePow(float cosine, float exponent) {
   return cosine > 0.0 ? pow(min(cosine, 1.0), exponent) : 0.0;
 }
+
+// x^power for a constant from 1 to 255: the squarings and products that the power needs, and no
+// more, once the compiler has folded the tests.
+float powerOf(float x, int power) {
+  float p = (power & 1) != 0 ? x : 1.0, s = x;
+  if (power > 1) s *= s;
+  if ((power & 2) != 0) p *= s;
+  if (power > 3) s *= s;
+  if ((power & 4) != 0) p *= s;
+  if (power > 7) s *= s;
+  if ((power & 8) != 0) p *= s;
+  if (power > 15) s *= s;
+  if ((power & 16) != 0) p *= s;
+  if (power > 31) s *= s;
+  if ((power & 32) != 0) p *= s;
+  if (power > 63) s *= s;
+  if ((power & 64) != 0) p *= s;
+  if (power > 127) s *= s;
+  if ((power & 128) != 0) p *= s;
+  return p;
+}
+
+// A whole exponent, by squaring.
+float lobeInteger(float lambda, int exponent) { return powerOf(max(1.0 - lambda, 0.0), exponent); }
+
+// Lyon 1993: (1 - lambda)^exponent for max(1 - beta lambda, 0)^gamma, near the peak where beta
+// lambda is small; beta = exponent / gamma, or a little less (tuned).
+float lobeLyon(float lambda, float beta, int gamma) {
+  return powerOf(max(1.0 - beta * lambda, 0.0), gamma);
+}
+
+// The same on the cross product: |R x V|^2 / 2 = lambda (2 - lambda) / 2 in place of lambda, which
+// is small again at V = -R, hence the gate. `halfBeta` is exponent / (2 gamma).
+float lobeLyonCross(float lambda, float halfBeta, int gamma) {
+  float base = max(1.0 - halfBeta * (lambda * (2.0 - lambda)), 0.0);
+  return lambda < 1.0 ? powerOf(base, gamma) : 0.0;
+}
+
+// The [1/1] Pade approximant of (1 - lambda)^beta, beta = exponent / gamma, raised to gamma: `falls`
+// is 1 + beta, `rises` beta - 1. Rounding is monotone, so the quotient does not exceed 1.
+float lobePade(float lambda, float falls, float rises, int gamma) {
+  float top = 2.0 - falls * lambda;
+  return top > 0.0 ? powerOf(top / (2.0 + rises * lambda), gamma) : 0.0;
+}
+
+// The spherical Gaussian exp(-(exponent + 0.69) lambda); `rate` is (exponent + 0.69) / log(2).
+float lobeGaussian(float lambda, float rate) { return exp2(-rate * lambda); }

@@ -4,6 +4,25 @@ struct LightSum {
   vec3 specular;  // m_s sum of I lobe
 };
 
+#if SPECULAR && HIGHLIGHT != HIGHLIGHT_POW
+// The form of this variant; pow alone takes the cosine itself.
+float lobeOf(float lambda) {
+#if HIGHLIGHT == HIGHLIGHT_INTEGER
+  return lobeInteger(lambda, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_LYON || HIGHLIGHT == HIGHLIGHT_LYON_TUNED
+  return lobeLyon(lambda, material.lobe.x, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_LYON_CROSS
+  return lobeLyonCross(lambda, material.lobe.x, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_PADE
+  return lobePade(lambda, material.lobe.x, material.lobe.y, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_GAUSSIAN
+  return lobeGaussian(lambda, material.lobe.x);
+#else
+  return lobeExact(lambda, material.strength.w);
+#endif
+}
+#endif
+
 // Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
 // and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
 // (Blinn-Phong) where those are constant, and is not read otherwise.
@@ -24,13 +43,13 @@ void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 c
 #if HIGHLIGHT == HIGHLIGHT_POW
   float lobe = lobePow(dot(n, h), material.strength.w);
 #else
-  float lobe = lobeExact(blinnLambda(n, h), material.strength.w);
+  float lobe = lobeOf(blinnLambda(n, h));
 #endif
 #else
 #if HIGHLIGHT == HIGHLIGHT_POW
   float lobe = lobePow(dot(2.0 * cosLight * n - l, v), material.strength.w);
 #else
-  float lobe = lobeExact(phongLambda(n, between, cosLight), material.strength.w);
+  float lobe = lobeOf(phongLambda(n, between, cosLight));
 #endif
 #endif
   sum.specular += intensity * lobe;

@@ -25,7 +25,7 @@ namespace {
 
 // Runs the conditions of a text: what is left is what the driver compiles. Fails on an #if that
 // reads a name nobody defines (it would be 0 in silence), on unbalanced #ifs and on a name defined
-// twice. The conditions here are made of names, numbers, !, &&, ||, ==, > and brackets.
+// twice. The conditions here are made of names, numbers, !, &&, ||, ==, !=, > and brackets.
 class Preprocessor {
  public:
   std::string run(const std::string& text) {
@@ -99,6 +99,7 @@ class Preprocessor {
   int comparison() {
     const int a = unary();
     if (take("==")) return a == unary();
+    if (take("!=")) return a != unary();
     if (take(">")) return a > unary();
     return a;
   }
@@ -177,11 +178,21 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
     EXPECT_EQ(holds("for ("), lights > 0) << program.name;
     EXPECT_EQ(holds("discard"), v.alphaMask) << program.name;
     EXPECT_EQ(holds("vertexColor"), v.vertexColors) << program.name;
-    EXPECT_EQ(holds("lobeExact(phongLambda") || holds("lobeExact(blinnLambda"),
-              v.specular && v.highlight == glint::Highlight::exact)
-        << program.name;
-    EXPECT_EQ(holds("= lobePow("), v.specular && v.highlight == glint::Highlight::pow)
-        << program.name;
+    constexpr const char* lobes[] = {"return lobeExact(",   "= lobePow(",
+                                     "return lobeInteger(", "return lobeLyon(",
+                                     "return lobeLyon(",    "return lobeLyonCross(",
+                                     "return lobePade(",    "return lobeGaussian("};
+    for (const char* lobe : lobes)
+      EXPECT_EQ(holds(lobe), v.specular && lobe == std::string_view(lobes[int(v.highlight.form)]))
+          << program.name << " " << lobe;
+    constexpr const char* reflectances[] = {
+        "return fresnelExact(",       "return fresnelTextbook(", "return fresnelSchlick(",
+        "return fresnelSchlickExp2(", "return fresnelRational(", "return fresnelSchlickFifth("};
+    for (const char* each : reflectances) {
+      const bool used = v.dielectric &&
+                        each == std::string_view(reflectances[v.schlickFifth ? 5 : int(v.fresnel)]);
+      EXPECT_EQ(holds(each), used) << program.name << " " << each;
+    }
     EXPECT_EQ(holds("environmentRadiance"), v.program == Shading::environment && !v.unlit)
         << program.name;
     EXPECT_EQ(holds("float t = "), v.refraction) << program.name;

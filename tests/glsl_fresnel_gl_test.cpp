@@ -127,19 +127,62 @@ TEST_P(GlslFresnel, Textbook) {
   }
 }
 
-TEST_P(GlslFresnel, Schlick) {
-  // The power: x^k is exp2(k log2 x), log2 off by 2^-21 near 1 (GLSL): k 3.4e-7 x^k, at most
-  // 3.4e-7 k, and 1e-6 for the rest. The cosine of refraction: cos^2 is off by 4 roundings, its
-  // root by rootError; the power's slope in it is k (1 - c)^(k - 1), largest at the smallest c.
+TEST_P(GlslFresnel, SchlicksFamily) {
+  // From the denser side cos^2 of refraction is off by 4 roundings and the division's, its root by
+  // rootError; `slope` is how much the falling function magnifies that. Then, with u = 2^-24:
+  // - x^k by pow is exp2(k log2 x), log2 off by 2^-21 near 1 (GLSL): k 3.4e-7 x^k;
+  // - x^5 by products: 5 u of x and 3 u;
+  // - exp2: its argument by 4 u, itself by 3 + 2 |y| in 2^-23 (GLSL): as the Gaussian lobe, 8 u;
+  // - the rational square: quotient by 4 u and the division's 5 u (GLSL), twice, and u;
+  // and four more to put R0 and it together: 1e-6 for the rest, 1.5e-6 with a division.
+  struct Form {
+    const char *name, *function;
+    double parameter;  ///< the exponent of pow; below 0 the k of the indices
+    double (*truth)(double c, const Indices&, double parameter);
+    double (*slope)(double c, double parameter);  ///< largest from c on
+    double rest;
+  };
+  const auto byPower = [](double c, const Indices& i, double power) {
+    return schlick(c, i.n1, i.n2, power);
+  };
+  const auto powerSlope = [](double c, double power) {
+    return power == 0 ? 0 : power * std::pow(std::clamp(1 - c, 0.0, 1.0), power - 1);
+  };
+  std::vector<Form> forms;
+  for (double power : {0.0, 1.0, 2.5, 5.0, 20.0})
+    forms.push_back({"pow", "float fresnelSchlick(float, Boundary, float, float)", power, byPower,
+                     powerSlope, 1e-6 + 3.4e-7 * power});
+  forms.push_back({"fifth",
+                   "float fifth(float c, Boundary b, float r, float unused) "
+                   "{ return fresnelSchlickFifth(c, b, r); }",
+                   5, byPower, powerSlope, 1e-6});
+  forms.push_back({"exp2",
+                   "float power(float c, Boundary b, float r, float unused) { return "
+                   "fresnelSchlickExp2(c, b, r); }",
+                   0, [](double c, const Indices& i, double) { return schlickExp2(c, i.n1, i.n2); },
+                   [](double c, double) {
+                     return (6.98316 + 11.10946 * c) * 0.6932 *
+                            std::exp2((-5.55473 * c - 6.98316) * c);
+                   },
+                   1e-6});
+  forms.push_back({"rational", "float fresnelRational(float, Boundary, float, float)", -1,
+                   [](double c, const Indices& i, double slope) {
+                     return schlickRational(c, fresnelConstants(i.n1, i.n2), slope);
+                   },
+                   [](double c, double slope) {
+                     const double low = 1 + slope * c;
+                     return 2 * (1 + slope) / (low * low * low);
+                   },
+                   1.5e-6});
   for (const Indices& i : indices())
-    for (double k : {0.0, 1.0, 2.5, 5.0, 20.0}) {
+    for (const Form& form : forms) {
       const FresnelConstants constants = fresnelConstants(i.n1, i.n2);
-      const Column c = cosines(i), b = boundary(constants), exponent{float(k)};
-      const Column got =
-          probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, exponent});
+      const double k = form.parameter < 0 ? rationalMinimax(i.n1, i.n2) : form.parameter;
+      const Column c = cosines(i), b = boundary(constants), r0{float(constants.r0)},
+                   parameter{float(k)};
+      const Column got = probe_->run(form.function, {c, b, r0, parameter});
       const ErrorRecord record = measureErrors(
-          got, 1,
-          [&](std::size_t row, std::size_t) { return schlick(double(c[row]), i.n1, i.n2, k); },
+          got, 1, [&](std::size_t row, std::size_t) { return form.truth(double(c[row]), i, k); },
           [&](std::size_t row, std::size_t) {
             double off = ulp1, t = c[row];
             if (i.n1 > i.n2) {
@@ -147,12 +190,11 @@ TEST_P(GlslFresnel, Schlick) {
               off = rootError(cos2, 4 * ulp1);
               t = std::sqrt(std::max(cos2, 0.0));
             }
-            const double slope =
-                k == 0 ? 0 : k * std::pow(std::clamp(1 - t + off, 0.0, 1.0), k - 1);
-            return 1e-6 + 3.4e-7 * k + slope * off;
+            return form.rest + form.slope(std::max(t - off, 0.0), k) * off;
           });
-      expectWithin(record, "fresnelSchlick^" + std::to_string(k) + " " + nameOf(i),
-                   {c, b, exponent}, {1, 4, 1});
+      expectWithin(record, std::string(form.name) + " " + std::to_string(k) + " " + nameOf(i),
+                   {c, b, r0, parameter}, {1, 4, 1, 1});
+      for (float value : got) ASSERT_TRUE(value >= 0 && value <= 1 + 1e-6f) << value;
     }
 }
 
@@ -160,22 +202,33 @@ TEST_P(GlslFresnel, EqualIndicesReflectNothing) {  // K1, K2
   Column c{0, -0.0f, 1, -1, 2};
   for (int k = 0; k < 10000; ++k) c.push_back(std::exp(-20 * float(k) / 10000));
   const Column nothing(c.size(), 0.0f);
-  const Column b = boundary(fresnelConstants(1.5, 1.5)), five{5};
+  const Column b = boundary(fresnelConstants(1.5, 1.5)), zero{0}, five{5};
   EXPECT_EQ(probe_->run("float fresnelExact(float, Boundary)", {c, b}), nothing);
   EXPECT_EQ(probe_->run("float fresnelTextbook(float, Boundary)", {c, b}), nothing);
-  EXPECT_EQ(probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, five}), nothing);
+  EXPECT_EQ(probe_->run("float fresnelSchlick(float, Boundary, float, float)", {c, b, zero, five}),
+            nothing);
+  EXPECT_EQ(probe_->run("float fresnelSchlickFifth(float, Boundary, float)", {c, b, zero}),
+            nothing);
+  EXPECT_EQ(probe_->run("float fresnelSchlickExp2(float, Boundary, float)", {c, b, zero}), nothing);
+  EXPECT_EQ(probe_->run("float fresnelRational(float, Boundary, float, float)", {c, b, zero, zero}),
+            nothing);
 }
 
 TEST_P(GlslFresnel, CosinesOutsideTheRange) {
   // K5, K6, K7, K8: below 0 counts as 0, where R is 1; above 1 as 1.
   const Column c{0, -0.0f, -0.2f, -1, stepFloat(0, -1), 1, stepFloat(1, 1), 1.5f, 1e30f};
   for (const Indices& i : indices()) {
-    const Column b = boundary(fresnelConstants(i.n1, i.n2)), five{5};
+    const double r0 = fresnelConstants(i.n1, i.n2).r0;
+    const Column b = boundary(fresnelConstants(i.n1, i.n2)), normal{float(r0)}, five{5},
+                 slope{2.2f};
     for (const Column& r :
          {probe_->run("float fresnelExact(float, Boundary)", {c, b}),
           probe_->run("float fresnelTextbook(float, Boundary)", {c, b}),
-          probe_->run("float fresnelSchlick(float, Boundary, float)", {c, b, five})}) {
-      const double r0 = fresnelConstants(i.n1, i.n2).r0;
+          probe_->run("float fresnelSchlickFifth(float, Boundary, float)", {c, b, normal}),
+          probe_->run("float fresnelRational(float, Boundary, float, float)",
+                      {c, b, normal, slope}),
+          probe_->run("float fresnelSchlick(float, Boundary, float, float)",
+                      {c, b, normal, five})}) {
       for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(r[k], 1, 2e-6) << nameOf(i) << " " << c[k];
       for (std::size_t k = 5; k < 9; ++k) {
         EXPECT_NEAR(r[k], r0, 2e-6) << nameOf(i) << " " << c[k];

@@ -271,4 +271,128 @@ TEST_P(GlslLobe, HuntedWorstInput) {
                 describeRow({log.input}, {1}, 0).c_str());
 }
 
+// The forms that come near the lobe, from the same lambda, with u = 2^-24, the rounding of one
+// operation. What they have in common is a base b in [0, 1] to a power p by squaring: b off by d
+// moves b^p by p b^(p-1) d, and the squarings by (p - 1) u b^p.
+TEST_P(GlslLobe, FormsBySquaring) {
+  struct Case {
+    std::string name, function;
+    LobeForm form;
+    int gamma;
+    double alpha;
+    Column first, second;  ///< what the CPU gives
+  };
+  std::vector<Case> cases;
+  const auto call = [](const char* function, const std::string& arguments, int power) {
+    return "float form(float x, float a, float b) { return " + std::string(function) + "(x, " +
+           arguments + std::to_string(power) + "); }";
+  };
+  for (double alpha : {1.0, 2.0, 3.0, 7.0, 20.0, 127.0, 128.0})
+    cases.push_back({"integer",
+                     call("lobeInteger", "", int(alpha)),
+                     LobeForm::integer,
+                     int(alpha),
+                     alpha,
+                     {0},
+                     {0}});
+  for (int gamma : {1, 2, 4, 8, 16, 32, 64})
+    for (double alpha : {0.5, 1.0, 10.0, 64.0, 1e3, 1e6}) {
+      const double beta = alpha / gamma;
+      cases.push_back({"lyon",
+                       call("lobeLyon", "a, ", gamma),
+                       LobeForm::lyon,
+                       gamma,
+                       alpha,
+                       {float(beta)},
+                       {0}});
+      cases.push_back({"lyon-tuned",
+                       call("lobeLyon", "a, ", gamma),
+                       LobeForm::lyonTuned,
+                       gamma,
+                       alpha,
+                       {float(tunedSlope(alpha, gamma))},
+                       {0}});
+      cases.push_back({"lyon-cross",
+                       call("lobeLyonCross", "a, ", gamma),
+                       LobeForm::lyonCross,
+                       gamma,
+                       alpha,
+                       {float(beta / 2)},
+                       {0}});
+      cases.push_back({"pade",
+                       call("lobePade", "a, b, ", gamma),
+                       LobeForm::pade,
+                       gamma,
+                       alpha,
+                       {float(1 + beta)},
+                       {float(beta - 1)}});
+    }
+  for (const Case& each : cases) {
+    Column lambda{0, stepFloat(1, -1), 1, stepFloat(1, 1), stepFloat(2, -1), 2, 0.5f};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> v(0, 1);
+    for (int i = 0; i < 3000; ++i) {
+      lambda.push_back(float(std::min(8 * v(random) / each.alpha, 2.0)));
+      lambda.push_back(float(2 * v(random)));
+      lambda.push_back(floatAtOrder(std::int32_t(floatOrder(1.0f) * v(random))));
+    }
+    const Columns columns{lambda, each.first, each.second};
+    const Column got = probe_->run(each.function, columns);
+    const double u = ulp1, g = each.gamma, beta = each.alpha / g;
+    const auto bound = [&](std::size_t row, std::size_t) {
+      const double x = lambda[row];
+      double base = 1 - (each.form == LobeForm::integer ? 1 : beta) * x, off = 3 * u;
+      // b = 1 - y with y <= 1: y by 2 products (with the cross product 4), the difference once.
+      if (each.form == LobeForm::lyonTuned) base = 1 - tunedSlope(each.alpha, each.gamma) * x;
+      if (each.form == LobeForm::lyonCross) base = 1 - 0.5 * beta * x * (2 - x), off = 5 * u;
+      if (each.form == LobeForm::pade) {
+        // Each side by 2 products and a sum, the division by 2.5 in 2^-23 (GLSL).
+        const double top = 2 - (1 + beta) * x, bottom = 2 + (beta - 1) * x;
+        base = top / bottom;
+        off = (2 * u * (1 + beta) * x + u * std::abs(top) +
+               base * (2 * u * std::abs(beta - 1) * x + u * bottom)) /
+                  bottom +
+              5 * u * base;
+        if (!(bottom > 0 && off >= 0)) off = 0, base = std::max(std::min(base, 1.0), 0.0);
+      }
+      const double most = std::clamp(base + off, 0.0, 1.0);
+      return g * std::pow(most, g - 1) * off + g * u * std::pow(most, g) + 1e-37;
+    };
+    const ErrorRecord record = measureErrors(
+        got, 1,
+        [&](std::size_t row, std::size_t) {
+          return lobe(each.form, each.gamma, lambda[row], each.alpha);
+        },
+        bound);
+    expectWithin(
+        record,
+        each.name + ":" + std::to_string(each.gamma) + " alpha " + std::to_string(each.alpha),
+        columns, {1, 1, 1});
+    for (float value : got) ASSERT_TRUE(value >= 0 && value <= 1 + 64 * 6e-8) << value;
+  }
+}
+
+TEST_P(GlslLobe, Gaussian) {
+  // y = rate lambda is off by 2 u, exp2(-y) by 3 + 2 y in 2^-23 of its value (GLSL): together at
+  // most max over y of 2^-y (2 u y log 2 + 2 u (3 + 2 y)) = 6.3 u.
+  for (double alpha : exponents) {
+    if (alpha == 0) continue;
+    Column lambda{0, 1, 2, stepFloat(2, 1), 0.5f};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> v(0, 1);
+    for (int i = 0; i < 20000; ++i) {
+      lambda.push_back(float(std::min(8 * v(random) / alpha, 2.0)));
+      lambda.push_back(float(2 * v(random)));
+    }
+    const Column rate{float((alpha + gaussianShift) / std::log(2.0))};
+    const Columns columns{lambda, rate};
+    const Column got = probe_->run("float lobeGaussian(float, float)", columns);
+    const ErrorRecord record = measureErrors(
+        got, 1, [&](std::size_t row, std::size_t) { return gaussian(lambda[row], alpha); },
+        [](std::size_t, std::size_t) { return 6.5 * ulp1; });
+    expectWithin(record, "lobeGaussian alpha " + std::to_string(alpha), columns, {1, 1});
+    for (float value : got) ASSERT_TRUE(value >= 0 && value <= 1) << value;
+  }
+}
+
 GLINT_ON_SOFTWARE_BACKENDS(GlslLobe);

@@ -81,6 +81,26 @@ const std::vector<Good>& goodTexts() {
       {"shading", "environment", [](Look& l) { l.shading = Shading::environment; }},
       {"highlight", "exact", [](Look&) {}},
       {"highlight", "pow", [](Look& l) { l.highlight = Highlight::pow; }},
+      {"highlight", "integer", [](Look& l) { l.highlight = Highlight::integer; }},
+      {"highlight", "lyon:8",
+       [](Look& l) {
+         l.highlight = {Highlight::lyon, 8};
+       }},
+      {"highlight", "lyon-tuned:1",
+       [](Look& l) {
+         l.highlight = {Highlight::lyonTuned, 1};
+       }},
+      {"highlight", "lyon-cross:64",
+       [](Look& l) {
+         l.highlight = {Highlight::lyonCross, 64};
+       }},
+      {"highlight", "pade:+4",
+       [](Look& l) {
+         l.highlight = {Highlight::pade, 4};
+       }},
+      {"highlight", "gaussian", [](Look& l) { l.highlight = Highlight::gaussian; }},
+      {"fresnel", "schlick-exp2", [](Look& l) { l.fresnel = Fresnel::schlickExp2; }},
+      {"fresnel", "rational", [](Look& l) { l.fresnel = Fresnel::rational; }},
       {"fresnel", "exact", [](Look&) {}},
       {"fresnel", "textbook", [](Look& l) { l.fresnel = Fresnel::textbook; }},
       {"fresnel", "schlick", [](Look& l) { l.fresnel = Fresnel::schlick; }},
@@ -100,6 +120,18 @@ const std::vector<Good>& goodTexts() {
                 [](auto& m) {
                   m.color = glm::dvec3(1);
                   m.ior = 1.33;
+                })},
+      {"material", "a:b:highlight=lyon:8,exponent=3",
+       material("a:b",
+                [](auto& m) {
+                  m.highlight = glint::HighlightForm(Highlight::lyon, 8);
+                  m.exponent = 3;
+                })},
+      {"material", "highlight=pow,fresnel=rational",
+       material("",
+                [](auto& m) {
+                  m.highlight = Highlight::pow;
+                  m.fresnel = Fresnel::rational;
                 })},
       {"material", "a:b, c:specular=0.5", material("a:b, c", [](auto& m) { m.specular = 0.5; })},
       {"material", "ambient=0,diffuse=1e6,specular=0,exponent=0,metalness=0,ior=1e-3",
@@ -202,8 +234,10 @@ const std::vector<Good>& goodTexts() {
 const std::map<std::string, std::vector<std::string>>& badTexts() {
   static const std::map<std::string, std::vector<std::string>> table{
       {"shading", {"", "Phong", "phon", "auto", "blinnphong"}},
-      {"highlight", {"", "lyon:8", "gaussian", "Exact"}},
-      {"fresnel", {"", "rational", "schlick-exp2"}},
+      {"highlight",
+       {"", "lyon", "lyon:", "lyon:0", "lyon:3", "lyon:128", "lyon:-8", "lyon:8:8", "lyon:8.0",
+        "pade", "gaussian:8", "exact:1", "integer:4", "Exact", "lyontuned:8"}},
+      {"fresnel", {"", "Rational", "schlick-exp", "rational:2"}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
       {"schlick-exponent", {"", "-0.1", "1e9", "nan"}},
       {"material",
@@ -229,7 +263,11 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
         "Helmet:=1",
         "ambient=1e7",
         "diffuse=inf",
-        "specular=-1"}},
+        "specular=-1",
+        "highlight=",
+        "highlight=lyon",
+        "highlight=exact,1",
+        "fresnel=lyon:8"}},
       {"two-sided", {"", "yes", "1", "True"}},
       {"ambient-light",
        {"", "1", "1,1", "1,1,1,1", "-1,0,0", "nan,0,0", "#12", "#gggggg", "1e7,0,0"}},
@@ -293,8 +331,8 @@ class RandomLooks {
   Look next() {
     Look l;
     l.shading = glint::Shading(index(5));
-    l.highlight = glint::Highlight(index(2));
-    l.fresnel = glint::Fresnel(index(3));
+    l.highlight = highlight();
+    l.fresnel = glint::Fresnel(index(5));
     l.blinnFactor = number(0, 1e3);
     l.schlickExponent = number(0, 1e3);
     for (const char* name : {"", "a", "b: c,d"})
@@ -354,7 +392,14 @@ class RandomLooks {
     if (coin()) e.metalness = number(0, 1);
     if (coin()) e.ior = number(1e-3, 1e3);
     if (coin()) e.color = vector(0, 1);
+    if (coin()) e.highlight = highlight();
+    if (coin()) e.fresnel = glint::Fresnel(index(5));
     return e;
+  }
+  glint::HighlightForm highlight() {
+    const auto form = glint::Highlight(index(8));
+    const bool hasGamma = form >= glint::Highlight::lyon && form <= glint::Highlight::pade;
+    return {form, hasGamma ? 1 << index(7) : 0};
   }
   Light light() {
     Light l;

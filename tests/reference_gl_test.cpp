@@ -17,6 +17,7 @@
 #include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/gltf.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "reference_scenes.h"
 
@@ -105,6 +106,10 @@ double shadingBound(const Comparison& c, const Look& look) {
   // The textbook power of a dot product loses digits in proportion to the exponent (the notes
   // on accuracy): alpha times the rounding of the dot product, 8 * 2^-24 at most.
   if (look.highlight == Highlight::pow) bound += 8 * 6e-8 * c.alpha;
+  // The other forms are at most twice as steep as the exponential (Lyon's with gamma = 1), and a
+  // power p by squaring costs 3 p / 2 roundings.
+  if (look.highlight.form >= Highlight::integer)
+    bound += 6e-7 * std::sqrt(c.alpha) + 1.5 * 6e-8 * std::max(look.highlight.gamma, 100);
   // glint/shading/environment_map.h gives 6.5e-6 for single precision on unit directions.
   if (look.shading == Shading::environment) bound += 1e-5;
   return bound;
@@ -402,6 +407,44 @@ TEST_P(AgainstReference, SpecialScenes) {
       const Comparison c = compare(renderer, model, look);
       print(special.name, shading, c, wholeBound(c));
       expectAccurate(special.name, look, c);
+    }
+}
+
+// Every form of lobe and reflectance, drawn by both.
+TEST_P(AgainstReference, EveryForm) {
+  const auto context = openContext(GetParam());
+  context->makeCurrent();
+  Renderer renderer;
+  Model model;
+  model.scene = loadGltf(GLINT_SOURCE_DIR "/models/torus.glb");
+  for (Material& m : model.scene.materials) m.transmission = 0.6;
+  model.bounds = boundsOf(model.scene);
+  printHeading();
+  for (const std::string& form : highlightTexts()) {
+    const HighlightForm highlight = parseHighlight(form, "form");
+    if (highlight.gamma != 0 && highlight.gamma != 4) continue;
+    for (Shading shading : {Shading::gouraud, Shading::phong, Shading::blinnPhong}) {
+      Look look = lookWith(shading, 100);
+      look.highlight = highlight;
+      const Comparison c = compare(renderer, model, look);
+      print(form, shading, c, wholeBound(c));
+      expectAccurate(form, look, c);
+    }
+  }
+  for (const std::string_view form : fresnelTexts())
+    for (const bool other : {false, true}) {
+      Look look = lookWith(Shading::environment, 100);
+      look.fresnel = parseFresnel(std::string(form), "form");
+      look.environment = Environment::sky;
+      look.twoSided = true;
+      look.material[""].metalness = 0.3;
+      if (other) {
+        look.mediumIor = 1.7;
+        look.schlickExponent = 4.5;
+      }
+      const Comparison c = compare(renderer, model, look);
+      print(std::string(form), look.shading, c, wholeBound(c));
+      expectAccurate(std::string(form), look, c);
     }
 }
 

@@ -152,6 +152,40 @@ const Case cases[] = {
        v.specular = false;
        v.pixelPosition = s == Shading::environment;
      }},
+    {"lyon",
+     [](VariantInputs& in) {
+       in.look.highlight = {glint::Highlight::lyon, 8};
+     },
+     [](Variant& v, Shading) {
+       v.highlight = {glint::Highlight::lyon, 8};
+     }},
+    {"gaussian for this material",
+     [](VariantInputs& in) {
+       in.look.highlight = glint::Highlight::pow;
+       in.material.highlight = glint::Highlight::gaussian;
+     },
+     [](Variant& v, Shading) { v.highlight = glint::Highlight::gaussian; }},
+    {"a form without exponent",
+     [](VariantInputs& in) {
+       in.look.highlight = {glint::Highlight::pade, 4};
+       in.material.shading.exponent = 0;
+     },
+     [](Variant&, Shading) {}},
+    {"integer",
+     [](VariantInputs& in) {
+       in.look.highlight = glint::Highlight::integer;
+       in.material.shading.exponent = 21;
+     },
+     [](Variant& v, Shading s) {
+       const bool blinn = s == Shading::blinnPhong || s == Shading::environment;
+       v.highlight = {glint::Highlight::integer, blinn ? 84 : 21};
+     }},
+    {"integer with another exponent",
+     [](VariantInputs& in) {
+       in.look.highlight = glint::Highlight::integer;
+       in.material.shading.exponent = 20.1;
+     },
+     [](Variant&, Shading) {}},
     {"infinite viewer", [](VariantInputs& in) { in.look.viewer = glint::Viewer::infinite; },
      [](Variant& v, Shading) {
        v.constantView = true;
@@ -259,7 +293,26 @@ const Case cases[] = {
      }},
     {"schlick", [](VariantInputs& in) { in.look.fresnel = glint::Fresnel::schlick; },
      [](Variant& v, Shading s) {
+       if (s == Shading::environment) {
+         v.fresnel = glint::Fresnel::schlick;
+         v.schlickFifth = true;
+       }
+     }},
+    {"schlick with another exponent",
+     [](VariantInputs& in) {
+       in.look.fresnel = glint::Fresnel::schlick;
+       in.look.schlickExponent = 4;
+     },
+     [](Variant& v, Shading s) {
        if (s == Shading::environment) v.fresnel = glint::Fresnel::schlick;
+     }},
+    {"rational, for this material",
+     [](VariantInputs& in) {
+       in.look.fresnel = glint::Fresnel::schlick;
+       in.material.fresnel = glint::Fresnel::rational;
+     },
+     [](Variant& v, Shading s) {
+       if (s == Shading::environment) v.fresnel = glint::Fresnel::rational;
      }},
     {"metal",
      [](VariantInputs& in) {

@@ -59,6 +59,20 @@ inline std::set<Variant> sampledVariants() {
         in.look.light = std::vector<Light>(128, lightOf(Light::Type::spot));
       },
       [](VariantInputs& in) { in.look.highlight = Highlight::pow; },
+      [](VariantInputs& in) { in.look.highlight = Highlight::integer; },
+      [](VariantInputs& in) {
+        in.look.highlight = {Highlight::lyon, 8};
+      },
+      [](VariantInputs& in) {
+        in.look.highlight = {Highlight::lyonTuned, 16};
+      },
+      [](VariantInputs& in) {
+        in.look.highlight = {Highlight::lyonCross, 4};
+      },
+      [](VariantInputs& in) {
+        in.look.highlight = {Highlight::pade, 64};
+      },
+      [](VariantInputs& in) { in.look.highlight = Highlight::gaussian; },
       [](VariantInputs& in) { in.orthographic = true; },
       [](VariantInputs& in) {
         in.world = scaling({1, 1, 10});
@@ -79,6 +93,12 @@ inline std::set<Variant> sampledVariants() {
       [](VariantInputs& in) { in.look.environment = Environment::white; },
       [](VariantInputs& in) { in.look.fresnel = Fresnel::textbook; },
       [](VariantInputs& in) { in.look.fresnel = Fresnel::schlick; },
+      [](VariantInputs& in) {
+        in.look.fresnel = Fresnel::schlick;
+        in.look.schlickExponent = 4;
+      },
+      [](VariantInputs& in) { in.look.fresnel = Fresnel::schlickExp2; },
+      [](VariantInputs& in) { in.look.fresnel = Fresnel::rational; },
       [](VariantInputs& in) { in.material.shading.metalness = 1; },
       [](VariantInputs& in) { in.material.shading.metalness = 0.5; },
       [](VariantInputs& in) { in.material.transmission = 0.5; },

@@ -21,6 +21,7 @@ Form formOf(const std::string& text) {
   Form f;
   if (colon != std::string::npos) f.gamma = std::max(1, std::atoi(text.c_str() + colon + 1));
   f.form = name == "pow"          ? LobeForm::pow
+           : name == "integer"    ? LobeForm::integer
            : name == "lyon"       ? LobeForm::lyon
            : name == "lyon-tuned" ? LobeForm::lyonTuned
            : name == "lyon-cross" ? LobeForm::lyonCross

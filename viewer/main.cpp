@@ -1,17 +1,15 @@
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
+#include <memory>
+#include <string>
 
 #include "app.h"
 #include "glint/cli/commands.h"
+#include "glint/cli/exit_status.h"
 #include "glint/cli/heap.h"
 #include "glint/cli/help.h"
-#include "glint/gl/context.h"
-#include "glint/image/error.h"
 
-namespace {
-
-int run(int argc, char** argv) {
+int main(int argc, char** argv) {
+  glint::adviseHeap();
   CLI::App app(
       "glint-viewer shows a model in a window: edit materials, lights and camera, compare two\n"
       "looks, see the lobe and the Fresnel curve; what is shown is what glint render draws.",
@@ -29,43 +27,17 @@ int run(int argc, char** argv) {
       ->type_name("FACTOR")
       ->check(CLI::Range(0.5, 4.0));
   const auto makeLook = glint::addLookOptions(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "glint: " << glint::usageMessage(app, error, argc, argv) << "\n";
-    return glint::unusable;
-  }
-  options.model = model;
-  options.glsl = glsl;
-  if (const CLI::Option* look = app.get_option("--look"); look->count() > 0)
-    options.look = look->as<std::string>();
-  const glint::Look look = makeLook();
-  options.settings = glint::loadSettings();
-  glint::Window window("glint", options.settings.window);
-  glint::App viewer(window, look, options);
-  viewer.run();
-  return glint::done;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  glint::adviseHeap();
-  try {
-    return run(argc, argv);
-  } catch (const glint::ContextError& error) {
-    std::cerr << "glint: " << error.what() << "\n";
-    return glint::noContext;
-  } catch (const glint::Error& error) {
-    std::cerr << "glint: " << error.what() << "\n";
-    return glint::unusable;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "glint: out of memory: give a smaller model or window\n";
-    return glint::unusable;
-  } catch (const std::exception& error) {
-    std::cerr << "glint: internal error: " << error.what() << ": please report this\n";
-    return glint::unusable;
-  }
+  const auto run = [&]() -> int {
+    options.model = model;
+    options.glsl = glsl;
+    if (const CLI::Option* look = app.get_option("--look"); look->count() > 0)
+      options.look = look->as<std::string>();
+    const glint::Look look = makeLook();
+    options.settings = glint::loadSettings();
+    glint::Window window("glint", options.settings.window);
+    glint::App viewer(window, look, options);
+    viewer.run();
+    return glint::done;
+  };
+  return glint::runProgram(app, argc, argv, run, "model or window");
 }

@@ -203,7 +203,7 @@ Command addDiff(CLI::App& app) {
       ->add_option("--tolerance", given->tolerance,
                    "of a pixel, 0 to 1: distance in YIQ, as pixelmatch's threshold [default: 0.1]")
       ->type_name("T")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(CLI::Range(0.0, 1.0).description(""));
   command->add_flag("--ignore-anti-aliasing", given->ignoreAntiAliasing,
                     "do not count pixels that look anti-aliased");
   command
@@ -220,7 +220,7 @@ Command addDiff(CLI::App& app) {
   text("--layer", given->layer, "NAME", "of EXR files: compare this layer");
   command->add_option("--pixels-per-degree", given->pixelsPerDegree, "for FLIP [default: 67.0206]")
       ->type_name("P")
-      ->check(CLI::Range(1e-3, 1000.0));
+      ->check(CLI::Range(1e-3, 1000.0).description(""));
   text("--screen", given->screen, "distance,pixels,width",
        "for FLIP instead: metres to the screen, pixels across, metres across");
   text("-o,--output", given->output, "FILE", "write a picture of the differences");
@@ -228,13 +228,13 @@ Command addDiff(CLI::App& app) {
        "what it shows: FLIP's map, |a - b|, or a, b and |a - b| [default: flip]");
   command->add_option("--scale", given->scale, "of |a - b| in that picture [default: 1]")
       ->type_name("K")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(CLI::Range(0.0, 1e6).description(""));
   text("--json", given->json, "FILE", "write all metrics as JSON; - is stdout");
   text("--junit", given->junit, "FILE", "write the results for a CI server");
   text("--html", given->html, "FILE", "write a report to look at, in one file");
   command->add_option("--jobs", given->jobs, "pairs at a time [default: as many as processors]")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->check(CLI::Range(1, 256).description(""));
   CLI::Option* updating =
       command
           ->add_option(

@@ -88,7 +88,13 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   if (sameSize && (pictures || flipOutput)) {
     if (!flipOutput) map.emplace();
     output.emplace(flipOutput ? settings.output : map->path, a.width, a.height);
-    options.metrics.push_back("flip");
+    const auto hdr = [](const auto& asked, auto nameOf) {
+      return std::any_of(asked.begin(), asked.end(),
+                         [&](const auto& one) { return nameOf(one) == "hdr-flip"; });
+    };
+    if (!hdr(options.metrics, [](const std::string& name) { return name; }) &&
+        !hdr(options.conditions, [](const Condition& condition) { return condition.metric; }))
+      options.metrics.push_back("flip");
     options.flipMap = [&](int, const float* errors) { output->add(errors); };
   }
   try {

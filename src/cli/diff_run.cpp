@@ -1,7 +1,5 @@
 #include "diff_run.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cctype>
@@ -17,6 +15,7 @@
 #include "diff_html.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "progress.h"
 
 namespace glint {
 namespace {
@@ -125,31 +124,14 @@ void update(const DiffRequest& request, DiffEntry& entry, const std::string& tar
   entry.note = made ? "baseline made" : "baseline replaced";
 }
 
-/// How many pairs are done, on a terminal.
-class Progress {
- public:
-  explicit Progress(std::size_t all) : all_(all), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) std::cerr << "\r\033[K";
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void add() {
-    if (shown_) std::cerr << "\r" << ++done_ << " of " << all_ << " pairs\033[K" << std::flush;
-  }
-
- private:
-  std::size_t all_, done_ = 0;
-  bool shown_;
-};
-
 void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* page,
                   std::vector<DiffEntry>& entries) {
   int jobs = request.jobs > 0 ? request.jobs : int(std::thread::hardware_concurrency());
   jobs = std::clamp(jobs, 1, int(std::min<std::size_t>(entries.size(), 64)));
   if (jobs > 1) settings.compare.flip.threads = 1;
   std::atomic<std::size_t> next = 0;
-  Progress progress(entries.size());
+  Progress progress("comparing");
+  std::size_t compared = 0;
   std::mutex mutex;
   std::exception_ptr failure;
   const auto work = [&] {
@@ -160,7 +142,7 @@ void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* p
         diffPair(settings, entries[i], page ? &pictures : nullptr);
         const std::lock_guard lock(mutex);
         if (page) page->add(i, entries[i].result.differing > 0, std::move(pictures));
-        progress.add();
+        progress.show(double(++compared) / double(entries.size()), entries[i].name);
       }
     } catch (...) {
       const std::lock_guard lock(mutex);
@@ -235,13 +217,14 @@ int diffFolders(const DiffRequest& request) {
   const bool toStdout = request.json == "-" || request.junit == "-" || request.html == "-";
   for (const DiffEntry& entry : entries) {
     json["pairs"].push_back(diffJson(entry, request.settings.compare));
-    if (entry.status != done && !toStdout) std::cout << diffLine(entry) << "\n";
   }
   json["summary"] = summary.json(entries.size());
-  if (!toStdout) std::cout << summary.line(entries.size()) << "\n";
   if (!request.json.empty()) writeText(request.json, jsonText(json));
   if (!request.junit.empty()) writeText(request.junit, junitXml(entries));
   if (page) page->finish(json);
+  for (const DiffEntry& entry : entries)
+    if (entry.status != done && !toStdout) std::cout << diffLine(entry) << "\n";
+  if (!toStdout) std::cout << summary.line(entries.size()) << "\n";
   return status;
 }
 
@@ -265,11 +248,6 @@ int diffPictures(const DiffRequest& request) {
                   " and accept it with --update";
   }
   if (request.updating) update(request, entry, request.a);
-  if (!entry.error.empty()) {
-    std::cerr << "glint: " << entry.error << "\n";
-  } else if (request.json != "-" && request.junit != "-" && request.html != "-") {
-    std::cout << diffLine(entry) << "\n";
-  }
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));
@@ -277,6 +255,11 @@ int diffPictures(const DiffRequest& request) {
   if (page) {
     page->add(0, entry.result.differing > 0, std::move(pictures));
     page->finish({{"a", request.a}, {"b", request.b}, {"pairs", Json::array({json})}});
+  }
+  if (!entry.error.empty()) {
+    std::cerr << "glint: " << entry.error << "\n";
+  } else if (request.json != "-" && request.junit != "-" && request.html != "-") {
+    std::cout << diffLine(entry) << "\n";
   }
   return entry.status;
 }

@@ -20,6 +20,8 @@ void mergeMaterials(Look& look, const Look& options) {
       for (const auto& p : materialParameters())
         if (all->second.*p.edit) (edit.*p.edit).reset();
       if (all->second.color) edit.color.reset();
+      if (all->second.highlight) edit.highlight.reset();
+      if (all->second.fresnel) edit.fresnel.reset();
     }
   }
   for (const auto& [name, from] : options.material) {
@@ -27,6 +29,8 @@ void mergeMaterials(Look& look, const Look& options) {
     for (const auto& p : materialParameters())
       if (from.*p.edit) to.*p.edit = from.*p.edit;
     if (from.color) to.color = from.color;
+    if (from.highlight) to.highlight = from.highlight;
+    if (from.fresnel) to.fresnel = from.fresnel;
   }
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }

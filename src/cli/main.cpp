@@ -1,10 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
+#include <memory>
+#include <utility>
 
 #include "commands.h"
-#include "glint/gl/context.h"
-#include "glint/image/error.h"
+#include "exit_status.h"
 #include "heap.h"
 #include "help.h"
 
@@ -14,7 +13,10 @@ constexpr const char* description =
     "glint draws a model with the classic shading models, offscreen, on any machine.\n"
     "Models are glTF 2.0 files; `glint COMMAND --help` lists a command's options.";
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int main(int argc, char** argv) {
+  glint::adviseHeap();
   CLI::App app(description, "glint");
   app.set_version_flag("--version", "glint " GLINT_VERSION);
   app.require_subcommand(1);
@@ -23,36 +25,10 @@ int run(int argc, char** argv) {
       {"render", glint::addRender(app)}, {"view", glint::addView(app)},
       {"diff", glint::addDiff(app)},     {"study", glint::addStudy(app)},
       {"info", glint::addInfo(app)},     {"backends", glint::addBackends(app)}};
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "glint: " << glint::usageMessage(app, error, argc, argv) << "\n";
+  const auto run = [&]() -> int {
+    for (const auto& [name, command] : commands)
+      if (app.got_subcommand(name)) return command();
     return glint::unusable;
-  }
-  for (const auto& [name, command] : commands)
-    if (app.got_subcommand(name)) return command();
-  return glint::unusable;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  glint::adviseHeap();
-  try {
-    return run(argc, argv);
-  } catch (const glint::ContextError& error) {
-    std::cerr << "glint: " << error.what() << "\n";
-    return glint::noContext;
-  } catch (const glint::Error& error) {
-    std::cerr << "glint: " << error.what() << "\n";
-    return glint::unusable;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "glint: out of memory: give a smaller --resolution or model\n";
-    return glint::unusable;
-  } catch (const std::exception& error) {
-    std::cerr << "glint: internal error: " << error.what() << ": please report this\n";
-    return glint::unusable;
-  }
+  };
+  return glint::runProgram(app, argc, argv, run, "--resolution or model");
 }

@@ -225,12 +225,12 @@ Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOpti
   std::function<void(int, unsigned char*)> counts;
   if (rows.ignoresSome()) counts = [&](int y, unsigned char* row) { rows.counted(y, row); };
   if (asked("flip")) {
-    result.flip = flip(rows.linearA(), rows.linearB(), options.flip, options.flipMap, counts);
+    result.flip = flip(rows.linearA(), rows.linearB(), options.flip,
+                       asked("hdr-flip") ? FlipRows() : options.flipMap, counts);
     result.values["flip"] = result.flip.mean;
   }
   if (asked("hdr-flip")) {
-    result.hdrFlip = hdrFlip(rows.linearA(), rows.linearB(), options.flip,
-                             asked("flip") ? FlipRows() : options.flipMap, counts);
+    result.hdrFlip = hdrFlip(rows.linearA(), rows.linearB(), options.flip, options.flipMap, counts);
     result.values["hdr-flip"] = result.hdrFlip.mean;
   }
   judge(options, result);

@@ -53,8 +53,7 @@ struct CompareOptions {
   const StoredImage* mask = nullptr;  ///< of the same size; black (below half) is ignored
   std::size_t worst = 10;             ///< how many of the worst pixels are kept
   FlipOptions flip;
-  FlipRows
-      flipMap;  ///< takes the rows of the map of "flip", or of "hdr-flip" if only that is asked
+  FlipRows flipMap;  ///< takes the rows of the map of "hdr-flip" if that is asked for, or "flip"
 };
 
 struct WorstPixel {

@@ -43,9 +43,23 @@ ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
 void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha,
                          float* rgba) const {
   const bool over = alpha == AlphaUse::over && image.hasAlpha();
-  // Laying one picture over another is done in linear light.
-  if (space == ValueSpace::encoded && !over) {
+  if (space == ValueSpace::encoded) {
     image.encodedRows(y, 1, rgba);
+    if (!over) return;
+    const auto opaque = [](float a) { return a == 1; };
+    bool all = true;
+    for (int x = 0; x < image.width; ++x) all = all && opaque(rgba[4 * x + 3]);
+    if (all) return;
+    // Laying a picture over another is done in linear light; what is opaque keeps its codes.
+    std::vector<float> linear(std::size_t(4) * image.width);
+    image.linearRows(y, 1, linear.data());
+    for (int x = 0; x < image.width; ++x) {
+      float* p = rgba + 4 * x;
+      if (opaque(p[3])) continue;
+      for (std::size_t c = 0; c < 3; ++c)
+        p[c] = encodedValue(linear[std::size_t(4) * x + c] + (1 - p[3]) * background_[c]);
+      p[3] = 1;
+    }
     return;
   }
   image.linearRows(y, 1, rgba);
@@ -59,10 +73,6 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
       }
     }
     if (over) p[3] = 1;
-  }
-  if (space == ValueSpace::encoded) {
-    for (int i = 0; i < 4 * image.width; ++i)
-      if (i % 4 != 3) rgba[i] = encodedValue(rgba[i]);
   }
 }
 
@@ -124,11 +134,13 @@ PixelRows ComparedRows::linearB() const {
 
 namespace {
 
-/// Luma as the authors' program makes grey of colours.
+/// Luma as the authors' program makes grey of colours (MATLAB's rgb2gray, which rounds to codes
+/// where this does not); the weights sum to 1, so that grey stays what it is.
 void lumaOf(const float* rgba, int width, double* luma) {
   for (int x = 0; x < width; ++x) {
     const float* p = rgba + 4 * x;
-    const double value = 0.2989 * p[0] + 0.5870 * p[1] + 0.1140 * p[2];
+    const double value =
+        0.298936021293775 * p[0] + 0.587043074451121 * p[1] + 0.114020904255104 * p[2];
     luma[x] = std::isfinite(value) ? value : 0;
   }
 }

@@ -51,8 +51,9 @@ struct Rows {
     bool edge = false;
     double lowest = 0, highest = 0;
     int lowX = 0, lowY = 0, highX = 0, highY = 0;
-    for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i) {
+    // Column by column: of equally dark or bright ones the first counts, as in pixelmatch.
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
         if (i == 0 && j == 0) continue;
         const float* neighbour = at(x + i, j);
         if (!neighbour) {

@@ -37,7 +37,8 @@ struct MaterialBlock {
   glm::vec4 surface{0};
   glm::vec4 entering{0};
   glm::vec4 leaving{0};
+  glm::vec4 lobe{0};
 };
-static_assert(sizeof(MaterialBlock) == 96);
+static_assert(sizeof(MaterialBlock) == 112);
 
 }  // namespace glint

@@ -46,8 +46,11 @@ std::string defines(const Variant& v) {
   text += define("SPOT_LIGHTS", v.spotLights);
   text += define("DIFFUSE", v.diffuse);
   text += define("SPECULAR", v.specular);
-  text += define("HIGHLIGHT_EXACT", 0) + define("HIGHLIGHT_POW", 1);
-  text += define("HIGHLIGHT", int(v.highlight));
+  constexpr const char* lobes[] = {"EXACT",      "POW",        "INTEGER", "LYON",
+                                   "LYON_TUNED", "LYON_CROSS", "PADE",    "GAUSSIAN"};
+  for (int i = 0; i < 8; ++i) text += define((std::string("HIGHLIGHT_") + lobes[i]).c_str(), i);
+  text += define("HIGHLIGHT", int(v.highlight.form));
+  text += define("LOBE_POWER", v.highlight.gamma);
   text += define("BLINN", v.program == Shading::blinnPhong || v.program == Shading::environment);
   text += define("CONSTANT_VIEW", v.constantView);
   text += define("UNEVEN_SCALE", v.unevenScale);
@@ -60,9 +63,10 @@ std::string defines(const Variant& v) {
   text += define("OPAQUE_OUTPUT", v.program == Shading::environment);
   if (v.program == Shading::environment) {
     text += environmentDefines(v.environment);
-    text +=
-        define("FRESNEL_EXACT", 0) + define("FRESNEL_TEXTBOOK", 1) + define("FRESNEL_SCHLICK", 2);
+    constexpr const char* forms[] = {"EXACT", "TEXTBOOK", "SCHLICK", "SCHLICK_EXP2", "RATIONAL"};
+    for (int i = 0; i < 5; ++i) text += define((std::string("FRESNEL_") + forms[i]).c_str(), i);
     text += define("FRESNEL", int(v.fresnel));
+    text += define("SCHLICK_FIFTH", v.schlickFifth);
     text += define("DIELECTRIC", v.dielectric);
     text += define("METAL", v.metal);
     text += define("REFRACTION", v.refraction);

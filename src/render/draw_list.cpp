@@ -8,6 +8,7 @@
 
 #include "glint/scene/parameters.h"
 #include "glint/shading/fresnel.h"
+#include "glint/shading/lobe.h"
 
 namespace glint {
 namespace {
@@ -40,7 +41,7 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
   std::stable_sort(lights.begin(), lights.end(),
                    [](const Light& a, const Light& b) { return order(a.type) < order(b.type); });
   const glm::dmat3 rotation = eyeRotation(camera), directions = glm::transpose(camera.axes);
-  const bool blinn = look.shading == Shading::blinnPhong || look.shading == Shading::environment;
+  const bool blinn = usesBlinn(look.shading);
   std::vector<LightEntry> entries;
   for (const Light& light : lights) {
     LightEntry e;
@@ -72,16 +73,40 @@ glm::vec4 boundary(const FresnelConstants& c) {
   return {float(c.e), float(c.nSquared), float(critical), float(critical - float(critical))};
 }
 
-MaterialBlock materialBlock(const Material& material, const Look& look) {
+// What a form of the lobe reads in place of the exponent (glsl/lobe.glsl).
+glm::vec4 lobeConstants(const HighlightForm& form, double exponent) {
+  const double gamma = form.gamma;
+  switch (form.form) {
+    case Highlight::exact:
+    case Highlight::pow:
+    case Highlight::integer:
+      break;
+    case Highlight::lyon:
+      return {exponent / gamma, 0, 0, 0};
+    case Highlight::lyonTuned:
+      return {tunedSlope(exponent, form.gamma), 0, 0, 0};
+    case Highlight::lyonCross:
+      return {0.5 * exponent / gamma, 0, 0, 0};
+    case Highlight::pade:
+      return {1 + exponent / gamma, exponent / gamma - 1, 0, 0};
+    case Highlight::gaussian:
+      return {(exponent + gaussianShift) / std::numbers::ln2, 0, 0, 0};
+  }
+  return glm::vec4(0);
+}
+
+MaterialBlock materialBlock(const Material& material, const Variant& variant, const Look& look) {
   const ShadingParameters& s = material.shading;
   MaterialBlock block;
   block.color = glm::vec4(glm::vec3(s.color), float(material.alpha));
   block.emission = glm::vec4(glm::vec3(material.emission), float(material.alphaCutoff));
-  const bool blinn = look.shading == Shading::blinnPhong || look.shading == Shading::environment;
-  const double exponent = blinn ? look.blinnFactor * s.exponent : s.exponent;
+  const double exponent = lobeExponent(material, look);
   block.strength = glm::vec4(s.ambient, s.diffuse, s.specular, exponent);
-  block.surface = glm::vec4(s.metalness, material.transmission, 0, 0);
+  block.lobe = lobeConstants(variant.highlight, exponent);
   const FresnelSides sides = fresnelSides(s.ior, look.mediumIor);
+  const double k =
+      variant.fresnel == Fresnel::rational ? rationalMinimax(look.mediumIor, s.ior) : 0.0;
+  block.surface = glm::vec4(s.metalness, material.transmission, sides.entering.r0, k);
   block.entering = boundary(sides.entering);
   block.leaving = boundary(sides.leaving);
   return block;
@@ -168,7 +193,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& look
     item.draw = drawBlock(mesh, instance.world, list.camera);
     if (!finite(item.draw.eyeFromModel)) continue;  // beyond what float can place
     item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
-    item.materialBlock = materialBlock(material, look);
+    item.materialBlock = materialBlock(material, item.variant, look);
     item.mirrored = isMirrored(instance.world);
     const bool both = material.doubleSided || look.twoSided || mesh.topology != Topology::triangles;
     item.faces = both ? FaceSide::both : FaceSide::front;

@@ -93,15 +93,53 @@ Vertices verticesOf(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return v;
 }
 
+LobeForm lobeForm(Highlight form) {
+  switch (form) {
+    case Highlight::exact:
+      return LobeForm::exact;
+    case Highlight::pow:
+      return LobeForm::pow;
+    case Highlight::integer:
+      return LobeForm::integer;
+    case Highlight::lyon:
+      return LobeForm::lyon;
+    case Highlight::lyonTuned:
+      return LobeForm::lyonTuned;
+    case Highlight::lyonCross:
+      return LobeForm::lyonCross;
+    case Highlight::pade:
+      return LobeForm::pade;
+    case Highlight::gaussian:
+      return LobeForm::gaussian;
+  }
+  return LobeForm::exact;
+}
+
+FresnelForm fresnelForm(Fresnel form) {
+  switch (form) {
+    case Fresnel::exact:
+      return FresnelForm::exact;
+    case Fresnel::textbook:
+      return FresnelForm::textbook;
+    case Fresnel::schlick:
+      return FresnelForm::schlick;
+    case Fresnel::schlickExp2:
+      return FresnelForm::schlickExp2;
+    case Fresnel::rational:
+      return FresnelForm::rational;
+  }
+  return FresnelForm::exact;
+}
+
 Surface surfaceFor(const Material& material, const Variant& variant, const Look& look) {
   Surface s;
   s.program = Program(int(look.shading));
   s.unlit = variant.unlit;
   s.twoSided = material.doubleSided || look.twoSided;
-  s.lobe = look.highlight == Highlight::pow ? LobeForm::pow : LobeForm::exact;
-  s.fresnel = look.fresnel == Fresnel::exact      ? FresnelForm::exact
-              : look.fresnel == Fresnel::textbook ? FresnelForm::textbook
-                                                  : FresnelForm::schlick;
+  const HighlightForm highlight = material.highlight.value_or(look.highlight);
+  s.lobe = lobeForm(highlight.form);
+  s.gamma = std::max(highlight.gamma, 1);
+  s.fresnel = fresnelForm(material.fresnel.value_or(look.fresnel));
   s.ambient = material.shading.ambient;
   s.diffuse = material.shading.diffuse;
   s.specular = material.shading.specular;
@@ -112,6 +150,7 @@ Surface surfaceFor(const Material& material, const Variant& variant, const Look&
   s.ior = material.shading.ior;
   s.mediumIor = look.mediumIor;
   s.sides = fresnelSides(s.ior, s.mediumIor);
+  if (s.fresnel == FresnelForm::rational) s.rationalSlope = rationalMinimax(s.mediumIor, s.ior);
   s.transmission = material.transmission;
   s.blend = material.alphaMode == AlphaMode::blend;
   return s;

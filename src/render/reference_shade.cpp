@@ -20,6 +20,10 @@ double dielectricReflectance(const Surface& surface, const FresnelConstants& bou
                       : fresnelTextbook(cosine, surface.ior, surface.mediumIor);
     case FresnelForm::schlick:
       return schlick(cosine, boundary, surface.schlickExponent);
+    case FresnelForm::schlickExp2:
+      return schlickExp2(cosine, boundary);
+    case FresnelForm::rational:
+      return schlickRational(cosine, boundary, surface.rationalSlope);
   }
   return 0.0;
 }
@@ -63,6 +67,7 @@ Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& posi
   p.exponent = surface.exponent;
   p.blinnFactor = surface.blinnFactor;
   p.highlight = surface.lobe;
+  p.gamma = surface.gamma;
   const glm::dvec3 V = toViewer(frame, position);
   const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
   LightTerms sum = ambientLight(p, frame.ambientLight);

@@ -31,7 +31,7 @@ struct Frame {
 };
 
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
-enum class FresnelForm { exact, textbook, schlick };
+enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
 
 /// A material under a look.
 struct Surface {
@@ -39,11 +39,13 @@ struct Surface {
   bool unlit = false;
   bool twoSided = false;  ///< back faces turn the normal
   LobeForm lobe = LobeForm::exact;
+  int gamma = 8;  ///< of the forms that have one
   FresnelForm fresnel = FresnelForm::exact;
   double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0;
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
-  FresnelSides sides;  ///< of ior and mediumIor
+  FresnelSides sides;        ///< of ior and mediumIor
+  double rationalSlope = 0;  ///< k of FresnelForm::rational
   double transmission = 0;
   bool blend = false;  ///< 1 - alpha adds to the transparency of the program environment
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/scene/look_text.h"
+#include "glint/shading/lobe.h"
+
 namespace glint {
 namespace {
 
@@ -15,6 +18,22 @@ bool perPixel(Shading shading) {
 bool readsTexture(const Mesh& mesh, const std::optional<Texture>& texture) {
   return texture && std::size_t(texture->texcoord) < mesh.texcoords.size() &&
          !mesh.texcoords[std::size_t(texture->texcoord)].empty();
+}
+
+// Of a variant: the text of the form, with the exponent of an integer power.
+std::string lobeText(const HighlightForm& form) {
+  return highlightText(form) +
+         (form.form == Highlight::integer ? ":" + std::to_string(form.gamma) : "");
+}
+
+std::string formReason(const Variant& v, const Material& material, const Look& look) {
+  const HighlightForm asked = material.highlight.value_or(look.highlight);
+  const std::string by = material.highlight ? "the material's highlight is " : "--highlight is ";
+  const std::string text = by + highlightText(asked);
+  if (asked.form == v.highlight.form) return text;
+  return lobeExponent(material, look) > 0
+             ? text + ", but the exponent is not a whole number from 1 to 128"
+             : text + ", but the exponent is 0";
 }
 
 double transparencyOf(const Material& material, Shading shading) {
@@ -44,6 +63,29 @@ std::vector<Light> lightsOf(const Look& look) {
   light.type = Light::Type::camera;
   light.direction = {-0.5, 0.7, 1.0};
   return {light};
+}
+
+bool usesBlinn(Shading shading) {
+  return shading == Shading::blinnPhong || shading == Shading::environment;
+}
+
+double lobeExponent(const Material& material, const Look& look) {
+  const double alpha = material.shading.exponent;
+  return usesBlinn(look.shading) ? look.blinnFactor * alpha : alpha;
+}
+
+HighlightForm highlightOf(const Material& material, const Look& look) {
+  const HighlightForm asked = material.highlight.value_or(look.highlight);
+  const double exponent = lobeExponent(material, look);
+  if (asked.form == Highlight::pow) return asked;
+  if (!(exponent > 0)) return Highlight::exact;
+  if (asked.form != Highlight::integer) return asked;
+  if (!isIntegerPower(exponent)) return Highlight::exact;
+  return {Highlight::integer, int(exponent)};
+}
+
+Fresnel fresnelOf(const Material& material, const Look& look) {
+  return material.fresnel.value_or(look.fresnel);
 }
 
 Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4& world,
@@ -85,7 +127,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   v.diffuse = lit && s.diffuse > 0;
   v.specular = lit && s.specular > 0;
-  if (v.specular) v.highlight = look.highlight;
+  if (v.specular) v.highlight = highlightOf(material, look);
   const bool environment = look.shading == Shading::environment;
   v.constantView = orthographic || look.viewer == Viewer::infinite;
   v.unevenScale = !isSimilarity(glm::dmat3(world));
@@ -93,7 +135,8 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
     v.environment = look.environment;
     v.dielectric = s.metalness < 1;
     v.metal = s.metalness > 0;
-    if (v.dielectric) v.fresnel = look.fresnel;
+    if (v.dielectric) v.fresnel = fresnelOf(material, look);
+    v.schlickFifth = v.fresnel == Fresnel::schlick && look.schlickExponent == 5;
     v.refraction = transparencyOf(material, look.shading) > 0 || v.alphaBlend;
   }
   if (pixels) {
@@ -142,6 +185,7 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   count("spot-lights", v.spotLights);
   add("diffuse", v.diffuse, "diffuse > 0", lights ? "diffuse is 0" : none);
   add("specular", v.specular, "specular > 0", lights ? "specular is 0" : none);
+  if (v.specular) add("specular:" + lobeText(v.highlight), true, formReason(v, material, look), {});
   add("constant-view", v.constantView,
       orthographic ? "the camera is orthographic: V, L + V and H once per draw"
                    : "--viewer infinite: V, L + V and H once per draw",
@@ -164,6 +208,14 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   }
   if (v.program == Shading::environment) {
     add("fresnel", v.dielectric, "metalness < 1", "metalness is 1: no dielectric part");
+    if (v.dielectric)
+      add("fresnel:" + std::string(fresnelText(v.fresnel)), true,
+          (material.fresnel ? "the material's fresnel is " : "--fresnel is ") +
+              std::string(fresnelText(v.fresnel)),
+          {});
+    if (v.fresnel == Fresnel::schlick)
+      add("schlick-fifth", v.schlickFifth, "the exponent is 5: products, not pow",
+          "--schlick-exponent is not 5");
     add("metal", v.metal, "metalness > 0", "metalness is 0");
     add("refraction", v.refraction,
         v.alphaBlend ? "blended: transparency is 1 - alpha" : "transmission > 0", "opaque");
@@ -184,7 +236,7 @@ std::vector<std::string> featureNames(const Variant& v) {
   count(v.pointLights, "point-lights");
   count(v.spotLights, "spot-lights");
   add(v.diffuse, "diffuse");
-  add(v.specular, v.highlight == Highlight::exact ? "specular:exact" : "specular:pow");
+  add(v.specular, ("specular:" + lobeText(v.highlight)).c_str());
   add(v.constantView && !v.unlit, "constant-view");
   add(v.unevenScale, "renormalized-vertex-normals");
   add(v.pixelPosition, "pixel-position");
@@ -198,9 +250,9 @@ std::vector<std::string> featureNames(const Variant& v) {
   add(v.alphaBlend, "alpha-blend");
   if (v.program == Shading::environment && !v.unlit) {
     constexpr const char* maps[] = {"environment:studio", "environment:sky", "environment:white"};
-    constexpr const char* forms[] = {"fresnel:exact", "fresnel:textbook", "fresnel:schlick"};
     add(true, maps[int(v.environment)]);
-    add(v.dielectric, forms[int(v.fresnel)]);
+    add(v.dielectric, ("fresnel:" + std::string(fresnelText(v.fresnel))).c_str());
+    add(v.schlickFifth, "schlick-fifth");
     add(v.metal, "metal");
     add(v.refraction, "refraction");
   }

@@ -26,9 +26,10 @@ struct Variant {
   Shading program = Shading::phong;
   bool unlit = false;  ///< colour alone: points, lines and unlit materials; all below it is off
   int directionalLights = 0, pointLights = 0, spotLights = 0;
-  bool diffuse = false;                    ///< some light and m_d > 0
-  bool specular = false;                   ///< some light and m_s > 0
-  Highlight highlight = Highlight::exact;  ///< `exact` unless specular
+  bool diffuse = false;   ///< some light and m_d > 0
+  bool specular = false;  ///< some light and m_s > 0
+  /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
+  HighlightForm highlight;
   bool constantView = false;     ///< one direction to the viewer: H, V and L + V once per draw
   bool unevenScale = false;      ///< normals need renormalising per vertex
   bool pixelPosition = false;    ///< per-pixel programs read the interpolated position
@@ -40,6 +41,7 @@ struct Variant {
   // The program environment alone:
   Environment environment = Environment::studio;
   Fresnel fresnel = Fresnel::exact;
+  bool schlickFifth = false;  ///< Schlick's exponent is 5: products in place of pow
   bool dielectric = false, metal = false, refraction = false;
   bool centroid = false;  ///< multisampled: varyings stay within the triangle
   PixelOutput output = PixelOutput::radiance;
@@ -58,6 +60,20 @@ struct FeatureReason {
 /// `orthographic` is that of the camera in use.
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
+
+/// Whether a program computes the lobe of Blinn-Phong; the others have Phong's.
+bool usesBlinn(Shading);
+
+/// The exponent of the material's lobe under this look: Phong's, or Blinn-Phong's.
+double lobeExponent(const Material&, const Look&);
+
+/// The form that draws a material's highlight: the one asked for, except that `integer` becomes
+/// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` does
+/// where the exponent is 0. Of `integer`, gamma is the exponent.
+HighlightForm highlightOf(const Material&, const Look&);
+
+/// The form of a material's reflectance.
+Fresnel fresnelOf(const Material&, const Look&);
 
 /// The variant that writes an attribute of the same pixels; per-pixel programs only have normals
 /// and positions.

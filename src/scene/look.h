@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <glm/glm.hpp>
 #include <map>
 #include <optional>
@@ -9,10 +10,18 @@
 namespace glint {
 
 enum class Shading { flat, gouraud, phong, blinnPhong, environment };
-enum class Highlight { exact, pow };
-enum class Fresnel { exact, textbook, schlick };
+enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
+enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
 enum class Environment { studio, sky, white };
+
+/// A form of the lobe (glint/shading/lobe.h) with its gamma.
+struct HighlightForm {
+  Highlight form = Highlight::exact;
+  int gamma = 0;  ///< of lyon, lyonTuned, lyonCross and pade: a power of two, [1, 64]; otherwise 0
+  constexpr HighlightForm(Highlight f = Highlight::exact, int g = 0) : form(f), gamma(g) {}
+  auto operator<=>(const HighlightForm&) const = default;
+};
 
 /// A light as `--light` gives it. Intensities are linear; nothing falls off with distance.
 struct Light {
@@ -38,6 +47,8 @@ struct AntiAliasing {
 struct MaterialEdit {
   std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
   std::optional<glm::dvec3> color;  ///< linear
+  std::optional<HighlightForm> highlight = {};
+  std::optional<Fresnel> fresnel = {};
   bool operator==(const MaterialEdit&) const = default;
 };
 
@@ -45,7 +56,7 @@ struct MaterialEdit {
 /// parameters.h says of each its name, unit, range, default and help.
 struct Look {
   Shading shading = Shading::phong;
-  Highlight highlight = Highlight::exact;
+  HighlightForm highlight;
   Fresnel fresnel = Fresnel::exact;
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;

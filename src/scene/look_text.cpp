@@ -42,6 +42,12 @@ std::string rangeText(double min, double max) {
 }
 
 constexpr std::array<std::string_view, 4> lightNames{"directional", "point", "spot", "camera"};
+constexpr std::array<std::string_view, 8> highlightNames{
+    "exact", "pow", "integer", "lyon", "lyon-tuned", "lyon-cross", "pade", "gaussian"};
+constexpr std::array<std::string_view, 5> fresnelNames{"exact", "textbook", "schlick",
+                                                       "schlick-exp2", "rational"};
+
+bool hasGamma(Highlight form) { return form >= Highlight::lyon && form <= Highlight::pade; }
 
 }  // namespace
 
@@ -137,6 +143,49 @@ std::string antiAliasingText(const AntiAliasing& a) {
   return (a.mode == AntiAliasing::Mode::msaa ? "msaa:" : "ssaa:") + std::to_string(a.count);
 }
 
+HighlightForm parseHighlight(const std::string& text, const std::string& what) {
+  const auto parts = split(text, ':');
+  const auto found = std::find(highlightNames.begin(), highlightNames.end(), parts[0]);
+  if (found != highlightNames.end()) {
+    HighlightForm form(Highlight(found - highlightNames.begin()));
+    if (!hasGamma(form.form) && parts.size() == 1) return form;
+    const bool whole = parts.size() == 2 && readAll(parts[1], form.gamma);
+    if (hasGamma(form.form) && whole && form.gamma >= 1 && form.gamma <= 64 &&
+        (form.gamma & (form.gamma - 1)) == 0)
+      return form;
+    if (hasGamma(form.form))
+      refuse(what, text,
+             parts[0] + ":G with G one of 1, 2, 4, 8, 16, 32, 64, such as " + parts[0] + ":8");
+  }
+  std::string expected;
+  for (std::size_t i = 0; i < highlightNames.size(); ++i)
+    expected += (i == 0 ? "one of " : ", ") + std::string(highlightNames[i]) +
+                (hasGamma(Highlight(i)) ? ":G" : "");
+  refuse(what, text, expected);
+}
+
+std::string highlightText(const HighlightForm& form) {
+  std::string text(highlightNames[std::size_t(form.form)]);
+  if (hasGamma(form.form)) text += ":" + std::to_string(form.gamma);
+  return text;
+}
+
+std::vector<std::string> highlightTexts() {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < highlightNames.size(); ++i)
+    for (int gamma = 1; gamma <= (hasGamma(Highlight(i)) ? 64 : 1); gamma *= 2)
+      texts.push_back(highlightText({Highlight(i), gamma}));
+  return texts;
+}
+
+Fresnel parseFresnel(const std::string& text, const std::string& what) {
+  return Fresnel(parseChoice(text, fresnelNames, what));
+}
+
+std::string_view fresnelText(Fresnel form) { return fresnelNames[std::size_t(form)]; }
+
+std::span<const std::string_view> fresnelTexts() { return fresnelNames; }
+
 Light parseLight(const std::string& text) {
   const std::string what = "--light";
   const auto parts = split(text, ':');
@@ -191,6 +240,14 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
     edit.color = parseColor(text, what);
     return;
   }
+  if (key == "highlight") {
+    edit.highlight = parseHighlight(text, what);
+    return;
+  }
+  if (key == "fresnel") {
+    edit.fresnel = parseFresnel(text, what);
+    return;
+  }
   std::string known;
   for (const auto& p : materialParameters()) {
     if (p.name == key) {
@@ -199,7 +256,8 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
     }
     known += std::string(p.name) + ", ";
   }
-  throw InputError("--material: unknown parameter '" + key + "': use one of " + known + "color");
+  throw InputError("--material: unknown parameter '" + key + "': use one of " + known +
+                   "color, highlight, fresnel");
 }
 
 void parseMaterialEdit(Look& look, const std::string& text) {

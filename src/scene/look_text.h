@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "glint/scene/look.h"
 
@@ -25,10 +26,20 @@ glm::dvec2 parseRange(const std::string& text);
 glm::ivec2 parseResolution(const std::string& text);
 AntiAliasing parseAntiAliasing(const std::string& text);
 std::string antiAliasingText(const AntiAliasing&);
+/// "exact", "lyon:8": the form's name and, where it has one, its gamma.
+HighlightForm parseHighlight(const std::string& text, const std::string& what);
+std::string highlightText(const HighlightForm&);
+/// Every text that parseHighlight takes, in the order of the forms.
+std::vector<std::string> highlightTexts();
+Fresnel parseFresnel(const std::string& text, const std::string& what);
+std::string_view fresnelText(Fresnel);
+/// All of them, in the order of the forms.
+std::span<const std::string_view> fresnelTexts();
 Light parseLight(const std::string& text);
 std::string lightText(const Light&);
 void parseMaterialEdit(Look&, const std::string& text);
-/// Sets one parameter of the material `name`; `text` is a number, or a colour for "color".
+/// Sets one parameter of the material `name`; `text` is a number, a colour for "color",
+/// or a form for "highlight" and "fresnel".
 void setMaterialEdit(Look&, const std::string& name, const std::string& key,
                      const std::string& text);
 

@@ -67,8 +67,8 @@ Parameter flag(std::string name, bool Look::*member, std::string help) {
   return p;
 }
 
-template <typename Enum, std::size_t n>
-Parameter choice(std::string name, const std::array<std::string_view, n>& names, Enum Look::*member,
+template <typename Enum>
+Parameter choice(std::string name, std::span<const std::string_view> names, Enum Look::*member,
                  std::string help) {
   std::string value;
   for (const auto& each : names) value += (value.empty() ? "" : "|") + std::string(each);
@@ -155,6 +155,22 @@ Parameter lights() {
   return p;
 }
 
+Parameter highlight() {
+  Parameter p = custom(
+      "highlight", "FORM",
+      "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
+      "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
+      "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
+      "powers G = 1, 2, 4, ... 64 by squaring; gaussian",
+      [](Look& look, const std::string& text) {
+        look.highlight = parseHighlight(text, "--highlight");
+      },
+      [](const Look& look) { return Json(highlightText(look.highlight)); });
+  finish(p, ParameterKind::choice, &Look::highlight);
+  p.words = highlightTexts();
+  return p;
+}
+
 Json materialEdits(const Look& look) {
   Json all = Json::object();
   for (const auto& [name, edit] : look.material) {
@@ -162,6 +178,8 @@ Json materialEdits(const Look& look) {
     for (const auto& p : materialParameters())
       if (edit.*p.edit) one[std::string(p.name)] = *(edit.*p.edit);
     if (edit.color) one["color"] = toJson(*edit.color);
+    if (edit.highlight) one["highlight"] = highlightText(*edit.highlight);
+    if (edit.fresnel) one["fresnel"] = fresnelText(*edit.fresnel);
     all[name] = one;
   }
   return all.empty() ? Json() : all;
@@ -172,8 +190,8 @@ Parameter materials() {
       "material", "[NAME:]key=value,...",
       "sets parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
       "metalness (1: highlight in the material's colour, as real metals have it; 0: white; "
-      "the notes' words say the opposite of their formula, which stands here), ior, color; "
-      "repeatable",
+      "the notes' words say the opposite of their formula, which stands here), ior, color, and "
+      "the forms highlight and fresnel; repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -188,8 +206,6 @@ Parameter resetting(Parameter p, Value Look::*member) {
 
 constexpr std::array<std::string_view, 5> shadingNames{"flat", "gouraud", "phong", "blinn-phong",
                                                        "environment"};
-constexpr std::array<std::string_view, 2> highlightNames{"exact", "pow"};
-constexpr std::array<std::string_view, 3> fresnelNames{"exact", "textbook", "schlick"};
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
 constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
 
@@ -206,12 +222,11 @@ std::vector<Parameter> makeTable() {
       {choice("shading", shadingNames, &Look::shading,
               "what is computed where: once per face, per vertex, or per pixel by Phong or "
               "Blinn-Phong; environment adds reflection and refraction to Blinn-Phong"),
-       choice("highlight", highlightNames, &Look::highlight,
-              "form of the lobe: exact, from the difference vector (stable), or the textbook's "
-              "pow(dot)"),
-       choice("fresnel", fresnelNames, &Look::fresnel,
+       highlight(),
+       choice("fresnel", fresnelTexts(), &Look::fresnel,
               "form of the reflectance in environment: exact without cancellation, the textbook's, "
-              "or Schlick's approximation"),
+              "Schlick's approximation, the same with its power by exp2, or a rational square "
+              "fitted to the index"),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),
@@ -319,14 +334,15 @@ std::span<const Parameter> lookParameters() {
 }
 
 std::vector<std::string> Parameter::choices() const {
-  std::vector<std::string> words(1);
+  if (!words.empty()) return words;
+  std::vector<std::string> parts(1);
   for (char c : value) {
     if (c == '|')
-      words.emplace_back();
+      parts.emplace_back();
     else
-      words.back() += c;
+      parts.back() += c;
   }
-  return words;
+  return parts;
 }
 
 std::span<const MaterialParameter> materialParameters() {
@@ -387,6 +403,8 @@ Material editedMaterial(const Material& material, const Look& look) {
     for (const auto& p : materialParameters())
       if (edit.*p.edit) edited.shading.*p.value = *(edit.*p.edit);
     if (edit.color) edited.shading.color = *edit.color;
+    if (edit.highlight) edited.highlight = edit.highlight;
+    if (edit.fresnel) edited.fresnel = edit.fresnel;
   }
   return edited;
 }

@@ -49,8 +49,9 @@ struct Parameter {
   std::string_view symbol = {};  ///< in the notes; empty if they have none
   /// Sets the default in a look.
   std::function<void(Look&)> reset = {};
+  std::vector<std::string> words = {};  ///< of a choice, where `value` does not list them all
 
-  /// The words of a choice, from `value`.
+  /// The words of a choice: `words`, or those of `value`.
   std::vector<std::string> choices() const;
 };
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "glint/scene/look.h"
+
 namespace glint {
 
 /// What a mesh is drawn as. Strips, fans and loops are turned into these on loading.
@@ -86,6 +88,9 @@ struct Material {
   double alphaCutoff = 0.5;  ///< for AlphaMode::mask
   bool doubleSided = false;
   bool unlit = false;  ///< shows colour alone
+  /// The forms that a look gives this material in place of its own.
+  std::optional<HighlightForm> highlight;
+  std::optional<Fresnel> fresnel;
 };
 
 /// One mesh placed in the world.

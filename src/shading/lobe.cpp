@@ -57,6 +57,19 @@ double lobePow(double dot, double alpha) {
   return alpha > 0.0 ? std::pow(std::min(dot, 1.0), alpha) : 1.0;
 }
 
+bool isIntegerPower(double alpha) {
+  return alpha >= 1.0 && alpha <= 128.0 && alpha == std::floor(alpha);
+}
+
+double lobeInteger(double lambda, double alpha) {
+  if (!isIntegerPower(alpha)) return lobeExact(lambda, alpha);
+  return lobeWith(lambda, alpha, [](double x, double a) {
+    double product = 1.0;
+    for (int i = 0; i < int(a); ++i) product *= std::max(1.0 - x, 0.0);
+    return product;
+  });
+}
+
 double lyon(double lambda, double alpha, int gamma) {
   gamma = validGamma(gamma);
   return lobeWith(lambda, alpha, [gamma](double x, double a) {
@@ -64,11 +77,12 @@ double lyon(double lambda, double alpha, int gamma) {
   });
 }
 
+double tunedSlope(double alpha, int gamma) { return (alpha * (1.0 - 0.65 / gamma) + 0.65) / gamma; }
+
 double lyonTuned(double lambda, double alpha, int gamma) {
   gamma = validGamma(gamma);
   return lobeWith(lambda, alpha, [gamma](double x, double a) {
-    const double beta = (a * (1.0 - 0.65 / gamma) + 0.65) / gamma;
-    return powerOfTwo(std::max(1.0 - beta * x, 0.0), gamma);
+    return powerOfTwo(std::max(1.0 - tunedSlope(a, gamma) * x, 0.0), gamma);
   });
 }
 
@@ -91,7 +105,8 @@ double pade(double lambda, double alpha, int gamma) {
 }
 
 double gaussian(double lambda, double alpha) {
-  return lobeWith(lambda, alpha, [](double x, double a) { return std::exp(-(a + 0.69) * x); });
+  return lobeWith(lambda, alpha,
+                  [](double x, double a) { return std::exp(-(a + gaussianShift) * x); });
 }
 
 double lobe(LobeForm form, int gamma, double lambda, double alpha) {
@@ -100,6 +115,8 @@ double lobe(LobeForm form, int gamma, double lambda, double alpha) {
       return lobeExact(lambda, alpha);
     case LobeForm::pow:
       return lobePow(1.0 - lambda, alpha);
+    case LobeForm::integer:
+      return lobeInteger(lambda, alpha);
     case LobeForm::lyon:
       return lyon(lambda, alpha, gamma);
     case LobeForm::lyonTuned:

@@ -38,10 +38,19 @@ double lobePow(double dot, double alpha);
 // errors are those over all angles for alpha much larger than gamma. Where alpha < gamma, lyon,
 // lyonTuned and pade leak past 90 degrees: choose gamma <= alpha.
 
+/// The exponents that the form `integer` raises to by squaring: whole numbers in [1, 128].
+bool isIntegerPower(double alpha);
+
+/// The exact lobe for exponents that isIntegerPower takes, as a product; others as lobeExact.
+double lobeInteger(double lambda, double alpha);
+
 /// max(1 - beta lambda, 0)^gamma, beta = alpha / gamma (Lyon 1993): 0.271 (1/gamma - 1/alpha).
 double lyon(double lambda, double alpha, int gamma);
 
-/// lyon with beta = (alpha/gamma)(1 - 0.65 (1/gamma - 1/alpha)), near the best: 0.13 / gamma.
+/// The beta of lyonTuned, (alpha/gamma)(1 - 0.65 (1/gamma - 1/alpha)).
+double tunedSlope(double alpha, int gamma);
+
+/// lyon with tunedSlope, near the best: 0.13 / gamma.
 double lyonTuned(double lambda, double alpha, int gamma);
 
 /// Lyon's form on the cross product, lambda replaced by |R x V|^2 / 2 = lambda (2 - lambda) / 2,
@@ -52,11 +61,14 @@ double lyonCross(double lambda, double alpha, int gamma);
 /// Pade approximant of (1 - lambda)^beta, raised to gamma: 0.112 / gamma^2.
 double pade(double lambda, double alpha, int gamma);
 
+/// What is added to alpha in `gaussian`.
+inline constexpr double gaussianShift = 0.69;
+
 /// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.134 / alpha. Not 0 past 90 degrees.
 double gaussian(double lambda, double alpha);
 
 /// The forms by name: `--highlight`.
-enum class LobeForm { exact, pow, lyon, lyonTuned, lyonCross, pade, gaussian };
+enum class LobeForm { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
 
 /// The lobe in one of its forms; gamma is read by the forms that have one.
 double lobe(LobeForm form, int gamma, double lambda, double alpha);
