@@ -95,6 +95,7 @@ TEST(ReferenceTask, DrawsTheExactFormsWithoutMultisampling) {
   Look look = scenes::plainLook(48, 40);
   const Image exact = drawn(look);
   look.highlight = Highlight::pow;
+  look.material[""].highlight = HighlightForm(Highlight::lyon, 2);
   look.antiAliasing = {AntiAliasing::Mode::msaa, 4};
   ReferenceTask task;
   task.want(teapot(), look);

@@ -78,6 +78,10 @@ Look exactLook(const Look& look) {
   Look exact = comparableLook(look);
   exact.highlight = Highlight::exact;
   exact.fresnel = Fresnel::exact;
+  for (auto& [name, edit] : exact.material) {
+    edit.highlight.reset();
+    edit.fresnel.reset();
+  }
   return exact;
 }
 
