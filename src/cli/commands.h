@@ -23,6 +23,7 @@ Command addDiff(CLI::App&);
 Command addStudy(CLI::App&);
 Command addInfo(CLI::App&);
 Command addBackends(CLI::App&);
+Command addEnvironment(CLI::App&);
 
 /// Adds the options of the look, from its table, with --look and --save-look. The returned function
 /// gives, after parsing, the look they add up to (options over look file over defaults) and writes

@@ -90,6 +90,7 @@ std::function<Look()> addLookOptions(CLI::App& app) {
         look.light.reset();
         look.noLights = false;
       }
+      if (p->name == "environment") look.hdriFile.clear();
       Look& target = p->name == "material" ? materials : look;
       for (const std::string& text : option->results()) p->read(target, text);
     }

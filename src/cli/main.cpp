@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   std::pair<const char*, glint::Command> commands[] = {
       {"render", glint::addRender(app)}, {"view", glint::addView(app)},
       {"diff", glint::addDiff(app)},     {"study", glint::addStudy(app)},
-      {"info", glint::addInfo(app)},     {"backends", glint::addBackends(app)}};
+      {"info", glint::addInfo(app)},     {"environment", glint::addEnvironment(app)},
+      {"backends", glint::addBackends(app)}};
   const auto run = [&]() -> int {
     for (const auto& [name, command] : commands)
       if (app.got_subcommand(name)) return command();

@@ -78,7 +78,8 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   auto opening = openContextAsync(backend);
   // Levels of refinement: triangles of some ten pixels, as models have them.
-  Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial()) : loadGltf(given.model);
+  Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial())
+                                    : loadGltf(given.model, poseOf(options.look));
   checkMaterialNames(scene, options.look);
   const StudyScene prepared(std::move(scene), options.look);
   const auto context = opening.get();

@@ -21,7 +21,8 @@ std::string stageDefines(bool vertex) {
 
 std::string environmentDefines(Environment environment) {
   return define("ENVIRONMENT_STUDIO", 0) + define("ENVIRONMENT_SKY", 1) +
-         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_MAP", int(environment));
+         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_IMAGE", 3) +
+         define("ENVIRONMENT_MAP", int(environment));
 }
 
 std::string defines(const Variant& v) {
@@ -44,6 +45,7 @@ std::string defines(const Variant& v) {
   text += define("DIRECTIONAL_LIGHTS", v.directionalLights);
   text += define("POINT_LIGHTS", v.pointLights);
   text += define("SPOT_LIGHTS", v.spotLights);
+  text += define("LIGHT_FALLOFF", v.lightFalloff);
   text += define("DIFFUSE", v.diffuse);
   text += define("SPECULAR", v.specular);
   constexpr const char* lobes[] = {"EXACT",      "POW",        "INTEGER", "LYON",

@@ -8,6 +8,7 @@
 #include "glint/gl/program.h"
 #include "glint/image/image.h"
 #include "glint/render/draw_list.h"
+#include "glint/render/environment_texture.h"
 #include "glint/render/glsl_sources.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/render/tiles.h"
@@ -77,6 +78,7 @@ class Renderer {
   bool clipControl_;
   std::map<Variant, Program> programs_;
   std::map<Environment, Program> backgrounds_;
+  EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;
   int askedSamples_ = 0;
   VertexArray noVertices_;

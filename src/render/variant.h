@@ -26,6 +26,7 @@ struct Variant {
   Shading program = Shading::phong;
   bool unlit = false;  ///< colour alone: points, lines and unlit materials; all below it is off
   int directionalLights = 0, pointLights = 0, spotLights = 0;
+  bool lightFalloff = false;  ///< points and spots weaken with distance
   bool diffuse = false;   ///< some light and m_d > 0
   bool specular = false;  ///< some light and m_s > 0
   /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
@@ -86,7 +87,8 @@ std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Materia
 /// The names of the features that a variant has.
 std::vector<std::string> featureNames(const Variant&);
 
-/// The lights of a look: those given, or the default one, or none.
+/// The lights of a look: those given, or the default one, or none. Those of a file are in the look
+/// that withFileLights() gives; every function here takes that one.
 std::vector<Light> lightsOf(const Look&);
 
 /// Whether a 3x3 transform is a rotation (with or without mirror) and one scale, to 1e-6.
