@@ -81,8 +81,7 @@ void probeRows(PanelContext& context, const Probe& probe) {
     const bool same = *probe.center == probe.shown;
     if (!same) vectorRow("at the centre", glm::dvec3(*probe.center));
     row("  off by", "%+.2g  %+.2g  %+.2g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
-    if (!same)
-      ImGui::TextDisabled("at the centre: without anti-aliasing");
+    if (!same) ImGui::TextDisabled("at the centre: without anti-aliasing");
   } else {
     ImGui::TextDisabled("  ulp: drawing without anti-aliasing ...");
   }
