@@ -6,7 +6,9 @@
 #include "commands.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
+#include "glint/render/error_budget.h"
 #include "glint/render/picture_text.h"
+#include "glint/scene/parameters.h"
 #include "interrupt.h"
 #include "report.h"
 
@@ -106,7 +108,11 @@ class ModelDrawing {
   }
 
   void drawInto(const PlannedPicture& planned, Clock::time_point start) {
-    const Look look = lookOf(planned, run_.options, run_.look, model_.scene, model_.bounds);
+    const Look asked = lookOf(planned, run_.options, run_.look, model_.scene, model_.bounds);
+    checkMaterialNames(model_.scene, asked);
+    const ResolvedLook resolved = resolveLook(model_.scene, model_.bounds, asked);
+    const Look& look = resolved.look;
+    if (run_.saveResolved) run_.saveResolved(look);
     const auto source = stage_->picture(look);
     PictureOptions file;
     file.bitDepth = run_.options.bitDepth;
@@ -133,6 +139,8 @@ class ModelDrawing {
     result.entry["draws"] = source->list().items.size();
     result.entry["samples"] = source->samples();
     result.entry["variants"] = variantsJson(model_.scene, source->list(), look);
+    if (asked.maxError || !resolved.programReason.empty())
+      result.entry["choice"] = choiceJson(resolved, asked);
     const bool first = run_.first, fresh = !told_;
     run_.first = false;
     told_ = true;

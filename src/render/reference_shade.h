@@ -31,7 +31,6 @@ struct Frame {
 };
 
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
-enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
 
 /// A material under a look.
 struct Surface {
