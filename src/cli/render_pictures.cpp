@@ -6,7 +6,9 @@
 #include "commands.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
+#include "glint/render/error_budget.h"
 #include "glint/render/picture_text.h"
+#include "glint/scene/parameters.h"
 #include "interrupt.h"
 #include "report.h"
 #include "term_files.h"
@@ -107,7 +109,11 @@ class ModelDrawing {
 
   void drawInto(const PlannedPicture& planned, Clock::time_point start) {
     pose(planned);
-    const Look look = lookOf(planned, run_.options, run_.look, model_);
+    const Look asked = lookOf(planned, run_.options, run_.look, model_);
+    checkMaterialNames(model_.scene, asked);
+    const ResolvedLook resolved = resolveLook(model_.scene, model_.bounds, asked);
+    const Look& look = resolved.look;
+    if (run_.saveResolved) run_.saveResolved(look);
     const auto source = run_.sweeps.empty()
                             ? stage_->picture(look)
                             : std::make_unique<ContactSheet>(*stage_, run_.sweeps, look);
@@ -129,6 +135,8 @@ class ModelDrawing {
     result.entry["draws"] = source->list().items.size();
     result.entry["samples"] = source->samples();
     result.entry["variants"] = variantsJson(model_.scene, source->list(), look);
+    if (asked.maxError || !resolved.programReason.empty())
+      result.entry["choice"] = choiceJson(resolved, asked);
     const bool first = run_.first, fresh = !told_;
     run_.first = false;
     told_ = true;

@@ -140,7 +140,7 @@ FresnelForm fresnelForm(Fresnel form) {
 
 Surface surfaceFor(const Material& material, const Variant& variant, const Look& look) {
   Surface s;
-  s.program = Program(int(look.shading));
+  s.program = Program(int(programOf(look)));
   s.unlit = variant.unlit;
   s.twoSided = material.doubleSided || look.twoSided;
   const HighlightForm highlight = material.highlight.value_or(look.highlight);

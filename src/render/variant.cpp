@@ -65,6 +65,10 @@ std::vector<Light> lightsOf(const Look& look) {
   return {light};
 }
 
+Shading programOf(const Look& look) {
+  return look.shading == Shading::automatic ? Shading::phong : look.shading;
+}
+
 bool usesBlinn(Shading shading) {
   return shading == Shading::blinnPhong || shading == Shading::environment;
 }
@@ -91,7 +95,7 @@ Fresnel fresnelOf(const Material& material, const Look& look) {
 Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4& world,
                    const Look& look, bool orthographic) {
   Variant v;
-  v.program = look.shading;
+  v.program = programOf(look);
   v.unlit = material.unlit || mesh.topology != Topology::triangles;
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
   v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
@@ -106,7 +110,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   v.emission = material.emission != glm::dvec3(0.0);
   v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
 
-  const bool pixels = perPixel(look.shading);
+  const bool pixels = perPixel(programOf(look));
   const ShadingParameters& s = material.shading;
   const bool wantsLight = s.diffuse > 0 || s.specular > 0;
   for (const Light& light : lightsOf(look)) {

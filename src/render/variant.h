@@ -68,6 +68,9 @@ struct FeatureReason {
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
 
+/// The program that a look is drawn by as it stands.
+Shading programOf(const Look&);
+
 /// Whether a program computes the lobe of Blinn-Phong; the others have Phong's.
 bool usesBlinn(Shading);
 
