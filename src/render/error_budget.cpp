@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
@@ -37,14 +39,36 @@ struct Group {
   std::vector<Surface> surfaces;
 };
 
+// How bright an environment is and how fast it changes with direction. A picture's changes are
+// those of its filtering, of which the bound does not speak.
+struct Surroundings {
+  double radiance = 0, steep = 0;
+};
+
+Surroundings surroundingsOf(const Look& look) {
+  if (const auto image = environmentImageFor(look)) {
+    Surroundings s;
+    for (const float value : image->levels.front().rgb)
+      s.radiance = std::max(s.radiance, double(value));
+    return s;
+  }
+  const BuiltinEnvironment map = look.environment == Environment::studio
+                                     ? BuiltinEnvironment::studio
+                                 : look.environment == Environment::sky ? BuiltinEnvironment::sky
+                                                                        : BuiltinEnvironment::white;
+  return {largestRadiance(map), steepestRadiance(map)};
+}
+
 // What all surfaces have in common.
 struct Setting {
   Look look;  // exact forms, one program
+  Look lit;   // the same with the file's lights in place
   Camera camera;
   std::vector<glint::Light> lights;
   glm::dvec3 active{0.0};  // sum of intensities that can meet at a point
   int lightCount = 0;
-  double spotSteepness = 0;  // the sum of the intensities of spots times the slope of their ramps
+  double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
+  Surroundings surroundings;  // of the program environment
   bool blinn = false;
 };
 
@@ -53,15 +77,24 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   s.look = look;
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
-  s.lights = lightsOf(look);
+  if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
+  s.lit = withFileLights(scene, look);
+  s.lights = lightsOf(s.lit);
+  // At most what arrives at the nearest point of what is drawn; almost without bound if a light
+  // stands in it, but finite, so that what it is multiplied by may be 0.
+  for (glint::Light& light : s.lights) {
+    if (!light.fallsOff) continue;
+    const double near = glm::length(light.position - bounds.center) - bounds.radius;
+    light.intensity *= 1 / std::max(near * std::abs(near), 1e-30);
+  }
   std::erase_if(s.lights, [](const glint::Light& l) { return l.intensity == glm::dvec3(0.0); });
   s.lightCount = int(s.lights.size());
   std::vector<glm::dvec3> directions, intensities;
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
     if (camera || light.type == glint::Light::Type::directional) {
-      directions.push_back(glm::normalize(camera ? s.camera.axes * light.direction
-                                                 : light.direction));
+      directions.push_back(
+          glm::normalize(camera ? s.camera.axes * light.direction : light.direction));
       intensities.push_back(light.intensity);
       continue;
     }
@@ -77,12 +110,6 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   return s;
 }
 
-BuiltinEnvironment environmentOf(const Look& look) {
-  return look.environment == Environment::studio ? BuiltinEnvironment::studio
-         : look.environment == Environment::sky  ? BuiltinEnvironment::sky
-                                                 : BuiltinEnvironment::white;
-}
-
 Surface surfaceFor(const Setting& setting, const Material& material, const Mesh& mesh,
                    const Variant& v) {
   const ShadingParameters& m = material.shading;
@@ -96,13 +123,13 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   const glm::dvec3 S = m.metalness * C + (1.0 - m.metalness);
   s.exponent = lobeExponent(material, setting.look);
   const double shine = v.specular ? m.specular * largest(S * setting.active) : 0.0;
-  const double matte = largest(C * (m.ambient * setting.look.ambientLight +
-                                    (v.diffuse ? m.diffuse : 0.0) * setting.active));
+  const double matte = largest(
+      C * (m.ambient * setting.look.ambientLight + (v.diffuse ? m.diffuse : 0.0) * setting.active));
   s.highlight = shine;
   s.ior = m.ior;
   s.back = v.twoSided;
-  // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError, and
-  // so is what a spot's ramp magnifies.
+  // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError,
+  // and so is what a spot's ramp magnifies.
   s.rounding = (8.0 + setting.lightCount) * u * (matte + shine) +
                cosineError * (v.diffuse ? m.diffuse * largest(C * setting.active) : 0.0) +
                cosineError * setting.spotSteepness *
@@ -112,14 +139,12 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   if (v.program != Shading::environment) return s;
 
   // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
-  const BuiltinEnvironment map = environmentOf(setting.look);
-  const double radiance = largestRadiance(map), steep = steepestRadiance(map);
+  const auto [radiance, steep] = setting.surroundings;
   const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
   if (v.dielectric) s.environment = (1.0 - m.metalness) * radiance * through;
   // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
   // cosines.
-  s.rounding += 1e-5 + 2e-6 * steep +
-                m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
+  s.rounding += 1e-5 + 2e-6 * steep + m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
   if (v.refraction) {
     // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
     // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the same
@@ -157,8 +182,8 @@ double reflectanceErrors(const Group& group, Fresnel fresnel, const Look& look, 
   for (const Surface& s : group.surfaces) {
     const FresnelForm form = fresnelForm(fresnel);
     const double n1 = look.mediumIor, n2 = s.ior;
-    worst = std::max(worst,
-                     s.environment * fresnelFormulaBound(form, n1, n2, look.schlickExponent));
+    worst =
+        std::max(worst, s.environment * fresnelFormulaBound(form, n1, n2, look.schlickExponent));
     double r = fresnelRoundingBound(form, n1, n2, look.schlickExponent);
     if (s.back) r = std::max(r, fresnelRoundingBound(form, n2, n1, look.schlickExponent));
     rounding = std::max(rounding, s.environment * r);
@@ -264,16 +289,16 @@ FormChoice chooseForms(const std::string& name, const Group& group, const Settin
   choice.cost = bestCost;
   const std::size_t tried = lobes.size() * reflectances.size();
   if (within == 0)
-    choice.reason = "no form is within " + number(budget) + ": exact, which is within " +
-                    number(choice.bound);
+    choice.reason =
+        "no form is within " + number(budget) + ": exact, which is within " + number(choice.bound);
   else if (!group.specular && !group.dielectric)
     choice.reason = "neither highlight nor reflectance: nothing to choose";
   else if (bestCost == choice.exactCost)
     choice.reason = "nothing that costs less than exact is within " + number(budget);
   else
-    choice.reason = "the least cost of " + std::to_string(within) + " of " +
-                    std::to_string(tried) + " within " + number(budget) + ": " +
-                    number(100 * bestCost / choice.exactCost) + " % of exact";
+    choice.reason = "the least cost of " + std::to_string(within) + " of " + std::to_string(tried) +
+                    " within " + number(budget) + ": " + number(100 * bestCost / choice.exactCost) +
+                    " % of exact";
   return choice;
 }
 
@@ -285,8 +310,8 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material material =
         editedMaterial(scene.materials[std::size_t(mesh.material)], setting.look);
-    const Variant v = variantFor(mesh, material, instance.world, setting.look,
-                                 setting.camera.orthographic);
+    const Variant v =
+        variantFor(mesh, material, instance.world, setting.lit, setting.camera.orthographic);
     if (v.unlit) continue;
     Surface surface = surfaceFor(setting, material, mesh, v);
     if (program != setting.look.shading)
@@ -333,8 +358,7 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
          &MaterialEdit::fresnel);
 }
 
-ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program,
-                       double budget) {
+ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
   resolved.look = setting.look;
   resolved.look.shading = program;
