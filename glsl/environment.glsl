@@ -40,8 +40,12 @@ vec3 shade(vec4 base) {
   float x = 1.0 - clamp(cosine, 0.0, 1.0), x2 = x * x;
   f += material.surface.x * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
 #endif
+#if OUTPUT == OUTPUT_SUM || OUTPUT == OUTPUT_REFRACTION
+  vec3 radiance = sum;
+#else
   vec3 mirrored = 2.0 * cosine * n - v;
   vec3 radiance = sum + f * environmentToward(mirrored, spreadOf(mirrored));
+#endif
 #if REFRACTION
 #if ALPHA_BLEND
   float t = 1.0 - (1.0 - material.surface.y) * base.a;
@@ -49,6 +53,7 @@ vec3 shade(vec4 base) {
   float t = material.surface.y;
 #endif
   radiance -= t * sum;
+#if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
   // Along the surface and against the normal.
   vec3 along = (cosine * n - v) / sqrt(boundary.square);
   vec3 refracted = along - sqrt(max(1.0 - dot(along, along), 0.0)) * n;
@@ -58,6 +63,7 @@ vec3 shade(vec4 base) {
   if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {
     radiance += t * (1.0 - f) * base.rgb * environmentToward(refracted, spread);
   }
+#endif
 #endif
   return radiance;
 }

@@ -21,7 +21,9 @@ Command addRender(CLI::App&);
 Command addView(CLI::App&);
 Command addDiff(CLI::App&);
 Command addStudy(CLI::App&);
+Command addConvert(CLI::App&);
 Command addInfo(CLI::App&);
+Command addStability(CLI::App&);
 Command addBackends(CLI::App&);
 Command addEnvironment(CLI::App&);
 
@@ -29,6 +31,10 @@ Command addEnvironment(CLI::App&);
 /// gives, after parsing, the look they add up to (options over look file over defaults) and writes
 /// the file of --save-look.
 std::function<Look()> addLookOptions(CLI::App&);
+
+/// Gives the look the options' materials, which beat its own also where the look speaks of one
+/// material and the option of all.
+void mergeMaterials(Look& look, const Look& options);
 
 /// Writes text to a file, or to stdout for "-".
 void writeText(const std::string& path, const std::string& text);

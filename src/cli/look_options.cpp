@@ -12,7 +12,23 @@
 namespace glint {
 namespace {
 
-// Options beat the look file also where the file speaks of one material and the option of all.
+std::string defaultText(const Parameter& p) {
+  const auto value = p.save(Look{});
+  if (value.is_null() || value == false) return {};
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  if (p.name == "background-color") text = "#333333";
+  return " [default: " + text + "]";
+}
+
+struct LookOptions {
+  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
+  std::string lookFile, saveFile;
+};
+
+}  // namespace
+
 void mergeMaterials(Look& look, const Look& options) {
   const auto all = options.material.find("");
   if (all != options.material.end()) {
@@ -34,23 +50,6 @@ void mergeMaterials(Look& look, const Look& options) {
   }
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
-
-std::string defaultText(const Parameter& p) {
-  const auto value = p.save(Look{});
-  if (value.is_null() || value == false) return {};
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
-  if (p.name == "background-color") text = "#333333";
-  return " [default: " + text + "]";
-}
-
-struct LookOptions {
-  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
-  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
-  std::string lookFile, saveFile;
-};
-
-}  // namespace
 
 std::function<Look()> addLookOptions(CLI::App& app) {
   auto state = std::make_shared<LookOptions>();

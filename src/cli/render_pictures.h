@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "contact_sheet.h"
 #include "glint/render/renderer.h"
 #include "model_loader.h"
 #include "picture_encoder.h"
@@ -14,6 +15,7 @@ namespace glint {
 struct RenderRun {
   const RenderOptions& options;
   const Look& look;
+  const std::vector<Sweep>& sweeps;
   Renderer* renderer = nullptr;  ///< without: the reference
   std::optional<GlStrings> gl;
   PictureEncoder& encoder;

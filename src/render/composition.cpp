@@ -35,9 +35,12 @@ std::string defines(const Variant& v) {
   text += define("EMISSION", v.emission);
   text += define("EMISSION_TEXTURE", v.emissionTexture);
   text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
-  constexpr const char* outputs[] = {"RADIANCE", "POSITION", "NORMAL", "COLOR", "EMISSION"};
-  for (int i = 0; i < 5; ++i)
-    text += std::string("#define OUTPUT_") + outputs[i] + " " + std::to_string(i) + "\n";
+  constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
+                                     "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
+                                     "REFLECTION", "REFRACTION"};
+  int number = 0;
+  for (const char* output : outputs)
+    text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
   text += define("OUTPUT", int(v.output));
   if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0);
   const int lights = v.directionalLights + v.pointLights + v.spotLights;

@@ -137,8 +137,21 @@ Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
   }
   terms.sum = sumColor({terms.matte, terms.specular}, C, surface.metalness);
   if (surface.program == Program::environment) addEnvironment(frame, surface, a, N, terms);
-  terms.radiance =
-      (1 - terms.transparency) * terms.sum + terms.reflection + terms.refraction + a.emission;
+  const glm::dvec3 sum = (1 - terms.transparency) * terms.sum;
+  switch (surface.part) {
+    case Part::all:
+      terms.radiance = sum + terms.reflection + terms.refraction + a.emission;
+      break;
+    case Part::sum:
+      terms.radiance = sum + a.emission;
+      break;
+    case Part::reflection:
+      terms.radiance = terms.reflection;
+      break;
+    case Part::refraction:
+      terms.radiance = terms.refraction;
+      break;
+  }
   return terms;
 }
 

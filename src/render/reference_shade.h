@@ -35,6 +35,8 @@ struct Frame {
 };
 
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
+/// Which part of the radiance a surface shows.
+enum class Part { all, sum, reflection, refraction };
 enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
 
 /// A material under a look.
@@ -51,7 +53,8 @@ struct Surface {
   FresnelSides sides;        ///< of ior and mediumIor
   double rationalSlope = 0;  ///< k of FresnelForm::rational
   double transmission = 0;
-  bool blend = false;  ///< 1 - alpha adds to the transparency of the program environment
+  Part part = Part::all;  ///< `sum` goes with emission
+  bool blend = false;     ///< 1 - alpha adds to the transparency of the program environment
 };
 
 /// What reaches shading at one point: all of a pixel's error that is not in here is shading error.

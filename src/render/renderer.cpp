@@ -126,6 +126,10 @@ const Program& Renderer::backgroundFor(Environment environment) {
       .first->second;
 }
 
+void Renderer::limitPrograms(std::size_t most) {
+  if (programs_.size() > most) programs_.clear();
+}
+
 RenderTarget& Renderer::targetFor(int width, int height, int samples) {
   if (!target_ || target_->width() < width || target_->height() < height ||
       askedSamples_ != samples) {

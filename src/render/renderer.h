@@ -65,6 +65,13 @@ class Renderer {
   /// outlive the picture.
   Picture begin(GpuScene&, DrawList, const Look&);
 
+  /// Forgets all programs if there are more than `most`, so that a long run over models of many
+  /// kinds stays within bounds. No picture may be in the making.
+  void limitPrograms(std::size_t most);
+
+  /// Whether depth is 1 at the near plane and 0 at the far one; else 0 and 1.
+  bool reversedDepth() const { return clipControl_; }
+
   /// Draws a whole picture at once.
   Image draw(GpuScene&, const Bounds&, const Look&);
 
