@@ -147,6 +147,7 @@ void App::run() {
     frame(false);
     layout();
     const auto before = Clock::now();
+    followPose();
     updatePicture();
     const double waited = seconds(Clock::now() - before);
     frame(true);

@@ -253,6 +253,10 @@ void drawPictureTab(PanelContext& context) {
     context.resizePicture(glm::clamp(typed, glm::ivec2(16), glm::ivec2(16384)));
   widgets::tooltip("width and height of the picture in pixels; typed values resize the window");
   drawSection(context, "Picture", {"resolution"});
+  if (session.model && !session.model->scene.animations.empty()) {
+    ImGui::Separator();
+    drawSection(context, "Animation");
+  }
   ImGui::Separator();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;

@@ -24,6 +24,8 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   Scene scene;
   scene.materials = from.materials;
   scene.cameras = from.cameras;
+  scene.lights = from.lights;
+  scene.lightScale = from.lightScale;
   for (const Hit& hit : hits) {
     const Mesh& mesh = from.meshes[std::size_t(hit.mesh)];
     Mesh one;
