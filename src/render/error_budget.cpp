@@ -10,6 +10,7 @@
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
+#include "glint/shading/safe.h"
 #include "interpolation_bound.h"
 
 namespace glint {
@@ -60,8 +61,8 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
     if (camera || light.type == glint::Light::Type::directional) {
-      directions.push_back(glm::normalize(camera ? s.camera.axes * light.direction
-                                                 : light.direction));
+      const glm::dvec3 direction = safeNormalize(light.direction);
+      directions.push_back(camera ? s.camera.axes * direction : direction);
       intensities.push_back(light.intensity);
       continue;
     }
@@ -96,13 +97,13 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   const glm::dvec3 S = m.metalness * C + (1.0 - m.metalness);
   s.exponent = lobeExponent(material, setting.look);
   const double shine = v.specular ? m.specular * largest(S * setting.active) : 0.0;
-  const double matte = largest(C * (m.ambient * setting.look.ambientLight +
-                                    (v.diffuse ? m.diffuse : 0.0) * setting.active));
+  const double matte = largest(
+      C * (m.ambient * setting.look.ambientLight + (v.diffuse ? m.diffuse : 0.0) * setting.active));
   s.highlight = shine;
   s.ior = m.ior;
   s.back = v.twoSided;
-  // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError, and
-  // so is what a spot's ramp magnifies.
+  // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError,
+  // and so is what a spot's ramp magnifies.
   s.rounding = (8.0 + setting.lightCount) * u * (matte + shine) +
                cosineError * (v.diffuse ? m.diffuse * largest(C * setting.active) : 0.0) +
                cosineError * setting.spotSteepness *
@@ -118,8 +119,7 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   if (v.dielectric) s.environment = (1.0 - m.metalness) * radiance * through;
   // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
   // cosines.
-  s.rounding += 1e-5 + 2e-6 * steep +
-                m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
+  s.rounding += 1e-5 + 2e-6 * steep + m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
   if (v.refraction) {
     // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
     // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the same
@@ -157,8 +157,8 @@ double reflectanceErrors(const Group& group, Fresnel fresnel, const Look& look, 
   for (const Surface& s : group.surfaces) {
     const FresnelForm form = fresnelForm(fresnel);
     const double n1 = look.mediumIor, n2 = s.ior;
-    worst = std::max(worst,
-                     s.environment * fresnelFormulaBound(form, n1, n2, look.schlickExponent));
+    worst =
+        std::max(worst, s.environment * fresnelFormulaBound(form, n1, n2, look.schlickExponent));
     double r = fresnelRoundingBound(form, n1, n2, look.schlickExponent);
     if (s.back) r = std::max(r, fresnelRoundingBound(form, n2, n1, look.schlickExponent));
     rounding = std::max(rounding, s.environment * r);
@@ -175,11 +175,12 @@ std::vector<HighlightForm> lobeCandidates(const Group& group) {
     least = std::min(least, s.exponent);
     whole = whole && isIntegerPower(s.exponent);
   }
+  forms.emplace_back(Highlight::pow);
   if (!(least > 0)) return forms;
   if (whole) forms.emplace_back(Highlight::integer);
   for (const Highlight form :
        {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross, Highlight::pade})
-    for (int gamma = 1; gamma <= 64 && gamma <= least; gamma *= 2) forms.emplace_back(form, gamma);
+    for (int gamma = 1; gamma <= 64; gamma *= 2) forms.emplace_back(form, gamma);
   forms.emplace_back(Highlight::gaussian);
   return forms;
 }
@@ -264,16 +265,16 @@ FormChoice chooseForms(const std::string& name, const Group& group, const Settin
   choice.cost = bestCost;
   const std::size_t tried = lobes.size() * reflectances.size();
   if (within == 0)
-    choice.reason = "no form is within " + number(budget) + ": exact, which is within " +
-                    number(choice.bound);
+    choice.reason =
+        "no form is within " + number(budget) + ": exact, which is within " + number(choice.bound);
   else if (!group.specular && !group.dielectric)
     choice.reason = "neither highlight nor reflectance: nothing to choose";
   else if (bestCost == choice.exactCost)
     choice.reason = "nothing that costs less than exact is within " + number(budget);
   else
-    choice.reason = "the least cost of " + std::to_string(within) + " of " +
-                    std::to_string(tried) + " within " + number(budget) + ": " +
-                    number(100 * bestCost / choice.exactCost) + " % of exact";
+    choice.reason = "the least cost of " + std::to_string(within) + " of " + std::to_string(tried) +
+                    " within " + number(budget) + ": " + number(100 * bestCost / choice.exactCost) +
+                    " % of exact";
   return choice;
 }
 
@@ -285,8 +286,8 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material material =
         editedMaterial(scene.materials[std::size_t(mesh.material)], setting.look);
-    const Variant v = variantFor(mesh, material, instance.world, setting.look,
-                                 setting.camera.orthographic);
+    const Variant v =
+        variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
     if (v.unlit) continue;
     Surface surface = surfaceFor(setting, material, mesh, v);
     if (program != setting.look.shading)
@@ -333,8 +334,7 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
          &MaterialEdit::fresnel);
 }
 
-ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program,
-                       double budget) {
+ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
   resolved.look = setting.look;
   resolved.look.shading = program;
