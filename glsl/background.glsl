@@ -10,6 +10,7 @@ void main() {
 in vec2 vPicture;
 out vec4 fragment;
 void main() {
-  fragment = vec4(environmentRadiance(mat3(frame.worldFromEye) * vec3(vPicture, -1.0)), 1.0);
+  vec3 ray = vec3(vPicture, -1.0);
+  fragment = vec4(environmentRadiance(mat3(frame.worldFromEye) * ray, spreadOf(ray)), 1.0);
 }
 #endif

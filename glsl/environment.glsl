@@ -18,8 +18,8 @@ float reflectance(float cosine, Boundary boundary) {
 }
 #endif
 
-vec3 environmentToward(vec3 eyeDirection) {
-  return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection);
+vec3 environmentToward(vec3 eyeDirection, float spread) {
+  return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection, spread);
 }
 
 vec3 shade(vec4 base) {
@@ -40,7 +40,12 @@ vec3 shade(vec4 base) {
   float x = 1.0 - clamp(cosine, 0.0, 1.0), x2 = x * x;
   f += material.surface.x * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
 #endif
-  vec3 radiance = sum + f * environmentToward(2.0 * cosine * n - v);
+#if OUTPUT == OUTPUT_SUM || OUTPUT == OUTPUT_REFRACTION
+  vec3 radiance = sum;
+#else
+  vec3 mirrored = 2.0 * cosine * n - v;
+  vec3 radiance = sum + f * environmentToward(mirrored, spreadOf(mirrored));
+#endif
 #if REFRACTION
 #if ALPHA_BLEND
   float t = 1.0 - (1.0 - material.surface.y) * base.a;
@@ -48,13 +53,17 @@ vec3 shade(vec4 base) {
   float t = material.surface.y;
 #endif
   radiance -= t * sum;
-  // Along the surface and against the normal. Total reflection leaves nothing to refract, also where
+#if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
+  // Along the surface and against the normal.
+  vec3 along = (cosine * n - v) / sqrt(boundary.square);
+  vec3 refracted = along - sqrt(max(1.0 - dot(along, along), 0.0)) * n;
+  float spread = spreadOf(refracted);
+  // Total reflection leaves nothing to refract, also where
   // a share of metal reflects less than all.
   if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {
-    vec3 along = (cosine * n - v) / sqrt(boundary.square);
-    vec3 inward = -sqrt(max(1.0 - dot(along, along), 0.0)) * n;
-    radiance += t * (1.0 - f) * base.rgb * environmentToward(along + inward);
+    radiance += t * (1.0 - f) * base.rgb * environmentToward(refracted, spread);
   }
+#endif
 #endif
   return radiance;
 }

@@ -9,6 +9,41 @@ float boxLight(vec3 d, vec3 axis, vec3 right, vec3 up, vec2 extent, float soft) 
 }
 #endif
 
+#if ENVIRONMENT_MAP > ENVIRONMENT_WHITE  // ENVIRONMENT_IMAGE
+// Of src/render/environment_image.h, with its smaller levels.
+uniform sampler2D environmentImage;
+
+// The angle of (x, y) from the x axis, in turns, to 1e-8: Abramowitz and Stegun 4.4.49. The driver's
+// atan may be off by more than a texel of a large picture.
+float turnsOf(float y, float x) {
+  float a = abs(x), b = abs(y), most = max(a, b);
+  float t = most > 0.0 ? min(a, b) / most : 0.0, s = t * t;
+  float angle = t * (1.0 + s * (-0.3333314528 + s * (0.1999355085 + s * (-0.1420889944 + s * (0.1065626393
+              + s * (-0.0752896400 + s * (0.0429096138 + s * (-0.0161657367 + s * 0.0028662257))))))));
+  float turns = angle * 0.15915494309;
+  if (b > a) turns = 0.25 - turns;
+  if (x < 0.0) turns = 0.5 - turns;
+  return y < 0.0 ? -turns : turns;
+}
+
+// The mean over about `spread` radians around the direction.
+vec3 environmentRadiance(vec3 direction, float spread) {
+  vec3 d = safeUnit(direction);
+  vec2 place = vec2(0.5 + turnsOf(d.x, -d.z), 2.0 * turnsOf(sqrt(d.x * d.x + d.z * d.z), d.y));
+  float height = float(textureSize(environmentImage, 0).y);
+  return textureLod(environmentImage, place, max(log2(spread * height * 0.19098593), 0.0)).rgb;
+}
+
+#if !VERTEX_STAGE
+// How far a direction turns from this pixel to the next. To be called by all pixels of a square.
+float spreadOf(vec3 direction) {
+  vec3 d = safeUnit(direction), x = dFdx(d), y = dFdy(d);
+  return sqrt(max(dot(x, x), dot(y, y)));
+}
+#endif
+#else
+float spreadOf(vec3 direction) { return 0.0; }  // nothing in the others is as fine as a pixel
+
 vec3 environmentRadiance(vec3 direction) {
 #if ENVIRONMENT_MAP == ENVIRONMENT_WHITE
   return vec3(1.0);
@@ -39,3 +74,6 @@ vec3 environmentRadiance(vec3 direction) {
   return radiance;
 #endif
 }
+
+vec3 environmentRadiance(vec3 direction, float spread) { return environmentRadiance(direction); }
+#endif

@@ -35,10 +35,14 @@ void main() {
   fragment = base;
 #elif OUTPUT == OUTPUT_EMISSION
   fragment = vec4(emission, 1.0);
+#elif OUTPUT == OUTPUT_DEPTH
+  fragment = vec4(gl_FragCoord.z, gl_FragCoord.w, 0.0, 1.0);
 #elif OUTPUT != OUTPUT_RADIANCE && UNLIT
   fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL
   fragment = vec4(vNormal, gl_FrontFacing ? 1.0 : -1.0);
+#elif OUTPUT == OUTPUT_SHADING_NORMAL
+  fragment = vec4(shadedPixel().normal, 1.0);
 #elif OUTPUT == OUTPUT_POSITION
   fragment = vec4(vPosition, 1.0);
 #else

@@ -67,6 +67,14 @@ void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 c
 #endif
 }
 
+#if LIGHT_FALLOFF
+// glTF's lamps: 1 / d^2, and with a range down to 0 there. `way` leads to the light.
+float lightFalloff(vec3 way, float perRange) {
+  float square = max(dot(way, way), 1e-12), ratio = square * perRange * perRange;
+  return clamp(1.0 - ratio * ratio, 0.0, 1.0) / square;
+}
+#endif
+
 // All lights at the point `position` (eye space) with unit normal n and unit direction to the viewer
 // v.
 LightSum sumLights(vec3 position, vec3 n, vec3 v) {
@@ -79,16 +87,24 @@ LightSum sumLights(vec3 position, vec3 n, vec3 v) {
 #endif
 #if POINT_LIGHTS > 0
   for (int i = DIRECTIONAL_LIGHTS; i < DIRECTIONAL_LIGHTS + POINT_LIGHTS; ++i)
-    addLight(sum, n, v, safeUnit(lights[i].position.xyz - position), lights[i].intensity.rgb,
-             vec3(0.0), false, shape);
+  {
+    vec3 way = lights[i].position.xyz - position, intensity = lights[i].intensity.rgb;
+#if LIGHT_FALLOFF
+    intensity *= lightFalloff(way, lights[i].position.w);
+#endif
+    addLight(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape);
+  }
 #endif
 #if SPOT_LIGHTS > 0
   for (int i = DIRECTIONAL_LIGHTS + POINT_LIGHTS; i < LIGHTS; ++i) {
-    vec3 l = safeUnit(lights[i].position.xyz - position);
+    vec3 way = lights[i].position.xyz - position, l = safeUnit(way);
     // glTF's cone: full inside the inner angle, the square of a ramp in the cosine to the outer one.
     float cone = clamp((dot(-l, lights[i].axis.xyz) - lights[i].axis.w) * lights[i].constant.w, 0.0, 1.0);
-    addLight(sum, n, v, l, lights[i].intensity.rgb * (cone * cone), vec3(0.0), false,
-             shape);
+    vec3 intensity = lights[i].intensity.rgb * (cone * cone);
+#if LIGHT_FALLOFF
+    intensity *= lightFalloff(way, lights[i].position.w);
+#endif
+    addLight(sum, n, v, l, intensity, vec3(0.0), false, shape);
   }
 #endif
   sum.diffuse = material.strength.x * frame.ambientLight.rgb + material.strength.y * sum.diffuse;

@@ -409,6 +409,127 @@ TEST(Batch, ReferencesAreComparedAtOnce) {
   EXPECT_THAT(run(darker), ElementsAre(2, 1, 2));
 }
 
+// The files of --terms add up to the picture, by GL and by the reference, and the layers of an EXR
+// are the same values.
+TEST(Terms, FilesAddUpAndLayersAreTheSame) {
+  Folder folder("terms");
+  for (const char* backend : {"osmesa", "reference"}) {
+    const auto draw = [&](const std::string& output) {
+      const Ran ran = runGlint({"render",
+                                sphere,
+                                "-o",
+                                output,
+                                "--terms",
+                                "--resolution",
+                                "32,32",
+                                "--shading",
+                                "environment",
+                                "--light",
+                                "camera:0.5,0.6,0.7",
+                                "--light",
+                                "point:1,2,3",
+                                "--material",
+                                "specular=0.8,exponent=9",
+                                "--anti-aliasing",
+                                "none",
+                                "--rendering-backend",
+                                backend,
+                                "--json",
+                                "-"});
+      EXPECT_EQ(ran.status, 0) << ran.err;
+      return Json::parse(ran.out)["pictures"][0]["terms"];
+    };
+    const Json terms = draw(folder / "a.pfm");
+    ASSERT_EQ(terms.size(), 11u);
+    EXPECT_EQ(terms["diffuse-1"], folder / "a.diffuse-1.pfm");
+    draw(folder / "a.exr");
+    const glint::Image picture = glint::readImage(folder / "a.pfm");
+    std::vector<double> sum(picture.values.size());
+    for (const auto& [name, path] : terms.items()) {
+      const glint::Image image = glint::readImage(path);
+      if (name != "normal") {
+        const glint::Image layer = glint::readImage(folder / "a.exr", name);
+        EXPECT_EQ(layer.values, image.values) << name;
+      }
+      if (name == "normal" || name == "depth") continue;
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]);
+    }
+    // Nine terms of a few roundings each, of values up to 4.
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      if (i % 4 != 3) {
+        ASSERT_NEAR(sum[i], double(picture.values[i]), 9 * 4 * 4 * 6e-8) << i;
+      }
+  }
+  // The picture itself is the one without the option.
+  EXPECT_EQ(runGlint({"render", sphere, "-o", folder / "b.pfm", "--resolution", "32,32",
+                      "--shading", "environment", "--light", "camera:0.5,0.6,0.7", "--light",
+                      "point:1,2,3", "--material", "specular=0.8,exponent=9", "--anti-aliasing",
+                      "none", "--rendering-backend", "reference"})
+                .status,
+            0);
+  EXPECT_EQ(contents(folder / "a.pfm"), contents(folder / "b.pfm"));
+}
+
+TEST(Sweep, IsASheetOfThePicturesThatItsStepsGive) {
+  Folder folder("sweep");
+  const auto draw = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", sphere, "-o", folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = runGlint(tiny(arguments));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return glint::readImage(folder / name);
+  };
+  // Logarithmic: 1, 10, 100.
+  const std::vector<std::string> sweeps{"--sweep", "exponent=1:100:3", "--sweep",
+                                        "exposure=-1:1:2"};
+  const glint::Image sheet = draw("sheet.pfm", sweeps);
+  const int gap = 2, across = 32 + gap, down = sheet.height / 2;
+  ASSERT_EQ(sheet.width, 3 * across + gap);
+  const char* exponents[] = {"1", "10", "100"};
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const glint::Image cell =
+          draw("cell.pfm", {"--material", std::string("exponent=") + exponents[column],
+                            "--exposure", row ? "1" : "-1"});
+      for (int y = 0; y < 32; ++y)
+        for (int i = 0; i < 4 * 32; ++i)
+          ASSERT_EQ(sheet.row(row * down + gap + y)[4 * (column * across + gap) + i],
+                    cell.row(y)[i])
+              << row << " " << column;
+      // Something is written below.
+      float label = 0;
+      for (int y = 32 + gap; y < down; ++y)
+        for (int x = 0; x < 32; ++x)
+          label += sheet.row(row * down + y)[4 * (column * across + gap + x)];
+      EXPECT_GT(label, 20);
+    }
+  EXPECT_EQ(draw("named.png", {"--sweep", "camera-azimuth-angle=0:90:7:linear"}).width,
+            3 * across + gap);
+}
+
+TEST(Sweep, WrongOnesAreRefused) {
+  Folder folder("wrong_sweeps");
+  const std::pair<const char*, const char*> cases[] = {
+      {"shine=1:2:3", "there is no number"}, {"exponent", "KEY=FROM:TO:STEPS"},
+      {"exponent=1:2", "KEY=FROM:TO:STEPS"}, {"exponent=1:2:1", "steps"},
+      {"exponent=1:2:2.5", "steps"},         {"exponent=1:2:9999", "steps"},
+      {"exponent=0:2:3", ":linear"},         {"exponent=1:2:3:even", "neither"},
+      {"exponent=1:1e9:3", "exponent"},      {"metalness=0:2:3", "metalness"},
+      {"exponent=a:2:3", "KEY=FROM:TO"},     {"shading=0:1:2", "there is no number"},
+      {"ior=1:nan:3", "KEY=FROM:TO"}};
+  for (const auto& [sweep, expected] : cases) {
+    const Ran ran = runGlint(tiny({"render", sphere, "-o", folder / "a.png", "--sweep", sweep}));
+    EXPECT_EQ(ran.status, 2) << sweep;
+    EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(expected)) << sweep;
+  }
+  const Ran named =
+      runGlint(tiny({"render", sphere, "-o", folder / "a.png", "--sweep", "Nobody:ior=1:2:3"}));
+  EXPECT_EQ(named.status, 2);
+  EXPECT_THAT(named.err, HasSubstr("Nobody"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
 TEST(Batch, OptionsThatExcludeEachOther) {
   Folder folder("exclude");
   const std::string list = listOf(folder, {sphere}), out = folder / "{n}.png";
@@ -429,6 +550,10 @@ TEST(Batch, OptionsThatExcludeEachOther) {
       {{sphere, "-o", folder / "{frame}.png"}, "--turntable"},
       {{sphere, "-o", out, "--reference-threshold", "1"}, "--reference"},
       {{sphere, "-o", "-", "--reference", "a.png"}, "--reference"},
+      {{sphere, "-o", "-", "--terms"}, "--terms"},
+      {{sphere, "-o", out, "--terms", "--sweep", "ior=1:2:3"}, "--sweep"},
+      {{sphere, "-o", out, "--sweep", "ior=1:2:3", "--sweep", "ior=1:2:3", "--sweep", "ior=1:2:3"},
+       "--sweep"},
       {{sphere, torus, "-o", "-"}, "would both become"}};
   for (const auto& [options, expected] : cases) {
     std::vector<std::string> arguments{"render"};

@@ -201,6 +201,11 @@ const std::vector<Good>& goodTexts() {
       {"camera-zoom-factor", "1.5", [](Look& l) { l.cameraZoomFactor = 1.5; }},
       {"camera-orthographic", "true", [](Look& l) { l.cameraOrthographic = true; }},
       {"camera-index", "3", [](Look& l) { l.cameraIndex = 3; }},
+      {"animation-time", "1.5", [](Look& l) { l.animationTime = 1.5; }},
+      {"animation", "Walk, 2", [](Look& l) { l.animation = "Walk, 2"; }},
+      {"hdri-file", "a b.hdr", [](Look& l) { l.hdriFile = "a b.hdr"; }},
+      {"light-scale", "0.01", [](Look& l) { l.lightScale = 0.01; }},
+      {"light-scale", "auto", [](Look& l) { l.lightScale.reset(); }},
       {"clipping-range", "0.1,1e7", [](Look& l) { l.clippingRange = glm::dvec2(0.1, 1e7); }},
       {"resolution", "640,480",
        [](Look& l) {
@@ -315,6 +320,10 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"camera-zoom-factor", {"", "0", "-1", "nan"}},
       {"camera-orthographic", {"", "maybe"}},
       {"camera-index", {"", "-1", "1.5", "x", "99999999999999999999"}},
+      {"animation-time", {"", "-1", "x", "nan", "1e10"}},
+      {"animation", {""}},
+      {"hdri-file", {""}},
+      {"light-scale", {"", "-1", "x", "inf"}},
       {"clipping-range",
        {"", "1", "0,1", "-1,1", "2,1", "1,1", "1,nan", "nan,1", "1,inf", "1,2,3"}},
       {"resolution", {"", "640", "640x480", "0,480", "640,-1", "65536,1", "1.5,2", "1,2,3"}},
@@ -364,6 +373,10 @@ class RandomLooks {
     l.cameraZoomFactor = number(1e-6, 1e6);
     l.cameraOrthographic = coin();
     if (coin()) l.cameraIndex = index(1 << 30);
+    if (coin()) l.animationTime = number(0, 1e9);
+    if (coin()) l.animation = "take 2";
+    if (coin()) l.hdriFile = "room.exr";
+    if (coin()) l.lightScale = number(0, 1e30);
     if (coin()) l.clippingRange = glm::dvec2(number(1e-3, 1), number(2, 1e30));
     l.resolution = {1 + index(65535), 1 + index(65535)};
     const AntiAliasing kinds[] = {{AntiAliasing::Mode::none, 1},

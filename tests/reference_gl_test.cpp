@@ -9,16 +9,19 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "glint/gl/context.h"
+#include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
 #include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
+#include "gltf_text.h"
 #include "reference_scenes.h"
 
 namespace glint {
@@ -308,6 +311,30 @@ void cornersAtCenters(Scene& scene, Look& look) {
   scenes::lookAlongZ(scene, look, 32);
 }
 
+/// A picture of the environment without edges, as a file.
+std::string smoothPicture() {
+  static const std::string path = [] {
+    const std::string name = test::temporaryFolder() + "/smooth.pfm";
+    constexpr int width = 256, height = 128;
+    const auto writer = openPictureWriter(name, width, height);
+    Image image{width, height, {}};
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const double theta = std::numbers::pi * (y + 0.5) / height;
+        const double phi = 2 * std::numbers::pi * ((x + 0.5) / width - 0.5);
+        const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
+                           -std::sin(theta) * std::cos(phi));
+        for (int c = 0; c < 3; ++c)
+          image.values.push_back(float(0.5 + 0.4 * std::sin(3 * d[c] + d[(c + 1) % 3])));
+        image.values.push_back(1);
+      }
+    writer->write(image);
+    writer->finish();
+    return name;
+  }();
+  return path;
+}
+
 const Special specials[] = {
     {"corners at pixel centres", cornersAtCenters},
     {"floor through the eye",
@@ -335,6 +362,32 @@ const Special specials[] = {
        camera.direction = {0.2, 0.1, 1};
        camera.intensity = glm::dvec3(0.3);
        look.light = std::vector{sun, lamp, spot, camera};
+     }},
+    {"lamps of the file",
+     [](Scene& scene, Look&) {
+       scene = loadGltf(GLINT_SOURCE_DIR "/models/torus.glb");
+       FileLight sun, lamp, spot;
+       sun.direction = glm::normalize(glm::dvec3(-1, -1, -0.3));
+       sun.intensity = glm::dvec3(2, 1, 1);
+       lamp.type = FileLight::Type::point;
+       lamp.position = {1, 0.6, 1};
+       lamp.range = 1.5;
+       lamp.intensity = glm::dvec3(4, 2, 6);
+       spot.type = FileLight::Type::spot;
+       spot.position = {0, 1.5, 1};
+       spot.direction = glm::normalize(glm::dvec3(0, -1, -0.4));
+       spot.innerAngle = 0.2;
+       spot.outerAngle = 0.6;
+       spot.intensity = glm::dvec3(1, 8, 3);
+       scene.lights = {sun, lamp, spot};
+       scene.lightScale = 0.2;
+     }},
+    {"a picture around it, seen through glass",
+     [](Scene& scene, Look& look) {
+       scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
+       for (Material& m : scene.materials) m.transmission = 0.6;
+       look.hdriFile = smoothPicture();
+       look.environmentRotation = 35;
      }},
     {"orthographic",
      [](Scene& scene, Look& look) {

@@ -26,6 +26,7 @@ class Stage {
   ~Stage() { renderer_.reset(); }
 
   Context& context() { return *context_; }
+  Renderer& renderer() { return *renderer_; }
 
   Image draw(const Scene& scene, const Look& look) { return drawWith(*renderer_, scene, look); }
 

@@ -20,9 +20,15 @@ std::vector<std::string> tiny(std::vector<std::string> more) {
   return more;
 }
 
-TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
-  const Ran ran = runGlint(tiny({"--json", "-"}));
+TEST(StudyCommand, TellsTimesErrorsFrontsAndAnswersOfTheBuiltInSphere) {
+  const std::string file = temporaryFolder() + "/results.md";
+  const Ran ran = runGlint(tiny({"--json", "-", "--markdown", file}));
   ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string markdown = contents(file);
+  for (const char* words : {"beat `pow`", "how far off is 4", "Gouraud enough", "Schlick ever",
+                            "only what the scene needs", "glint study --quick --repetitions 3"})
+    EXPECT_THAT(markdown, HasSubstr(words));
+  EXPECT_THAT(markdown, testing::Not(HasSubstr("nan")));
   const Json json = Json::parse(ran.out);
   EXPECT_TRUE(json["complete"].get<bool>()) << json["missing"];
   EXPECT_EQ(json["triangles"], 20480);
@@ -58,7 +64,8 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
 }
 
 TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
-  const Ran ran = runGlint(tiny({sphere, "--shading", "phong", "--json", "-"}));
+  const Ran ran =
+      runGlint(tiny({sphere, "--shading", "phong", "--time-budget", "1", "--json", "-"}));
   ASSERT_EQ(ran.status, 0) << ran.err;
   // The model's material has no highlight: all forms are one.
   const Json json = Json::parse(ran.out);
@@ -72,6 +79,22 @@ TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
   const Json json = Json::parse(ran.out);
   EXPECT_FALSE(json["complete"].get<bool>());
   EXPECT_FALSE(json["missing"].empty());
+}
+
+TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
+  const std::string folder = temporaryFolder() + "/interrupted";
+  // Ctrl-C after a second, long before so many frames are done.
+  const std::string command = "timeout --preserve-status -s INT 1 " GLINT_EXECUTABLE
+                              " study --resolution 64,64 --shading phong --highlight exact"
+                              " --repetitions 100000 --output " +
+                              folder + " > /dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const Json json = Json::parse(contents(folder + "/study.json"));
+  EXPECT_FALSE(json["complete"].get<bool>());
+  ASSERT_EQ(json["variants"].size(), 1u);
+  EXPECT_GT(json["variants"][0]["errors"][0]["rmse"].get<double>(), 0);
+  EXPECT_THAT(contents(folder + "/study.html"), HasSubstr("</html>"));
+  EXPECT_THAT(contents(folder + "/study.csv"), HasSubstr("phong exact,phong,"));
 }
 
 TEST(StudyCommand, RefusesWhatItCannotDo) {

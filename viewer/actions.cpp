@@ -14,6 +14,7 @@ enum Key : int {
   tab = 258,
   up = 265,
   f1 = 290,
+  f2 = 291,
   f9 = 298,
   f12 = 301,
 };
@@ -21,6 +22,12 @@ enum Key : int {
 constexpr ActionInfo table[] = {
     {Action::help, "General", "show keys and mouse", slash, false, true},
     {Action::togglePanel, "General", "hide or show the panel", f9},
+    {Action::tabShading, "General", "tab Shading of the panel", f2},
+    {Action::tabLights, "General", "tab Lights", f2 + 1},
+    {Action::tabCamera, "General", "tab Camera", f2 + 2},
+    {Action::tabPicture, "General", "tab Picture", f2 + 3},
+    {Action::tabCompare, "General", "tab Compare", f2 + 4},
+    {Action::tabInfo, "General", "tab Info", f2 + 5},
     {Action::quit, "General", "close the window; asks if something is not saved", 'Q'},
     {Action::open, "Files", "open a model or a look (or drop it on the window)", 'O', true},
     {Action::reload, "Files", "read the model again; the edits stay", up},
@@ -83,11 +90,8 @@ std::string keyText(const ActionInfo& info) {
       return text + "Tab";
     case up:
       return text + "Up";
-    case f9:
-      return text + "F9";
-    case f12:
-      return text + "F12";
     default:
+      if (info.key >= f1 && info.key <= f12) return text + "F" + std::to_string(info.key - f1 + 1);
       return text + char(info.key);
   }
 }

@@ -47,6 +47,12 @@ enum class Action {
   clipped,
   nextProgram,
   togglePanel,
+  tabShading,
+  tabLights,
+  tabCamera,
+  tabPicture,
+  tabCompare,
+  tabInfo,
   copyPixel,
 };
 

@@ -278,7 +278,7 @@ void App::helpWindow() {
   std::string_view section;
   for (const ActionInfo& info : actions()) {
     if (info.section != section) {
-      if (info.section == "Edit") ImGui::NextColumn();
+      if (info.section == "Camera") ImGui::NextColumn();
       ImGui::Spacing();
       section = info.section;
       ImGui::TextDisabled("%s", std::string(section).c_str());

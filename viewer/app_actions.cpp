@@ -53,6 +53,15 @@ void App::execute(Action command) {
     case Action::help:
       helpShown_ = !helpShown_;
       break;
+    case Action::tabShading:
+    case Action::tabLights:
+    case Action::tabCamera:
+    case Action::tabPicture:
+    case Action::tabCompare:
+    case Action::tabInfo:
+      options_.settings.panel = true;
+      session_.wantedTab = int(command) - int(Action::tabShading);
+      break;
     case Action::togglePanel:
       options_.settings.panel = !options_.settings.panel;
       break;

@@ -241,8 +241,12 @@ void drawPictureTab(PanelContext& context) {
 
 void drawPanel(PanelContext& context) {
   if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
+  int number = 0;
+  std::optional<int>& wanted = context.session.wantedTab;
   const auto tab = [&](const char* name, void (*draw)(PanelContext&)) {
-    if (!ImGui::BeginTabItem(name)) return;
+    const bool select = wanted == number++;
+    if (select) wanted.reset();
+    if (!ImGui::BeginTabItem(name, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0)) return;
     ImGui::BeginChild("tab", ImVec2(0, 0));
     draw(context);
     ImGui::EndChild();

@@ -7,6 +7,7 @@
 #include "glint/image/srgb.h"
 #include "glint/render/reference_pixel.h"
 #include "glint/render/reference_renderer.h"
+#include "glint/scene/lights.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
@@ -202,7 +203,7 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
                        : glm::dvec3(0.0);
   if (!layers.empty()) {
     probe.hit = hits[layers.front().hit];
-    setTerms(probe, stage, layers.front(), lightsOf(look));
+    setTerms(probe, stage, layers.front(), lightsOf(withFileLights(scene, look)));
     probe.remark = remarkFor(stage, layers);
     // In drawing order: what is blended comes after what is opaque.
     std::vector<LayerValue> drawn = layers;

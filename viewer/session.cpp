@@ -16,7 +16,7 @@ std::unique_ptr<Model> loadModel(const std::filesystem::path& path) {
   const auto start = std::chrono::steady_clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;
-  model->scene = loadGltf(path);
+  model->scene = loadGltf(path, poseOf(look));
   model->bounds = boundsOf(model->scene);
   model->images = decodeImages(model->scene, Look());  // no look reads others
   model->picker.emplace(model->scene);

@@ -47,6 +47,7 @@ struct Session {
   int material = -1;           ///< selected, an index into the scene's; -1 is all of them
   std::optional<int> hovered;  ///< the material under the cursor
   Overlay overlay = Overlay::none;
+  std::optional<int> wantedTab;  ///< of the panel, to be shown next
   std::vector<std::string> log;  ///< errors and warnings, the newest last
   std::string status;            ///< the last thing that was done
   bool statusIsError = false;

@@ -22,8 +22,11 @@ Command addRender(CLI::App&);
 Command addView(CLI::App&);
 Command addDiff(CLI::App&);
 Command addStudy(CLI::App&);
+Command addConvert(CLI::App&);
 Command addInfo(CLI::App&);
+Command addStability(CLI::App&);
 Command addBackends(CLI::App&);
+Command addEnvironment(CLI::App&);
 
 struct LookOptions;
 
@@ -45,6 +48,10 @@ class LookSource {
 
 /// Adds the options of the look, from its table, with --look and --save-look.
 LookSource addLookOptions(CLI::App&);
+
+/// Gives the look the options' materials, which beat its own also where the look speaks of one
+/// material and the option of all.
+void mergeMaterials(Look& look, const Look& options);
 
 /// Writes text to a file, or to stdout for "-".
 void writeText(const std::string& path, const std::string& text);

@@ -64,6 +64,17 @@ Json infoJson(const Scene& scene, const Look& look) {
   for (const FileCamera& c : scene.cameras)
     json["cameras"].push_back(
         {{"name", c.name}, {"type", c.orthographic ? "orthographic" : "perspective"}});
+  json["lights"] = Json::array();
+  constexpr const char* lightTypes[] = {"directional", "point", "spot"};
+  for (const FileLight& l : scene.lights)
+    json["lights"].push_back({{"name", l.name},
+                              {"type", lightTypes[int(l.type)]},
+                              {"unit", l.type == FileLight::Type::directional ? "lux" : "candela"},
+                              {"intensity", vectorJson(l.intensity)}});
+  if (!scene.lights.empty()) json["light-scale"] = look.lightScale.value_or(scene.lightScale);
+  json["animations"] = Json::array();
+  for (const FileAnimation& a : scene.animations)
+    json["animations"].push_back({{"name", a.name}, {"seconds", a.duration}});
   json["variants"] = variantsJson(scene, list, look);
   json["warnings"] = scene.warnings;
   return json;
@@ -110,6 +121,15 @@ void print(const Json& json) {
   for (std::size_t i = 0; i < json["cameras"].size(); ++i)
     std::cout << "  " << i << ": " << oneLine(json["cameras"][i]["type"]) << " "
               << oneLine(json["cameras"][i]["name"]) << "\n";
+  if (!json["lights"].empty())
+    std::cout << "\nLights (multiplied by " << json["light-scale"] << ")\n";
+  for (const Json& light : json["lights"])
+    std::cout << "  " << oneLine(light["type"]) << " " << light["intensity"].dump() << " "
+              << oneLine(light["unit"]) << " " << oneLine(light["name"]) << "\n";
+  if (!json["animations"].empty()) std::cout << "\nAnimations\n";
+  for (std::size_t i = 0; i < json["animations"].size(); ++i)
+    std::cout << "  " << i << ": " << json["animations"][i]["seconds"] << " s "
+              << oneLine(json["animations"][i]["name"]) << "\n";
   if (json.contains("choice")) printChoice(json["choice"]);
   std::cout << "\nShader variants\n";
   for (const Json& v : json["variants"]) {
@@ -135,7 +155,7 @@ Command addInfo(CLI::App& app) {
   auto makeLook = addLookOptions(*command);
   return [=] {
     const Look look = makeLook();
-    const Scene scene = loadGltf(*model);
+    const Scene scene = loadGltf(*model, poseOf(look));
     checkMaterialNames(scene, look);
     const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
     if (makeLook.savesResolved(look)) makeLook.saveResolved(resolved.look);

@@ -12,7 +12,23 @@
 namespace glint {
 namespace {
 
-// Options beat the look file also where the file speaks of one material and the option of all.
+std::string defaultText(const Parameter& p) {
+  const auto value = p.save(Look{});
+  if (value.is_null() || value == false) return {};
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  if (p.name == "background-color") text = "#333333";
+  return " [default: " + text + "]";
+}
+
+}  // namespace
+
+struct LookOptions {
+  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
+  std::string lookFile, saveFile;
+};
+
 void mergeMaterials(Look& look, const Look& options) {
   const auto all = options.material.find("");
   if (all != options.material.end()) {
@@ -35,26 +51,13 @@ void mergeMaterials(Look& look, const Look& options) {
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
 
-std::string defaultText(const Parameter& p) {
-  const auto value = p.save(Look{});
-  if (value.is_null() || value == false) return {};
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
-  if (p.name == "background-color") text = "#333333";
-  return " [default: " + text + "]";
-}
+namespace {
 
 bool hasBudget(const Look& look) {
   return look.maxError.has_value() || look.shading == Shading::automatic;
 }
 
 }  // namespace
-
-struct LookOptions {
-  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
-  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
-  std::string lookFile, saveFile;
-};
 
 LookSource addLookOptions(CLI::App& app) {
   auto state = std::make_shared<LookOptions>();
@@ -96,6 +99,7 @@ Look LookSource::operator()() const {
       look.light.reset();
       look.noLights = false;
     }
+    if (p->name == "environment") look.hdriFile.clear();
     Look& target = p->name == "material" ? materials : look;
     for (const std::string& text : option->results()) p->read(target, text);
   }

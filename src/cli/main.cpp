@@ -22,9 +22,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.formatter(std::make_shared<glint::HelpFormatter>());
   std::pair<const char*, glint::Command> commands[] = {
-      {"render", glint::addRender(app)}, {"view", glint::addView(app)},
-      {"diff", glint::addDiff(app)},     {"study", glint::addStudy(app)},
-      {"info", glint::addInfo(app)},     {"backends", glint::addBackends(app)}};
+      {"render", glint::addRender(app)},       {"view", glint::addView(app)},
+      {"diff", glint::addDiff(app)},           {"study", glint::addStudy(app)},
+      {"stability", glint::addStability(app)}, {"convert", glint::addConvert(app)},
+      {"info", glint::addInfo(app)},           {"environment", glint::addEnvironment(app)},
+      {"backends", glint::addBackends(app)}};
   const auto run = [&]() -> int {
     for (const auto& [name, command] : commands)
       if (app.got_subcommand(name)) return command();

@@ -105,7 +105,7 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
       if (std::find(model.present.begin(), model.present.end(), false) == model.present.end())
         return model;
     }
-    model.scene = loadGltf(entry.model);
+    model.scene = loadGltf(entry.model, poseOf(look_));
     model.bounds = boundsOf(model.scene);
     model.loadTime = since(start);
     checkMaterialNames(model.scene, look_);

@@ -15,8 +15,9 @@ namespace glint {
 /// A picture on its way from the renderer into its file.
 struct OutgoingPicture {
   std::unique_ptr<PictureWriter> writer;
-  double encodeTime = 0;  ///< ms
-  std::string error;      ///< filled in by the encoder
+  std::function<std::size_t()> whole;  ///< in place of a writer: writes all, returns its NaN pixels
+  double encodeTime = 0;               ///< ms
+  std::string error;                   ///< filled in by the encoder
 };
 
 /// Encodes and writes pictures in a thread of its own, one after the other, so that the next rows

@@ -55,6 +55,11 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
       picture.reference = referencePattern_->name(entry.model, entry.number, models, frame, frames);
     if (options_.turntable > 0)
       picture.variation = "turntable " + std::to_string(frame) + "/" + std::to_string(frames);
+    const auto vary = [&](const std::string& what) {
+      picture.variation += (picture.variation.empty() ? "" : ", ") + what;
+    };
+    for (const std::string& sweep : options_.sweeps) vary("sweep " + sweep);
+    if (options_.terms) vary("terms");
     pictures.push_back(std::move(picture));
   }
   return pictures;
@@ -62,7 +67,12 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
 
 void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures) {
   for (const PlannedPicture& picture : pictures) {
-    const std::size_t* const other = names_.take(picture.output, entry.number);
+    const std::size_t* other = names_.take(picture.output, entry.number);
+    if (options_.terms)
+      for (const char* word : {"ambient", "diffuse-0", "specular-0", "normal", "depth"}) {
+        const auto* const same = names_.take(withWord(picture.output, word), entry.number);
+        other = other ? other : same;
+      }
     if (!other) continue;
     const std::string name = printablePath(picture.output);
     if (*other == entry.number)

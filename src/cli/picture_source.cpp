@@ -79,4 +79,9 @@ std::unique_ptr<PictureSource> Stage::picture(const Look& look) {
   return std::make_unique<ReferenceSource>(model_, look);
 }
 
+Image Stage::term(const Look& look, const PictureTerm& term) {
+  if (renderer_) return drawTerm(*renderer_, *scene_, model_.bounds, look, term);
+  return drawReferenceTerm(model_.scene, model_.images, model_.bounds, look, term);
+}
+
 }  // namespace glint

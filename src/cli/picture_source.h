@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "glint/render/picture_terms.h"
 #include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "model_loader.h"
@@ -27,6 +28,7 @@ class Stage {
  public:
   Stage(Renderer* renderer, LoadedModel& model);
   std::unique_ptr<PictureSource> picture(const Look& look);
+  Image term(const Look& look, const PictureTerm& term);
   const LoadedModel& model() const { return model_; }
 
  private:

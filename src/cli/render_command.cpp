@@ -40,6 +40,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   const Interrupt interrupt;
   const auto list = listOf(options);
   PicturePlan plan(options, *list);
+  const std::vector<Sweep> sweeps(options.sweeps.begin(), options.sweeps.end());
   Look look = makeLook();
   if (reference) {
     if (!options.antiAliasingGiven && look.antiAliasing == AntiAliasing{})
@@ -72,7 +73,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   report.begin(context ? backendName(context->backend()) : "reference", gl);
   report.expect(plan.count());
   PictureEncoder encoder;
-  RenderRun run{options, look, renderer ? &*renderer : nullptr, gl, encoder, report, line};
+  RenderRun run{options, look, sweeps, renderer ? &*renderer : nullptr, gl, encoder, report, line};
   if (makeLook.savesResolved(look))
     run.saveResolved = [&](const Look& resolved) { makeLook.saveResolved(resolved); };
   run.contextTime = since(waited);

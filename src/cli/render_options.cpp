@@ -36,6 +36,20 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "centre, to the right")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
+  command
+      .add_option(
+          "--sweep", options.sweeps,
+          "a contact sheet over a number of the look or of a material ([NAME:]exponent, "
+          "exposure, camera-azimuth-angle, ...), labelled; twice: the second one downwards; "
+          "STEPS:log and STEPS:linear say how they are spread")
+      ->type_name("KEY=FROM:TO:STEPS")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_flag("--terms", options.terms,
+                   "also what the picture is the sum of: ambient, diffuse and specular of each "
+                   "light, reflection, refraction, emission, background; and normal and depth: "
+                   "layers of an EXR, or a file each (OUT.ambient.png)");
   const char* batch = "Batches";
   command
       .add_option("--from-list", options.list,
@@ -85,6 +99,11 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError("-o - and --from-list: the list's report goes to stdout: give -o a file name");
   if (options.output == "-" && !options.reference.empty())
     throw InputError("-o - and --reference: a picture is compared in its file: give -o a name");
+  if (options.output == "-" && options.terms)
+    throw InputError("-o - and --terms: several pictures: give -o a name");
+  if (options.sweeps.size() > 2) throw InputError("--sweep: more than two: give one or two");
+  if (!options.sweeps.empty() && options.terms)
+    throw InputError("--sweep and --terms: give one of them");
   if (options.referenceThreshold && options.reference.empty())
     throw InputError("--reference-threshold: needs --reference FILE");
   const bool holdsText = options.output.ends_with(".png") || options.output.ends_with(".exr");

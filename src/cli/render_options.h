@@ -18,7 +18,8 @@ struct RenderOptions {
   int bitDepth = 8;
   int turntable = 0;  ///< pictures of it; 0: none
   int jobs = 0;       ///< models in the works at once; 0: by the machine
-  bool resume = false;
+  bool resume = false, terms = false;
+  std::vector<std::string> sweeps;
   std::string reference;
   std::optional<double> referenceThreshold;
   bool antiAliasingGiven = false;

@@ -11,6 +11,7 @@
 #include "glint/scene/parameters.h"
 #include "interrupt.h"
 #include "report.h"
+#include "term_files.h"
 
 namespace glint {
 namespace {
@@ -113,7 +114,9 @@ class ModelDrawing {
     const ResolvedLook resolved = resolveLook(model_.scene, model_.bounds, asked);
     const Look& look = resolved.look;
     if (run_.saveResolved) run_.saveResolved(look);
-    const auto source = stage_->picture(look);
+    const auto source = run_.sweeps.empty()
+                            ? stage_->picture(look)
+                            : std::make_unique<ContactSheet>(*stage_, run_.sweeps, look);
     PictureOptions file;
     file.bitDepth = run_.options.bitDepth;
     file.alpha = look.noBackground;
@@ -121,19 +124,12 @@ class ModelDrawing {
     file.text = pictureText(look, run_.look,
                             {model_.hash, run_.gl, run_.options.bitDepth, planned.variation});
     const auto out = std::make_shared<OutgoingPicture>();
-    const glm::ivec2 size = source->size();
-    out->writer = openPictureWriter(planned.output, size.x, size.y, file);
-    int rowsDone = 0;
-    for (;;) {
-      Image rows = run_.encoder.takeImage();
-      if (!source->draw(rows)) break;
-      rowsDone += rows.height;
-      if (model_.pictures.size() == 1)
-        run_.line.show(planned.output + ": " + std::to_string(100LL * rowsDone / size.y) + " %");
-      if (Interrupt::signal() != 0) return;
-      if (!run_.encoder.write(out, std::move(rows))) break;
-    }
     PictureResult result = resultFor(model_, planned);
+    if (run_.options.terms)
+      drawTerms(planned, look, *source, file, *out, result);
+    else
+      drawRows(planned, *source, file, out);
+    if (Interrupt::signal() != 0) return;
     const RenderTimes times = source->times();
     result.entry["triangles"] = triangleCount(model_.scene, source->list());
     result.entry["draws"] = source->list().items.size();
@@ -161,17 +157,54 @@ class ModelDrawing {
     });
   }
 
+  void drawRows(const PlannedPicture& planned, PictureSource& source, const PictureOptions& file,
+                const std::shared_ptr<OutgoingPicture>& out) {
+    const glm::ivec2 size = source.size();
+    out->writer = openPictureWriter(planned.output, size.x, size.y, file);
+    int rowsDone = 0;
+    for (;;) {
+      Image rows = run_.encoder.takeImage();
+      if (!source.draw(rows)) return;
+      rowsDone += rows.height;
+      if (model_.pictures.size() == 1)
+        run_.line.show(planned.output + ": " + std::to_string(100LL * rowsDone / size.y) + " %");
+      if (Interrupt::signal() != 0 || !run_.encoder.write(out, std::move(rows))) return;
+    }
+  }
+
+  // Layers of one file are written at once, so that all of them are kept.
+  void drawTerms(const PlannedPicture& planned, const Look& look, PictureSource& source,
+                 const PictureOptions& file, OutgoingPicture& out, PictureResult& result) {
+    const auto drawn = std::make_shared<DrawnTerms>();
+    drawn->picture = {source.size().x, source.size().y, {}};
+    for (Image rows; source.draw(rows);) {
+      auto& values = drawn->picture.values;
+      values.insert(values.end(), rows.values.begin(), rows.values.end());
+    }
+    Json& names = result.entry["terms"] = Json::object();
+    for (const PictureTerm& term : termsOf(source.list(), look)) {
+      if (Interrupt::signal() != 0) return;
+      run_.line.show(planned.output + ": " + term.name);
+      drawn->terms.emplace_back(term, stage_->term(look, term));
+      names[term.name] = termOutput(planned.output, term);
+    }
+    out.whole = [drawn, file, output = planned.output] { return writeTerms(output, *drawn, file); };
+  }
+
   // In the encoder's thread.
   static void finish(RenderRun& run, OutgoingPicture& out, const PlannedPicture& planned,
                      PictureResult result, const std::function<double()>& total) {
     const auto start = Clock::now();
+    std::size_t nan = 0;
     try {
-      if (out.error.empty()) out.writer->finish();
+      if (out.whole) nan = out.whole();
+      if (out.writer && out.error.empty()) out.writer->finish();
     } catch (const Error& error) {
       out.error = error.what();
     }
-    const std::size_t nan = out.writer->nanPixels();
+    if (out.writer) nan = out.writer->nanPixels();
     out.writer.reset();
+    out.whole = nullptr;
     out.encodeTime += since(start);
     if (nan > 0) {
       const std::string warning = planned.output + ": " + std::to_string(nan) +

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "contact_sheet.h"
 #include "glint/render/renderer.h"
 #include "model_loader.h"
 #include "picture_encoder.h"
@@ -15,6 +16,7 @@ namespace glint {
 struct RenderRun {
   const RenderOptions& options;
   const Look& look;
+  const std::vector<Sweep>& sweeps;
   Renderer* renderer = nullptr;  ///< without: the reference
   std::optional<GlStrings> gl;
   PictureEncoder& encoder;

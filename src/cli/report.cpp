@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 
@@ -11,7 +12,8 @@ namespace glint {
 
 using Json = nlohmann::ordered_json;
 
-Json variantsJson(const Scene& scene, const DrawList& list, const Look& look) {
+Json variantsJson(const Scene& scene, const DrawList& list, const Look& given) {
+  const Look look = withFileLights(scene, given);
   std::map<Variant, const DrawItem*> firsts;
   std::map<Variant, std::vector<std::string>> materials;
   for (const DrawItem& item : list.items) {

@@ -12,7 +12,7 @@
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
 #include "glint/study/study_page.h"
-#include "glint/study/study_report.h"
+#include "glint/study/study_results.h"
 #include "progress.h"
 
 namespace glint {
@@ -29,7 +29,7 @@ void stopOnInterrupt() {
 }
 
 struct StudyArguments {
-  std::string model, output, json, backend = "auto";
+  std::string model, output, json, markdown, command, backend = "auto";
   bool quick = false;
   int repetitions = 0;
   double timeBudget = 0;
@@ -48,6 +48,21 @@ Look studyLook(const StudyArguments& given, Look look) {
   if (given.quick && !given.resolutionGiven && look.resolution == Look{}.resolution)
     look.resolution = {quickSize, quickSize};
   return look;
+}
+
+/// The command line as it was given.
+std::string commandLine(const CLI::App& command) {
+  std::string line = "glint " + command.get_name();
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    if (option->get_items_expected_max() == 0) {
+      line += " --" + option->get_lnames().front();
+      continue;
+    }
+    for (const std::string& value : option->results())
+      line += (option->get_positional() ? " " : " --" + option->get_lnames().front() + " ") + value;
+  }
+  return line;
 }
 
 /// The folder of --output, made before anything is measured.
@@ -78,7 +93,8 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   auto opening = openContextAsync(backend);
   // Levels of refinement: triangles of some ten pixels, as models have them.
-  Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial()) : loadGltf(given.model);
+  Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial())
+                                    : loadGltf(given.model, poseOf(options.look));
   checkMaterialNames(scene, options.look);
   const StudyScene prepared(std::move(scene), options.look);
   const auto context = opening.get();
@@ -110,6 +126,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   if (given.json != "-") std::cout << studyTable(head, result);
   const auto json = studyJson(head, result);
   if (!given.json.empty()) writeText(given.json, json.dump(2) + "\n");
+  if (!given.markdown.empty()) writeText(given.markdown, studyResults(head, result, given.command));
   if (!given.output.empty()) {
     writeText(given.output + "/study.json", json.dump(2) + "\n");
     writeText(given.output + "/study.csv", studyCsv(result));
@@ -151,6 +168,10 @@ Command addStudy(CLI::App& app) {
                    "study.csv to this folder")
       ->type_name("DIR")
       ->take_last();
+  command
+      ->add_option("--markdown", given->markdown,
+                   "write the questions that a study answers, with the figures, to this file")
+      ->type_name("FILE");
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");
   auto look = addLookOptions(*command);
@@ -161,6 +182,7 @@ Command addStudy(CLI::App& app) {
       return option->count() > 0 ? option->results().back() : std::string();
     };
     given->filter = {only("shading"), only("highlight"), only("fresnel"), false};
+    given->command = commandLine(*command);
     given->resolutionGiven = command->get_option("--resolution")->count() > 0;
     return runStudy(*given, asked);
   };

@@ -249,14 +249,22 @@ std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay displ
     handles->surface = egl.createPbufferSurface(display, config, size);
     if (!handles->surface) fail("eglCreatePbufferSurface");
   }
+  // A context that tells of a reset of the device (GL_CONTEXT_LOST, see check.h), where the driver
+  // has such: without it a lost one may go on and draw nothing.
   const EGLint core33[] = {EGL_CONTEXT_MAJOR_VERSION,
                            3,
                            EGL_CONTEXT_MINOR_VERSION,
                            3,
                            EGL_CONTEXT_OPENGL_PROFILE_MASK,
                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                           EGL_LOSE_CONTEXT_ON_RESET,
                            EGL_NONE};
   handles->context = egl.createContext(display, config, EGL_NO_CONTEXT, core33);
+  if (handles->context) return handles;
+  std::vector<EGLint> plain(std::begin(core33), std::end(core33) - 3);
+  plain.push_back(EGL_NONE);
+  handles->context = egl.createContext(display, config, EGL_NO_CONTEXT, plain.data());
   if (handles->context) return handles;
   const std::string reason = "eglCreateContext: " + errorWords(egl);
   // What the driver gives when nothing is asked of it says more than the error.

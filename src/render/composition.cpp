@@ -21,7 +21,8 @@ std::string stageDefines(bool vertex) {
 
 std::string environmentDefines(Environment environment) {
   return define("ENVIRONMENT_STUDIO", 0) + define("ENVIRONMENT_SKY", 1) +
-         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_MAP", int(environment));
+         define("ENVIRONMENT_WHITE", 2) + define("ENVIRONMENT_IMAGE", 3) +
+         define("ENVIRONMENT_MAP", int(environment));
 }
 
 std::string defines(const Variant& v) {
@@ -34,9 +35,12 @@ std::string defines(const Variant& v) {
   text += define("EMISSION", v.emission);
   text += define("EMISSION_TEXTURE", v.emissionTexture);
   text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
-  constexpr const char* outputs[] = {"RADIANCE", "POSITION", "NORMAL", "COLOR", "EMISSION"};
-  for (int i = 0; i < 5; ++i)
-    text += std::string("#define OUTPUT_") + outputs[i] + " " + std::to_string(i) + "\n";
+  constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
+                                     "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
+                                     "REFLECTION", "REFRACTION"};
+  int number = 0;
+  for (const char* output : outputs)
+    text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
   text += define("OUTPUT", int(v.output));
   if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0);
   const int lights = v.directionalLights + v.pointLights + v.spotLights;
@@ -44,6 +48,7 @@ std::string defines(const Variant& v) {
   text += define("DIRECTIONAL_LIGHTS", v.directionalLights);
   text += define("POINT_LIGHTS", v.pointLights);
   text += define("SPOT_LIGHTS", v.spotLights);
+  text += define("LIGHT_FALLOFF", v.lightFalloff);
   text += define("DIFFUSE", v.diffuse);
   text += define("SPECULAR", v.specular);
   constexpr const char* lobes[] = {"EXACT",      "POW",        "INTEGER", "LYON",

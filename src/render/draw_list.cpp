@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "glint/scene/lights.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
@@ -56,7 +57,12 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
       const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
       e.constant = glm::vec4(glm::vec3(blinn ? half : between), 0);
     } else {
-      e.position = glm::vec4(eyePosition(light.position, camera, rotation), 1);
+      e.position = glm::vec4(eyePosition(light.position, camera, rotation), 0);
+    }
+    if (light.fallsOff) {  // distances are in units of the camera's unit
+      const double square = camera.unit * camera.unit;
+      e.intensity = glm::vec4(glm::vec3(glm::min(light.intensity / square, 1e30)), 0);
+      e.position.w = light.range > 0 ? float(std::min(camera.unit / light.range, 1e15)) : 0;
     }
     if (light.type == Light::Type::spot) {
       const double outer = std::cos(light.outerAngle * radians);
@@ -168,10 +174,12 @@ bool finite(const glm::mat4& m) {
 
 }  // namespace
 
-DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& look) {
+DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& given) {
+  const Look look = withFileLights(scene, given);
   checkMaterialNames(scene, look);
   DrawList list;
   list.camera = cameraFor(scene, bounds, look);
+  list.environment = environmentImageFor(look);
   list.lights = lightEntries(look, list.camera);
   const double turn = -look.environmentRotation * radians, c = std::cos(turn), s = std::sin(turn);
   const glm::dmat3 rotation(c, 0, -s, 0, 1, 0, s, 0, c);
@@ -218,7 +226,8 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& look
   return list;
 }
 
-std::vector<int> imagesRead(const Scene& scene, const Look& look) {
+std::vector<int> imagesRead(const Scene& scene, const Look& given) {
+  const Look look = withFileLights(scene, given);
   std::set<int> images;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];

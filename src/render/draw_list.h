@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "glint/render/blocks.h"
+#include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/camera.h"
 
@@ -29,6 +31,8 @@ struct DrawList {
   /// In the order of blocks.glsl. `constant` holds L + V; with Blinn-Phong, H.
   std::vector<LightEntry> lights;
   std::vector<DrawItem> items;  ///< in drawing order
+  /// Where the look's environment is a picture and something shows it.
+  std::shared_ptr<const EnvironmentImage> environment;
 };
 
 /// `bounds` are those of the scene. Throws InputError for a camera or a material that the scene

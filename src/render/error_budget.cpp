@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "glint/render/variant.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
@@ -40,7 +42,8 @@ struct Group {
 
 // What all surfaces have in common.
 struct Setting {
-  Look look;  // exact forms, one program
+  Look given;
+  Look look;  // with the lights of the file
   Camera camera;
   std::vector<glint::Light> lights;
   glm::dvec3 active{0.0};  // sum of intensities that can meet at a point
@@ -51,10 +54,11 @@ struct Setting {
 
 Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   Setting s;
-  s.look = look;
+  s.given = look;
+  s.look = withFileLights(scene, look);
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
-  s.lights = lightsOf(look);
+  s.lights = lightsOf(s.look);
   std::erase_if(s.lights, [](const glint::Light& l) { return l.intensity == glm::dvec3(0.0); });
   s.lightCount = int(s.lights.size());
   std::vector<glm::dvec3> directions, intensities;
@@ -66,19 +70,25 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       intensities.push_back(light.intensity);
       continue;
     }
-    s.active += light.intensity;
+    // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
+    double most = 1;
+    if (light.fallsOff) {
+      const double way = glm::length(light.position - bounds.center) - bounds.radius;
+      most = 1 / std::pow(std::max(way, 1e-6), 2);
+    }
+    s.active += most * light.intensity;
     if (light.type == glint::Light::Type::spot) {
       constexpr double radians = 0.017453292519943295;
       const double range =
           std::cos(light.innerAngle * radians) - std::cos(light.outerAngle * radians);
-      s.spotSteepness += largest(light.intensity) * 2.0 / std::max(range, 1e-9);
+      s.spotSteepness += most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
     }
   }
   s.active += activeIntensity(directions, intensities);
   return s;
 }
 
-BuiltinEnvironment environmentOf(const Look& look) {
+BuiltinEnvironment builtinOf(const Look& look) {
   return look.environment == Environment::studio ? BuiltinEnvironment::studio
          : look.environment == Environment::sky  ? BuiltinEnvironment::sky
                                                  : BuiltinEnvironment::white;
@@ -113,13 +123,19 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   if (v.program != Shading::environment) return s;
 
   // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
-  const BuiltinEnvironment map = environmentOf(setting.look);
-  const double radiance = largestRadiance(map), steep = steepestRadiance(map);
+  const BuiltinEnvironment map = builtinOf(setting.look);
+  // Nothing is known of the radiance of a picture: no bound, and so the exact forms.
+  const bool picture = !setting.look.hdriFile.empty();
+  const double unknown = std::numeric_limits<double>::infinity();
+  const double radiance = picture ? unknown : largestRadiance(map);
+  const double steep = picture ? unknown : steepestRadiance(map);
   const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
-  if (v.dielectric) s.environment = (1.0 - m.metalness) * radiance * through;
+  if (v.dielectric && !picture) s.environment = (1.0 - m.metalness) * radiance * through;
   // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
   // cosines.
-  s.rounding += 1e-5 + 2e-6 * steep + m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
+  s.rounding +=
+      1e-5 + 2e-6 * steep +
+      (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
   if (v.refraction) {
     // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
     // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the same
@@ -336,7 +352,7 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
 
 ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
-  resolved.look = setting.look;
+  resolved.look = setting.given;
   resolved.look.shading = program;
   for (const auto& [name, group] : groupsOf(scene, setting, program)) {
     resolved.choices.push_back(chooseForms(name, group, setting, budget));

@@ -157,6 +157,7 @@ std::unique_ptr<Probe::Function> Probe::compile(std::string_view text) const {
   std::string files;
   for (const auto& [name, value] : text_.defines)
     files += "#define " + name + " " + std::to_string(value) + "\n";
+  files += text_.text;
   int number = 0;
   for (const std::string& file : text_.files)
     files += "#line 1 " + (fileNames ? "\"" + file + "\"" : std::to_string(++number)) + "\n" +

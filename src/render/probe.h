@@ -19,6 +19,8 @@ struct ProbeText {
   std::vector<std::string> files;
   /// #define NAME VALUE, before the files.
   std::vector<std::pair<std::string, int>> defines;
+  /// GLSL of one's own, after the defines and before the files.
+  std::string text = {};
 };
 
 /// Runs GLSL functions, as the driver compiles them for the fragment stage, over arrays of inputs:

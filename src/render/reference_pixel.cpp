@@ -110,11 +110,29 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
   a.barycentrics = f.weights * w;
   a.base = baseColor(item, f);
-  a.position = mean(f, [&](std::uint32_t i) { return v.eye[i]; });
+  const auto positionAt = [&](const Footprint& at) {
+    return mean(at, [&](std::uint32_t i) { return v.eye[i]; });
+  };
+  const auto normalAt = [&](const Footprint& at) {
+    return mean(at, [&](std::uint32_t i) { return v.normals[i]; });
+  };
+  a.position = positionAt(f);
   if (item.surface.unlit) return a;
   a.emission = emissionOf(item, f);
   a.faceNormal = faceNormal_;
-  a.normal = mean(f, [&](std::uint32_t i) { return v.normals[i]; });
+  a.normal = normalAt(f);
+  if (stage_.frame.image && item.surface.program == Program::environment) {
+    const auto place = [&](int x, int y) {
+      return primitive_.footprint(x + 0.5, stage_.grid.y - y - 0.5);
+    };
+    // GL takes differences within squares of 2 x 2 pixels, which begin at the lower left.
+    const int below = (stage_.grid.y - 1 - row) % 2 == 0 ? row - 1 : row + 1;
+    const Footprint across = place(column ^ 1, row), along = place(column, below);
+    a.positionAcross = positionAt(across) - a.position;
+    a.normalAcross = normalAt(across) - a.normal;
+    a.positionAlong = positionAt(along) - a.position;
+    a.normalAlong = normalAt(along) - a.normal;
+  }
   if (item.surface.program == Program::flat) {
     a.matte = carried_[0].matte;
     a.specular = carried_[0].specular;

@@ -10,6 +10,7 @@
 #include "glint/image/error.h"
 #include "glint/render/reference_pixel.h"
 #include "glint/render/reference_raster.h"
+#include "glint/shading/safe.h"
 
 namespace glint {
 namespace {
@@ -95,9 +96,13 @@ void ReferenceRenderer::findVisible(int firstRow, int endRow, Strip& strip) cons
 glm::dvec4 ReferenceRenderer::background(int column, int row) const {
   if (look_.noBackground) return glm::dvec4(0.0);
   if (!look_.environmentBackground) return {look_.backgroundColor, 1.0};
-  const glm::dvec3 ray = stage_.ray(column + 0.5, stage_.grid.y - row - 0.5);
-  return {environmentRadiance(stage_.frame.environment, stage_.frame.environmentFromEye * ray),
-          1.0};
+  const auto ray = [&](int x, int y) {
+    return safeNormalize(stage_.ray(x + 0.5, stage_.grid.y - y - 0.5));
+  };
+  const glm::dvec3 here = ray(column, row);
+  const double spread =
+      std::max(glm::length(ray(column + 1, row) - here), glm::length(ray(column, row + 1) - here));
+  return {environmentToward(stage_.frame, here, spread), 1.0};
 }
 
 void ReferenceRenderer::drawStrip(int firstRow, int endRow, Strip& strip) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glint/image/image.h"
+#include "glint/render/picture_terms.h"
 #include "glint/render/reference_scene.h"
 
 namespace glint {
@@ -23,6 +24,9 @@ class ReferenceRenderer {
   /// camera or a material that the scene does not have.
   ReferenceRenderer(const Scene& scene, const DecodedImages& images, const Bounds& bounds,
                     const Look& look, int threads = 0);
+
+  /// Before anything is drawn: leaves one term of the picture (see picture_terms.h) to be drawn.
+  void keep(const PictureTerm& term);
 
   /// Rows y0 to y0 + rows - 1 from the top: linear, premultiplied by alpha over the background,
   /// before exposure. The image is reused if it has room.

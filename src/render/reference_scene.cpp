@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "glint/scene/lights.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/safe.h"
 
@@ -16,10 +17,16 @@ constexpr double radians = std::numbers::pi / 180;
 std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
   const glm::dmat3 turn = glm::transpose(camera.axes);
   std::vector<Light> lights;
+  // Lengths are in units of camera.unit, and so is what falls with their square.
   for (const glint::Light& from : lightsOf(look)) {
     if (from.intensity == glm::dvec3(0.0)) continue;
     Light light;
     light.intensity = from.intensity;
+    if (from.fallsOff) {
+      light.fallsOff = true;
+      light.range = from.range / camera.unit;
+      light.intensity /= camera.unit * camera.unit;
+    }
     switch (from.type) {
       case glint::Light::Type::camera:
         light.place = safeNormalize(from.direction);
@@ -196,7 +203,8 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
 
 Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& list,
              const Look& look)
-    : frame(frameFor(look, list.camera)), camera(list.camera) {
+    : frame(frameFor(withFileLights(scene, look), list.camera)), camera(list.camera) {
+  frame.image = list.environment.get();
   const bool ssaa = look.antiAliasing.mode == AntiAliasing::Mode::ssaa;
   grid = look.resolution * (ssaa ? look.antiAliasing.count : 1);
   const glm::dmat4 toClip = projection(camera, glm::dvec2(0.0), glm::dvec2(1.0), true);

@@ -1,5 +1,7 @@
 #include "glint/render/reference_shade.h"
 
+#include <algorithm>
+
 #include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
 
@@ -38,20 +40,44 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   glm::dvec3 F(0.0);
   if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
   if (m > 0) F += m * metalReflectance(cosine, C);
-  const auto radianceFrom = [&](const glm::dvec3& direction) {
-    return environmentRadiance(frame.environment, frame.environmentFromEye * direction);
+  // A picture is looked up over the angle by which the direction turns from pixel to pixel.
+  const auto spread = [&](const auto& directionAt) {
+    const auto turn = [&](const glm::dvec3& position, const glm::dvec3& normal) {
+      Attributes other = a;
+      other.position += position;
+      other.normal += normal;
+      return directionAt(other);
+    };
+    const glm::dvec3 here = directionAt(a);
+    return std::max(glm::length(turn(a.positionAcross, a.normalAcross) - here),
+                    glm::length(turn(a.positionAlong, a.normalAlong) - here));
   };
-  terms.reflection = F * radianceFrom(reflect(-V, N));
+  const auto mirrored = [&](const Attributes& at) {
+    return safeNormalize(reflect(-toViewer(frame, at.position), shadingNormal(surface, at)));
+  };
+  terms.reflection = F * environmentToward(frame, mirrored(a), frame.image ? spread(mirrored) : 0);
   const double opacity = surface.blend ? a.base.a : 1.0;
   terms.transparency = 1 - (1 - surface.transmission) * opacity;
   if (terms.transparency == 0) return;
   const double n1 = entering ? surface.mediumIor : surface.ior;
   const double n2 = entering ? surface.ior : surface.mediumIor;
+  const auto refracted = [&](const Attributes& at) {
+    const auto direction =
+        refract(-toViewer(frame, at.position), shadingNormal(surface, at), n1, n2);
+    return direction ? safeNormalize(*direction) : glm::dvec3(0.0);
+  };
   if (const auto direction = refract(-V, N, n1, n2))
-    terms.refraction = terms.transparency * (1.0 - F) * C * radianceFrom(*direction);
+    terms.refraction = terms.transparency * (1.0 - F) * C *
+                       environmentToward(frame, *direction, frame.image ? spread(refracted) : 0);
 }
 
 }  // namespace
+
+glm::dvec3 environmentToward(const Frame& frame, const glm::dvec3& direction, double spread) {
+  const glm::dvec3 world = frame.environmentFromEye * direction;
+  return frame.image ? frame.image->radiance(world, spread)
+                     : environmentRadiance(frame.environment, world);
+}
 
 glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position) {
   const glm::dvec3 V = frame.constantView ? glm::dvec3(0, 0, 1) : safeNormalize(-position);
@@ -80,6 +106,7 @@ Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& posi
     double share = 1;
     if (light.type == Light::Type::spot)
       share = spotFalloff(glm::dot(-L, light.axis), light.cosInner, light.cosOuter);
+    if (light.fallsOff) share *= distanceFalloff(glm::length(light.place - position), light.range);
     if (share > 0) sum += oneLight(p, normal, L, V, share * light.intensity);
   }
   Terms terms;
@@ -110,8 +137,21 @@ Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
   }
   terms.sum = sumColor({terms.matte, terms.specular}, C, surface.metalness);
   if (surface.program == Program::environment) addEnvironment(frame, surface, a, N, terms);
-  terms.radiance =
-      (1 - terms.transparency) * terms.sum + terms.reflection + terms.refraction + a.emission;
+  const glm::dvec3 sum = (1 - terms.transparency) * terms.sum;
+  switch (surface.part) {
+    case Part::all:
+      terms.radiance = sum + terms.reflection + terms.refraction + a.emission;
+      break;
+    case Part::sum:
+      terms.radiance = sum + a.emission;
+      break;
+    case Part::reflection:
+      terms.radiance = terms.reflection;
+      break;
+    case Part::refraction:
+      terms.radiance = terms.refraction;
+      break;
+  }
   return terms;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "glint/render/environment_image.h"
 #include "glint/shading/environment_map.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
@@ -18,6 +19,8 @@ struct Light {
   glm::dvec3 place{0.0};  ///< directional: unit, to the light; otherwise where it is
   glm::dvec3 axis{0.0};   ///< spot: unit, along its axis
   double cosInner = 1.0, cosOuter = 0.0;
+  bool fallsOff = false;  ///< `intensity` is that at distance 1, and there is none beyond `range`
+  double range = 0.0;     ///< 0: no such end
   glm::dvec3 intensity{1.0};
 };
 
@@ -27,10 +30,13 @@ struct Frame {
   glm::dvec3 ambientLight{0.0};
   bool constantView = false;  ///< to the viewer is +Z everywhere: orthographic or infinite viewer
   BuiltinEnvironment environment = BuiltinEnvironment::studio;
+  const EnvironmentImage* image = nullptr;  ///< takes the place of `environment`
   glm::dmat3 environmentFromEye{1.0};
 };
 
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
+/// Which part of the radiance a surface shows.
+enum class Part { all, sum, reflection, refraction };
 
 /// A material under a look.
 struct Surface {
@@ -46,7 +52,8 @@ struct Surface {
   FresnelSides sides;        ///< of ior and mediumIor
   double rationalSlope = 0;  ///< k of FresnelForm::rational
   double transmission = 0;
-  bool blend = false;  ///< 1 - alpha adds to the transparency of the program environment
+  Part part = Part::all;  ///< `sum` goes with emission
+  bool blend = false;     ///< 1 - alpha adds to the transparency of the program environment
 };
 
 /// What reaches shading at one point: all of a pixel's error that is not in here is shading error.
@@ -64,6 +71,9 @@ struct Attributes {
   glm::dvec3 faceNormal{0.0};  ///< unit, of the front side
   glm::dvec4 base{1.0};        ///< C and alpha: material, vertex colour and texture
   glm::dvec3 emission{0.0};    ///< material and texture
+  /// What position and normal change by to the other pixel of the pair, across and down: GL's
+  /// differences. Set where the environment is a picture.
+  glm::dvec3 positionAcross{0.0}, positionAlong{0.0}, normalAcross{0.0}, normalAlong{0.0};
   /// flat and gouraud: the light carried from face or vertices, what C and what S multiply.
   glm::dvec3 matte{0.0}, specular{0.0};
 };
@@ -78,6 +88,10 @@ struct Terms {
   /// (1 - t) sum + reflection + refraction + emission, or C of what is unlit.
   glm::dvec3 radiance{0.0};
 };
+
+/// The environment's radiance from a direction in eye space, as the mean over `spread` radians
+/// where it is a picture.
+glm::dvec3 environmentToward(const Frame& frame, const glm::dvec3& direction, double spread);
 
 /// Unit, to the viewer; +Z at the eye itself.
 glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position);

@@ -10,6 +10,8 @@
 namespace glint {
 namespace {
 
+constexpr GLuint environmentUnit = 3;
+
 enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding };
 
 class Stopwatch {
@@ -32,6 +34,7 @@ void connect(const Program& program) {
   program.bindBlock("MaterialBlock", materialBinding);
   program.bindSampler("colorTexture", 0);
   program.bindSampler("emissionTexture", 1);
+  program.bindSampler("environmentImage", environmentUnit);
 }
 
 Program build(const ComposedProgram& text) {
@@ -123,6 +126,10 @@ const Program& Renderer::backgroundFor(Environment environment) {
       .first->second;
 }
 
+void Renderer::limitPrograms(std::size_t most) {
+  if (programs_.size() > most) programs_.clear();
+}
+
 RenderTarget& Renderer::targetFor(int width, int height, int samples) {
   if (!target_ || target_->width() < width || target_->height() < height ||
       askedSamples_ != samples) {
@@ -150,11 +157,12 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
     const Stopwatch time(times_.compile);
     for (const DrawItem& item : list_.items)
       programs_.push_back(&renderer.programFor(item.variant));
-    if (look_.environmentBackground) renderer.backgroundFor(look_.environment);
+    if (look_.environmentBackground) renderer.backgroundFor(environmentOf(look_));
   }
   const Stopwatch time(times_.draw);
   renderer.targetFor(layout_.tileWidth * layout_.scale, layout_.bandHeight * layout_.scale,
                      layout_.samples);
+  if (list_.environment) renderer.environment_.upload(list_.environment);
   glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
   glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
                list_.lights.data(), GL_STREAM_DRAW);
@@ -219,11 +227,12 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       glClearColor(background.r, background.g, background.b, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 
+    if (list_.environment) renderer_.environment_.bind(environmentUnit);
     if (look_.environmentBackground && !look_.noBackground) {
       glDisable(GL_DEPTH_TEST);
       glDisable(GL_BLEND);
       glDisable(GL_CULL_FACE);
-      renderer_.backgroundFor(look_.environment).use();
+      renderer_.backgroundFor(environmentOf(look_)).use();
       glBindVertexArray(renderer_.noVertices_.id());
       glDrawArrays(GL_TRIANGLES, 0, 3);
       glEnable(GL_DEPTH_TEST);

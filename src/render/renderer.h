@@ -8,6 +8,7 @@
 #include "glint/gl/program.h"
 #include "glint/image/image.h"
 #include "glint/render/draw_list.h"
+#include "glint/render/environment_texture.h"
 #include "glint/render/glsl_sources.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/render/tiles.h"
@@ -64,6 +65,13 @@ class Renderer {
   /// outlive the picture.
   Picture begin(GpuScene&, DrawList, const Look&);
 
+  /// Forgets all programs if there are more than `most`, so that a long run over models of many
+  /// kinds stays within bounds. No picture may be in the making.
+  void limitPrograms(std::size_t most);
+
+  /// Whether depth is 1 at the near plane and 0 at the far one; else 0 and 1.
+  bool reversedDepth() const { return clipControl_; }
+
   /// Draws a whole picture at once.
   Image draw(GpuScene&, const Bounds&, const Look&);
 
@@ -77,6 +85,7 @@ class Renderer {
   bool clipControl_;
   std::map<Variant, Program> programs_;
   std::map<Environment, Program> backgrounds_;
+  EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;
   int askedSamples_ = 0;
   VertexArray noVertices_;

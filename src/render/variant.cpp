@@ -127,6 +127,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
         ++v.spotLights;
         break;
     }
+    v.lightFalloff = v.lightFalloff || light.fallsOff;
   }
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   v.diffuse = lit && s.diffuse > 0;
@@ -136,7 +137,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   v.constantView = orthographic || look.viewer == Viewer::infinite;
   v.unevenScale = !isSimilarity(glm::dmat3(world));
   if (environment) {
-    v.environment = look.environment;
+    v.environment = environmentOf(look);
     v.dielectric = s.metalness < 1;
     v.metal = s.metalness > 0;
     if (v.dielectric) v.fresnel = fresnelOf(material, look);
@@ -187,6 +188,9 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   count("directional-lights", v.directionalLights);
   count("point-lights", v.pointLights);
   count("spot-lights", v.spotLights);
+  if (v.pointLights + v.spotLights > 0)
+    add("light-falloff", v.lightFalloff, "the file's lights weaken with distance",
+        "--light is constant");
   add("diffuse", v.diffuse, "diffuse > 0", lights ? "diffuse is 0" : none);
   add("specular", v.specular, "specular > 0", lights ? "specular is 0" : none);
   if (v.specular) add("specular:" + lobeText(v.highlight), true, formReason(v, material, look), {});
@@ -239,6 +243,7 @@ std::vector<std::string> featureNames(const Variant& v) {
   count(v.directionalLights, "directional-lights");
   count(v.pointLights, "point-lights");
   count(v.spotLights, "spot-lights");
+  add(v.lightFalloff, "light-falloff");
   add(v.diffuse, "diffuse");
   add(v.specular, ("specular:" + lobeText(v.highlight)).c_str());
   add(v.constantView && !v.unlit, "constant-view");
@@ -253,7 +258,8 @@ std::vector<std::string> featureNames(const Variant& v) {
   add(v.alphaMask, "alpha-mask");
   add(v.alphaBlend, "alpha-blend");
   if (v.program == Shading::environment && !v.unlit) {
-    constexpr const char* maps[] = {"environment:studio", "environment:sky", "environment:white"};
+    constexpr const char* maps[] = {"environment:studio", "environment:sky", "environment:white",
+                                    "environment:image"};
     add(true, maps[int(v.environment)]);
     add(v.dielectric, ("fresnel:" + std::string(fresnelText(v.fresnel))).c_str());
     add(v.schlickFifth, "schlick-fifth");

@@ -17,7 +17,13 @@ enum class PixelOutput {
   position,  ///< xyz: eye space, w: 1
   normal,  ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
   color,   ///< C of the pixel and alpha: factor, vertex colour and texture
-  emission,  ///< rgb, w: 1
+  emission,       ///< rgb, w: 1
+  depth,          ///< x: the depth buffer's, y: 1 / w of clip space
+  shadingNormal,  ///< xyz: eye space, unit, turned as shading turns it; w: 1
+  // Parts of what the program environment shows; alpha as in the picture:
+  sum,         ///< (1 - t) times the sum over the lights, and emission
+  reflection,  ///< F E(reflect), where there are neither lights nor ambient light
+  refraction,  ///< t (1 - F) C E(refract), likewise
 };
 
 /// What a shader holds: the program and only the features that the scene needs of it. Equal
@@ -26,8 +32,9 @@ struct Variant {
   Shading program = Shading::phong;
   bool unlit = false;  ///< colour alone: points, lines and unlit materials; all below it is off
   int directionalLights = 0, pointLights = 0, spotLights = 0;
-  bool diffuse = false;   ///< some light and m_d > 0
-  bool specular = false;  ///< some light and m_s > 0
+  bool lightFalloff = false;  ///< points and spots weaken with distance
+  bool diffuse = false;       ///< some light and m_d > 0
+  bool specular = false;      ///< some light and m_s > 0
   /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
   HighlightForm highlight;
   bool constantView = false;     ///< one direction to the viewer: H, V and L + V once per draw
@@ -89,7 +96,8 @@ std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Materia
 /// The names of the features that a variant has.
 std::vector<std::string> featureNames(const Variant&);
 
-/// The lights of a look: those given, or the default one, or none.
+/// The lights of a look: those given, or the default one, or none. Those of a file are in the look
+/// that withFileLights() gives; every function here takes that one.
 std::vector<Light> lightsOf(const Look&);
 
 /// Whether a 3x3 transform is a rotation (with or without mirror) and one scale, to 1e-6.

@@ -93,6 +93,20 @@ AccessorView openAccessor(const Document& document, int index, const std::string
   return view;
 }
 
+namespace {
+
+/// What a whole number is multiplied by: 1 or, as a fraction, that of its type.
+template <typename Component>
+double scaleOf(const AccessorView& view, bool normalize) {
+  if constexpr (!std::is_floating_point_v<Component>) {
+    // -128 and -127 both stand for -1.
+    if (normalize || view.normalized) return 1.0 / std::numeric_limits<Component>::max();
+  }
+  return 1;
+}
+
+}  // namespace
+
 template <typename Vector>
 std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices, bool normalize,
                            const Vector& fallback) {
@@ -101,11 +115,7 @@ std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices,
   const int length = std::min<int>(Vector::length(), view.components);
   withComponent(view.componentType, [&](auto type) {
     using Component = decltype(type);
-    double scale = 1;
-    if constexpr (!std::is_floating_point_v<Component>) {
-      // -128 and -127 both stand for -1.
-      if (normalize || view.normalized) scale = 1.0 / std::numeric_limits<Component>::max();
-    }
+    const double scale = scaleOf<Component>(view, normalize);
     const double least = scale != 1 ? -1.0 : std::numeric_limits<double>::lowest();
     for (std::size_t i = 0; i < vertices.count; ++i) {
       const unsigned char* from = view.data + vertices[i] * view.stride;
@@ -132,6 +142,22 @@ template std::vector<glm::dvec3> gather(const AccessorView&, const VertexList&, 
                                         const glm::dvec3&);
 template std::vector<glm::dvec4> gather(const AccessorView&, const VertexList&, bool,
                                         const glm::dvec4&);
+
+std::vector<double> readFlat(const AccessorView& view, bool normalize) {
+  const auto width = static_cast<std::size_t>(view.components);
+  std::vector<double> numbers(view.count * width);
+  withComponent(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    const double scale = scaleOf<Component>(view, normalize);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const unsigned char* from =
+          view.data + i / width * view.stride + i % width * sizeof(Component);
+      const double value = static_cast<double>(load<Component>(from)) * scale;
+      numbers[i] = scale != 1 ? std::max(value, -1.0) : value;
+    }
+  });
+  return numbers;
+}
 
 std::vector<std::uint32_t> readIndices(const AccessorView& view) {
   std::vector<std::uint32_t> indices(view.count);

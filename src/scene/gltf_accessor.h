@@ -42,6 +42,9 @@ template <typename Vector>
 std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices,
                            bool normalize = false, const Vector& fallback = Vector(0));
 
+/// All numbers of an accessor, element by element; whole ones scaled as by gather.
+std::vector<double> readFlat(const AccessorView& view, bool normalize = false);
+
 /// Reads an accessor of unsigned whole numbers.
 std::vector<std::uint32_t> readIndices(const AccessorView& view);
 

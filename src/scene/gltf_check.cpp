@@ -17,7 +17,9 @@ constexpr std::array supportedExtensions = {"KHR_materials_unlit",
                                             "KHR_materials_specular",
                                             "KHR_materials_transmission",
                                             "KHR_materials_emissive_strength",
-                                            "KHR_mesh_quantization"};
+                                            "KHR_mesh_quantization",
+                                            "KHR_lights_punctual",
+                                            "KHR_node_visibility"};
 
 bool isSupported(const std::string& extension) {
   return std::ranges::find(supportedExtensions, extension) != supportedExtensions.end();

@@ -107,6 +107,18 @@ std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages&
   return buffers;
 }
 
+std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
+  const Cursor nodes = root.member("nodes");
+  const std::size_t lights = lightsOf(root).size();
+  std::vector<Document::NodeExtension> result(nodes.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Cursor extensions = nodes.item(i).member("extensions");
+    result[i].light = extensions.member("KHR_lights_punctual").member("light").index(lights);
+    result[i].visible = extensions.member("KHR_node_visibility").member("visible").boolean(true);
+  }
+  return result;
+}
+
 /// What glint does not read, tinygltf need not either.
 void dropExtras(Json& json) {
   if (json.is_object()) {
@@ -156,6 +168,10 @@ bool readNumberedBuffer(Bytes* out, std::string*, const std::string& name, void*
 
 }  // namespace
 
+Cursor lightsOf(Cursor root) {
+  return root.member("extensions").member("KHR_lights_punctual").member("lights");
+}
+
 Document readDocument(const std::filesystem::path& path, Messages& messages) {
   Container container = readContainer(path, messages);
   Document document;
@@ -170,6 +186,7 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
         openBuffer(list.item(i), i, container, path.parent_path(), messages));
   }
   document.views = placeViews(root);
+  document.nodeExtensions = readNodeExtensions(root);
   std::vector<Bytes> buffers = readGeometry(root, document, messages);
   const std::string geometry = takeGeometry(document.json, buffers);
   tinygltf::TinyGLTF reader;

@@ -28,10 +28,19 @@ struct Document {
   /// Materials, textures, samplers, images and cameras, as they stand in the file: tinygltf cuts
   /// large numbers down to 32 bits and would read images that nothing shows.
   Json json;
+  /// What extensions say of each node, which tinygltf does not read.
+  struct NodeExtension {
+    int light = -1;  ///< index into the lights of KHR_lights_punctual
+    bool visible = true;
+  };
+  std::vector<NodeExtension> nodeExtensions;
   std::vector<ByteSource> buffers;
   std::vector<ViewPlace> views;     ///< all buffer views, as they lie in `buffers`
   std::uint64_t geometryBytes = 0;  ///< held in `model`
 };
+
+/// The list of lights of KHR_lights_punctual.
+Cursor lightsOf(Cursor root);
 
 Document readDocument(const std::filesystem::path& path, Messages& messages);
 

@@ -65,6 +65,9 @@ Container readContainer(const std::filesystem::path& path, const Messages& messa
 /// percent-decoded. Where there is none, `error` says why, without the URI.
 ByteSource openUri(const std::string& uri, const std::filesystem::path& folder, std::string& error);
 
+/// A URI with its %XX resolved.
+std::string percentDecoded(std::string_view text);
+
 /// The URI as it may stand in a message: data URIs are cut behind their media type.
 std::string printableUri(std::string_view uri);
 

@@ -101,12 +101,54 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
   return true;
 }
 
+/// Fills the light from the file's object; false, with a warning, where it is not usable.
+bool readLight(Cursor from, FileLight& light, Messages& messages) {
+  light.name = from.name();
+  const std::string type = from.required("type").text();
+  const bool spot = type == "spot";
+  if (!spot && type != "point" && type != "directional") {
+    messages.warn(from.path() + " is neither directional, point nor spot and is left out");
+    return false;
+  }
+  light.type = spot              ? FileLight::Type::spot
+               : type == "point" ? FileLight::Type::point
+                                 : FileLight::Type::directional;
+  const auto within = [&](const char* what, double value, double least, double most) {
+    const double mended = value >= least ? std::min(value, most) : least;
+    if (mended != value) {
+      messages.warn(from.path() + " has the " + what + " " + Json(value).dump() +
+                    ", out of range: " + Json(mended).dump() + " is used");
+    }
+    return mended;
+  };
+  const double intensity = within("intensity", from.member("intensity").number(1), 0, 1e30);
+  const Cursor color = from.member("color");
+  color.checkNumbers(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double share = color.exists() ? color.item(k).number(1) : 1;
+    light.intensity[static_cast<int>(k)] =
+        std::min(intensity * within("colour", share, 0, 1e6), 1e30);
+  }
+  const double range = from.member("range").number(0);
+  light.range = range > 0 && range < 1e30 ? range : 0;
+  if (!spot) return true;
+  const Cursor cone = from.member("spot");
+  constexpr double quarter = std::numbers::pi / 2;
+  light.outerAngle = within(
+      "outerConeAngle", cone.member("outerConeAngle").number(std::numbers::pi / 4), 1e-4, quarter);
+  // The standard wants it below the outer one: the least that leaves an edge.
+  light.innerAngle = within("innerConeAngle", cone.member("innerConeAngle").number(0), 0,
+                            light.outerAngle * (1 - 1e-6));
+  return true;
+}
+
 }  // namespace
 
 NodeGraph readNodes(const Document& document, Messages& messages) {
   const auto& nodes = document.model.nodes;
   NodeGraph graph;
   graph.world.assign(nodes.size(), glm::dmat4(1));
+  graph.hidden.assign(nodes.size(), false);
   std::vector<bool> isChild(nodes.size(), false);
   for (const auto& node : nodes) {
     for (const int child : node.children) isChild[static_cast<std::size_t>(child)] = true;
@@ -146,6 +188,10 @@ NodeGraph readNodes(const Document& document, Messages& messages) {
     if (seen[node]) continue;
     seen[node] = true;
     graph.visible.push_back(node);
+    if (!document.nodeExtensions[node].visible) graph.hidden[node] = true;
+    for (const int child : nodes[node].children) {
+      if (graph.hidden[node]) graph.hidden[static_cast<std::size_t>(child)] = true;
+    }
     open.insert(open.end(), nodes[node].children.rbegin(), nodes[node].children.rend());
   }
   return graph;
@@ -176,6 +222,28 @@ std::vector<glm::dmat4> jointMatrices(const Document& document, std::size_t inde
     }
   }
   return matrices;
+}
+
+std::vector<std::pair<std::size_t, FileLight>> readLights(Document& document,
+                                                          const NodeGraph& graph,
+                                                          Messages& messages) {
+  const Cursor list = lightsOf(Cursor(document.json, messages));
+  std::vector<std::pair<std::size_t, FileLight>> lights;
+  for (const std::size_t node : graph.visible) {
+    const int index = document.nodeExtensions[node].light;
+    if (index < 0 || graph.hidden[node]) continue;
+    FileLight light;
+    if (!readLight(list.item(static_cast<std::size_t>(index)), light, messages)) continue;
+    const glm::dmat4& world = graph.world[node];
+    light.position = glm::dvec3(world[3]);
+    light.direction = -direction(glm::dvec3(world[2]));
+    if (light.type != FileLight::Type::point && glm::length(light.direction) < 0.5) {
+      messages.warn(labelOf(document, node) + " scales its light to nothing, left out");
+      continue;
+    }
+    lights.emplace_back(node, std::move(light));
+  }
+  return lights;
 }
 
 std::vector<FileCamera> readCameras(Document& document, const NodeGraph& graph,

@@ -290,14 +290,26 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
   return putTogether(file, text.text(), bytes);
 }
 
-bool refersToFiles(std::span<const std::byte> bytes, const std::string& name) {
+std::vector<std::string> referredFiles(std::span<const std::byte> bytes, const std::string& name) {
   const Json json = Json::parse(takeApart(bytes, name).json);
+  std::vector<std::string> files;
   for (const char* list : {"buffers", "images"})
-    for (const Json& each : json.value(list, Json::array()))
-      if (each.is_object() && each.contains("uri") && each["uri"].is_string() &&
-          !each["uri"].get<std::string>().starts_with("data:"))
-        return true;
-  return false;
+    for (const Json& each : json.value(list, Json::array())) {
+      if (!each.is_object() || !each.contains("uri") || !each["uri"].is_string()) continue;
+      const auto& uri = each["uri"].get_ref<const std::string&>();
+      if (uri.starts_with("data:") || std::find(files.begin(), files.end(), uri) != files.end())
+        continue;
+      files.push_back(uri);
+    }
+  return files;
+}
+
+bool refersToFiles(std::span<const std::byte> bytes, const std::string& name) {
+  return !referredFiles(bytes, name).empty();
+}
+
+bool isGlb(std::span<const std::byte> bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
 }  // namespace glint

@@ -28,8 +28,12 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> file,
                                  const std::vector<MaterialPatch>& patches,
                                  const std::string& name);
 
-/// Whether the file refers to other files by names relative to its folder, so that a copy
-/// elsewhere would not find them.
+/// The names of other files that the file refers to (buffers and images), as its URIs have them, in
+/// their order, each once: a copy of it elsewhere would not find those that are relative.
+std::vector<std::string> referredFiles(std::span<const std::byte> file, const std::string& name);
 bool refersToFiles(std::span<const std::byte> file, const std::string& name);
+
+/// Whether the bytes are a GLB file, as their first four tell.
+bool isGlb(std::span<const std::byte> file);
 
 }  // namespace glint

@@ -14,7 +14,8 @@ enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
 enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
 enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
-enum class Environment { studio, sky, white };
+/// `image` is what `hdriFile` names; it cannot be chosen by name.
+enum class Environment { studio, sky, white, image };
 
 /// A form of the lobe (glint/shading/lobe.h) with its gamma.
 struct HighlightForm {
@@ -24,7 +25,11 @@ struct HighlightForm {
   auto operator<=>(const HighlightForm&) const = default;
 };
 
-/// A light as `--light` gives it. Intensities are linear; nothing falls off with distance.
+/// Lights that a picture may have; a uniform block of GL's least size holds them.
+inline constexpr std::size_t maxLights = 128;
+
+/// A light as `--light` gives it, or a model file. Intensities are linear; only a file's points and
+/// spots fall off with distance.
 struct Light {
   enum class Type { directional, point, spot, camera };
   Type type = Type::directional;
@@ -34,6 +39,10 @@ struct Light {
   double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
   double outerAngle = 45.0;   ///< degrees from the spot's axis: none outside
   glm::dvec3 intensity{1.0};  ///< I_m, linear RGB, components [0, 1e6]
+  /// Point and spot: `intensity` is that at the distance of one world unit and falls with the
+  /// square of the distance, to 0 at `range` (world units; 0 for no such end).
+  bool fallsOff = false;
+  double range = 0.0;
   bool operator==(const Light&) const = default;
 };
 
@@ -68,9 +77,11 @@ struct Look {
   glm::dvec3 ambientLight{0.1};
   std::optional<std::vector<Light>> light;  ///< empty: the default light
   bool noLights = false;
+  std::optional<double> lightScale;  ///< of the file's lights; empty: measured (lights.h)
   Viewer viewer = Viewer::local;
   double mediumIor = 1.0;
   Environment environment = Environment::studio;
+  std::string hdriFile;              ///< a picture that takes the environment's place; may be empty
   double environmentRotation = 0.0;  ///< degrees about +Y
   bool environmentBackground = false;
   bool twoSided = false;
@@ -82,6 +93,8 @@ struct Look {
   double cameraZoomFactor = 0.9;
   bool cameraOrthographic = false;
   std::optional<int> cameraIndex;
+  std::optional<double> animationTime;      ///< seconds; empty: the pose the file stands in
+  std::string animation;                    ///< name or number; empty: the first
   std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
 
   glm::ivec2 resolution{1024, 1024};
@@ -92,5 +105,10 @@ struct Look {
 
   bool operator==(const Look&) const = default;
 };
+
+/// What stands around the model: a picture if the look names one.
+inline Environment environmentOf(const Look& look) {
+  return look.hdriFile.empty() ? look.environment : Environment::image;
+}
 
 }  // namespace glint

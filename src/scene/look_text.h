@@ -13,9 +13,6 @@
 
 namespace glint {
 
-/// More lights than this are refused by name; a uniform block of GL's least size holds them.
-inline constexpr std::size_t maxLights = 128;
-
 double parseNumber(const std::string& text, double min, double max, const std::string& what);
 std::int64_t parseInteger(const std::string& text, std::int64_t min, std::int64_t max,
                           const std::string& what);

@@ -155,6 +155,25 @@ Parameter lights() {
   return p;
 }
 
+std::string nonEmpty(const std::string& text, const std::string& what) {
+  if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
+  return text;
+}
+
+Parameter lightScale() {
+  Parameter p = custom(
+      "light-scale", "auto|FACTOR",
+      "what the lights of the model file are multiplied by; auto measures the model so that white "
+      "paint stays within the picture, whatever lux and candela the file names",
+      [](Look& look, const std::string& text) {
+        look.lightScale.reset();
+        if (text != "auto") look.lightScale = parseNumber(text, 0, 1e30, "--light-scale");
+      },
+      [](const Look& look) { return look.lightScale ? Json(*look.lightScale) : Json(); });
+  p.reset = [](Look& look) { look.lightScale.reset(); };
+  return p;
+}
+
 Parameter highlight() {
   Parameter p = custom(
       "highlight", "FORM",
@@ -245,7 +264,7 @@ std::vector<Parameter> makeTable() {
   section("Lights and environment",
           {color("ambient-light", &Look::ambientLight,
                  "light from everywhere, whatever lights there are"),
-           lights(), flag("no-lights", &Look::noLights, "ambient light alone"),
+           lights(), flag("no-lights", &Look::noLights, "ambient light alone"), lightScale(),
            choice("viewer", viewerNames, &Look::viewer,
                   "infinite: one direction to the viewer for the whole picture, as in the notes"),
            slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
@@ -253,6 +272,17 @@ std::vector<Parameter> makeTable() {
                   1, 3, false, 1, "n1"),
            choice("environment", environmentNames, &Look::environment,
                   "what the program environment reflects and refracts"),
+           resetting(custom(
+                         "hdri-file", "FILE",
+                         "a picture of the environment in place of --environment: Radiance .hdr, "
+                         "OpenEXR, PNG or JPEG, equirectangular with -Z in the middle",
+                         [](Look& look, const std::string& text) {
+                           look.hdriFile = nonEmpty(text, "--hdri-file");
+                         },
+                         [](const Look& look) {
+                           return look.hdriFile.empty() ? Json() : Json(look.hdriFile);
+                         }),
+                     &Look::hdriFile),
            slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
                          "turns the environment about +Y"),
                   -180, 180, false),
@@ -303,6 +333,21 @@ std::vector<Parameter> makeTable() {
                             : Json();
                }),
            &Look::clippingRange)});
+  section(
+      "Animation",
+      {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
+                     "the moment of the animation that is drawn, held after its end; without "
+                     "it the pose in which the file stands"),
+              0, 10, false),
+       resetting(custom(
+                     "animation", "NAME|N", "which animation of the file; the first unless given",
+                     [](Look& look, const std::string& text) {
+                       look.animation = nonEmpty(text, "--animation");
+                     },
+                     [](const Look& look) {
+                       return look.animation.empty() ? Json() : Json(look.animation);
+                     }),
+                 &Look::animation)});
   section("Picture",
           {resetting(custom(
                          "resolution", "W,H", "width and height in pixels",

@@ -110,6 +110,25 @@ struct FileCamera {
   double far = 0.0;         ///< 0 where the file gives none (infinite)
 };
 
+/// A light of the file (KHR_lights_punctual).
+struct FileLight {
+  enum class Type { directional, point, spot };
+  std::string name;
+  Type type = Type::directional;
+  glm::dvec3 position{0.0};        ///< world; point and spot
+  glm::dvec3 direction{0, 0, -1};  ///< unit, world: the way it shines; directional and spot
+  /// Colour times intensity, linear: lux (directional) or candela (point and spot; metres are world
+  /// units), components [0, 1e30].
+  glm::dvec3 intensity{1.0};
+  double range = 0;  ///< world units: no light beyond; 0 where there is no such end
+  double innerAngle = 0.0, outerAngle = 0.785398163397448;  ///< radians from the spot's axis
+};
+
+struct FileAnimation {
+  std::string name;     ///< may be empty
+  double duration = 0;  ///< seconds, from 0 to its last key
+};
+
 /// All that is drawn, by value. World space: +Y up, right-handed, metres by glTF's word.
 struct Scene {
   std::string name;  ///< file name without folder and ending
@@ -118,6 +137,10 @@ struct Scene {
   std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
   std::vector<EncodedImage> images;
   std::vector<FileCamera> cameras;
+  std::vector<FileLight> lights;
+  /// What the file's lights are multiplied by unless a look says otherwise; see lights.h.
+  double lightScale = 1;
+  std::vector<FileAnimation> animations;
   std::vector<std::string> warnings;  ///< one line each
 };
 

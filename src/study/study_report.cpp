@@ -2,28 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "glint/scene/parameters.h"
+#include "glint/study/format.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char buffer[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(buffer, sizeof buffer, format, arguments);
-  va_end(arguments);
-  return buffer;
-}
 
 /// JSON has no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -115,25 +105,29 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
   const bool software = r.gl.renderer.find("llvmpipe") != std::string::npos;
   const char* threads = std::getenv("LP_NUM_THREADS");
   std::vector<std::string> all{
-      text("Variants, floors and controls take turns, in another order each round: %d rounds after "
-           "%d that are not counted.",
-           head.rounds, head.warmUp),
+      formatted(
+          "Variants, floors and controls take turns, in another order each round: %d rounds after "
+          "%d that are not counted.",
+          head.rounds, head.warmUp),
       "wall: from the first GL call of a frame until glFinish returns, nothing read back.",
       software ? "query: GL_TIME_ELAPSED. llvmpipe counts from the first to the last work of its "
                  "rasteriser's threads; vertices and binning run on the calling thread, outside it."
                : "query: GL_TIME_ELAPSED, the time of the GPU alone.",
-      text("empty: the target is cleared and no more; constant: the same surface in one colour. ns "
-           "per pixel: median above the empty frame, for each of the %zu covered pixels.",
-           r.mask.covered),
-      text("Two times differ only if the 95 %% bootstrap interval of the median of their ratio, "
-           "round "
-           "by round, is farther from 1 than the spread, %.1f %%: the most by which a variant "
-           "differs from itself, measured twice (A/A).",
-           100 * r.spread),
-      text("Errors: linear light before exposure, over %zu pixels, against double precision in the "
-           "exact form. Left out of %zu covered: %zu at edges, %zu covered by one alone, %zu that "
-           "show another or a blended surface.",
-           r.mask.pixels.size(), r.mask.covered, r.mask.edge, r.mask.onlyOne, r.mask.other),
+      formatted(
+          "empty: the target is cleared and no more; constant: the same surface in one colour. ns "
+          "per pixel: median above the empty frame, for each of the %zu covered pixels.",
+          r.mask.covered),
+      formatted(
+          "Two times differ only if the 95 %% bootstrap interval of the median of their ratio, "
+          "round "
+          "by round, is farther from 1 than the spread, %.1f %%: the most by which a variant "
+          "differs from itself, measured twice (A/A).",
+          100 * r.spread),
+      formatted(
+          "Errors: linear light before exposure, over %zu pixels, against double precision in the "
+          "exact form. Left out of %zu covered: %zu at edges, %zu covered by one alone, %zu that "
+          "show another or a blended surface.",
+          r.mask.pixels.size(), r.mask.covered, r.mask.edge, r.mask.onlyOne, r.mask.other),
       "flat, gouraud and phong are compared with phong per pixel, blinn-phong and environment with "
       "themselves, blinn-phong with phong too.",
       "shading: form and rounding, from what the driver interpolated; interpolation: what that "
@@ -142,9 +136,9 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
     all.emplace_back(
         "The driver's own samples of the textures count as given: their filtering is "
         "no error of shading.");
-  all.push_back(text("Rasteriser's threads: %s; processors: %u; Mesa's cache of shaders is off.",
-                     threads ? threads : "the driver's choice",
-                     std::thread::hardware_concurrency()));
+  all.push_back(
+      formatted("Rasteriser's threads: %s; processors: %u; Mesa's cache of shaders is off.",
+                threads ? threads : "the driver's choice", std::thread::hardware_concurrency()));
   return all;
 }
 
@@ -251,13 +245,13 @@ std::string studyCsv(const StudyResult& r) {
       const StudyFront* front = frontOf(r, e.against, "rmse");
       const FrontPlace* place = placeOf(front, i);
       csv += v.variant.name + "," + std::string(shadingName(e.against)) + "," +
-             text("%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", wall.count, wall.minimum,
-                  wall.lowerQuartile, wall.median, wall.upperQuartile, query.median,
-                  perPixel(r, v.times), v.compile, v.firstFrame) +
-             text("%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", e.whole.max, e.whole.percentile999,
-                  e.whole.rmse, e.whole.relativeRmse, e.flip, e.whole.offByMore) +
-             text("%.6g,%.6g,%.6g,%.6g,", v.shading.max, v.shading.rmse, v.interpolation.max,
-                  v.interpolation.rmse) +
+             formatted("%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", wall.count, wall.minimum,
+                       wall.lowerQuartile, wall.median, wall.upperQuartile, query.median,
+                       perPixel(r, v.times), v.compile, v.firstFrame) +
+             formatted("%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", e.whole.max, e.whole.percentile999,
+                       e.whole.rmse, e.whole.relativeRmse, e.flip, e.whole.offByMore) +
+             formatted("%.6g,%.6g,%.6g,%.6g,", v.shading.max, v.shading.rmse, v.interpolation.max,
+                       v.interpolation.rmse) +
              (!place           ? ","
               : place->onFront ? "yes,"
                                : "no," + dominator(r, *front, *place)) +
@@ -269,14 +263,14 @@ std::string studyCsv(const StudyResult& r) {
 
 std::string studyTable(const StudyHead& head, const StudyResult& r) {
   std::string table =
-      head.model + text(": %zu triangles, %zu draws, %d x %d pixels, %zu compared; %s\n",
-                        r.triangles, r.draws, head.look.resolution.x, head.look.resolution.y,
-                        r.mask.pixels.size(), r.gl.renderer.c_str());
+      head.model + formatted(": %zu triangles, %zu draws, %d x %d pixels, %zu compared; %s\n",
+                             r.triangles, r.draws, head.look.resolution.x, head.look.resolution.y,
+                             r.mask.pixels.size(), r.gl.renderer.c_str());
   for (const StudyFloor& floor : r.floors)
     if (!floor.times.wall.empty())
-      table += text("floor, %-9s %8.3f ms\n", floor.name.c_str(), median(floor.times));
+      table += formatted("floor, %-9s %8.3f ms\n", floor.name.c_str(), median(floor.times));
   if (!r.controlRatios.empty() && !r.controlRatios[0].empty())
-    table += text("spread (A/A)    %8.1f %%\n", 100 * r.spread);
+    table += formatted("spread (A/A)    %8.1f %%\n", 100 * r.spread);
   for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
     const StudyFront* front = frontOf(r, model, "rmse");
     std::vector<std::pair<double, std::size_t>> order;
@@ -285,7 +279,8 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
         order.emplace_back(e->whole.rmse, i);
     if (order.empty()) continue;
     std::sort(order.begin(), order.end());
-    table += text("\n%-32s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n",
+    table +=
+        formatted("\n%-32s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n",
                   ("against exact " + std::string(shadingName(model))).c_str(), "ms", "quartiles",
                   "ns/px", "max", "p99.9", "rmse", "flip", ">1 lev", "front (rmse)");
     for (const auto& [rmse, i] : order) {
@@ -293,13 +288,13 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
       const VariantError& e = *errorAgainst(v, model);
       const Spread wall = spreadOf(v.times.wall);
       const FrontPlace* place = placeOf(front, i);
-      table += text("%-32s %8.3f %8.3f-%8.3f %7.2f %9.2e %9.2e %9.2e %9.2e %6.2f%%  %s\n",
-                    v.variant.name.c_str(), wall.median, wall.lowerQuartile, wall.upperQuartile,
-                    perPixel(r, v.times), e.whole.max, e.whole.percentile999, e.whole.rmse, e.flip,
-                    100 * e.whole.offByMore,
-                    !place           ? ""
-                    : place->onFront ? "on the front"
-                                     : ("by " + dominator(r, *front, *place)).c_str());
+      table += formatted("%-32s %8.3f %8.3f-%8.3f %7.2f %9.2e %9.2e %9.2e %9.2e %6.2f%%  %s\n",
+                         v.variant.name.c_str(), wall.median, wall.lowerQuartile,
+                         wall.upperQuartile, perPixel(r, v.times), e.whole.max,
+                         e.whole.percentile999, e.whole.rmse, e.flip, 100 * e.whole.offByMore,
+                         !place           ? ""
+                         : place->onFront ? "on the front"
+                                          : ("by " + dominator(r, *front, *place)).c_str());
     }
   }
   if (!r.complete) {

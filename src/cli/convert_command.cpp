@@ -1,0 +1,141 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/scene/gltf.h"
+#include "glint/scene/gltf_file.h"
+#include "glint/scene/gltf_patch.h"
+#include "glint/scene/parameters.h"
+
+namespace glint {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertOptions {
+  std::string in, out, look;
+  std::vector<std::string> materials;
+  bool inPlace = false;
+};
+
+Look materialsOf(const ConvertOptions& options) {
+  Look look, given;
+  if (!options.look.empty()) readLookFile(look, options.look);
+  const auto parameters = lookParameters();
+  const auto material = std::find_if(parameters.begin(), parameters.end(),
+                                     [](const Parameter& p) { return p.name == "material"; });
+  for (const std::string& text : options.materials) material->read(given, text);
+  mergeMaterials(look, given);
+  return look;
+}
+
+// What is edited: materials by name, or all of the file; its default material only where a mesh
+// shows it.
+std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
+  const bool all = look.material.contains("");
+  std::vector<MaterialPatch> patches;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const bool last = i + 1 == scene.materials.size();
+    const bool shown = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                   [&](const Mesh& m) { return std::size_t(m.material) == i; });
+    if (look.material.contains(material.name) || (all && (!last || shown)))
+      patches.push_back({i, editedMaterial(material, look).shading});
+  }
+  return patches;
+}
+
+void checkKind(const ConvertOptions& options, bool glb) {
+  if (options.out == "-") return;
+  const std::string ending = fs::path(options.out).extension().string();
+  if (ending == (glb ? ".glb" : ".gltf")) return;
+  throw InputError(options.out + ": " + options.in + " is a " + (glb ? "GLB" : "JSON") +
+                   " file and stays one: give a name that ends in " + (glb ? ".glb" : ".gltf"));
+}
+
+// Files beside IN that OUT needs beside it too, where it lies in another folder. All is looked at
+// before anything is written.
+void copyReferred(const ConvertOptions& options, std::span<const std::byte> bytes) {
+  const fs::path from = fs::path(options.in).parent_path(),
+                 to = fs::path(options.out).parent_path();
+  const auto folder = [](const fs::path& p) { return fs::weakly_canonical(p.empty() ? "." : p); };
+  if (options.out == "-" || folder(from) == folder(to)) return;
+  std::vector<std::pair<std::string, std::vector<std::byte>>> copies;
+  for (const std::string& uri : referredFiles(bytes, options.in)) {
+    const fs::path name = fs::path(gltf::percentDecoded(uri)).lexically_normal();
+    if (name.is_absolute() || name.empty() || *name.begin() == "..")
+      throw InputError(options.in + ": refers to " + gltf::printableUri(uri) +
+                       ", outside of its folder: write " + options.out + " beside it");
+    std::vector<std::byte> content = readFile((from / name).string());
+    const fs::path target = to / name;
+    if (fs::exists(target) && readFile(target.string()) != content)
+      throw InputError(target.string() + ": is another file than the one of " + options.in +
+                       ": write to another folder");
+    if (!fs::exists(target)) copies.emplace_back(target.string(), std::move(content));
+  }
+  for (const auto& [target, content] : copies) {
+    std::error_code ignored;  // what is wrong with the folder shows when the file is written
+    fs::create_directories(fs::path(target).parent_path(), ignored);
+    OutputFile file(target);
+    file.write(content);
+    file.commit();
+  }
+}
+
+int convert(const ConvertOptions& options) {
+  std::error_code ignored;
+  if (!options.inPlace && fs::equivalent(options.in, options.out, ignored))
+    throw InputError("convert: " + options.out +
+                     " is the model itself: give --in-place to edit it");
+  const Look look = materialsOf(options);
+  const Scene scene = loadGltf(options.in);
+  for (const std::string& warning : scene.warnings) printWarning(options.in + ": " + warning);
+  checkMaterialNames(scene, look);
+  const std::vector<std::byte> bytes = readFile(options.in);
+  checkKind(options, isGlb(bytes));
+  const auto patches = patchesFor(scene, look);
+  if (patches.empty())
+    printWarning("convert: no --material is given and the look has none: the same file is written");
+  const auto patched = patchGltf(bytes, patches, options.in);
+  copyReferred(options, bytes);
+  OutputFile file(options.out);
+  file.write(patched);
+  file.commit();
+  return done;
+}
+
+}  // namespace
+
+Command addConvert(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("convert", "write edited material parameters into a glTF file");
+  auto options = std::make_shared<ConvertOptions>();
+  command->add_option("IN", options->in, "a glTF 2.0 model")->required();
+  command
+      ->add_option(
+          "OUT", options->out,
+          "the model with the parameters in extras.glint of its materials and the nearest "
+          "values for other viewers beside them; of the same kind, .gltf or .glb; all else "
+          "stays byte for byte. Files that it refers to are copied beside it. - is stdout")
+      ->required();
+  command
+      ->add_option("--material", options->materials,
+                   "[NAME:]key=value,... as for render: parameters of every material, or of NAME; "
+                   "repeatable")
+      ->type_name("[NAME:]key=value,...")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command
+      ->add_option("--look", options->look,
+                   "take the materials of this look (JSON), or of a picture that glint has drawn")
+      ->type_name("FILE");
+  command->add_flag("--in-place", options->inPlace, "OUT may be IN");
+  return [options] { return convert(*options); };
+}
+
+}  // namespace glint

@@ -1,0 +1,179 @@
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "commands.h"
+#include "glint/gl/context.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/report_page.h"
+#include "glint/study/stability_plots.h"
+#include "glint/study/stability_profile.h"
+#include "glint/study/stability_search.h"
+#include "glint/study/stability_suite.h"
+#include "progress.h"
+
+namespace glint {
+
+extern const ReportPage stabilityPage;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct StabilityOptions {
+  std::string backend = "auto", json, glsl, output, highlight, fresnel, schlickExponent;
+  stability::Selection selection;
+  double search = 0;
+  bool list = false;
+};
+
+Look formsOf(const StabilityOptions& options) {
+  Look forms;
+  const std::pair<const char*, const std::string*> given[] = {
+      {"highlight", &options.highlight},
+      {"fresnel", &options.fresnel},
+      {"schlick-exponent", &options.schlickExponent}};
+  for (const auto& [name, text] : given)
+    if (!text->empty()) stability::setParameter(forms, name, *text);
+  return forms;
+}
+
+/// Writes FOLDER/stability.html, the page of a report with its plots in it.
+void writePage(const std::string& folder, const Json& report) {
+  const std::string path = (std::filesystem::path(folder) / "stability.html").string();
+  OutputFile file(path);
+  const std::string data = jsonElement("data", report.dump());
+  for (std::string_view part : {stabilityPage.begin, std::string_view(data), stabilityPage.end})
+    file.write(std::as_bytes(std::span(part)));
+  file.commit();
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw InputError("--output " + printablePath(folder) +
+                     ": cannot make this folder: give one that can be written");
+}
+
+int runStability(const StabilityOptions& options) {
+  if (options.list) {
+    std::cout << stability::listText(options.selection);
+    return done;
+  }
+  if (options.backend == "reference")
+    throw InputError(
+        "--rendering-backend reference: the suite tests a driver: give auto, egl, "
+        "egl-software or osmesa");
+  const Backend backend = backendFromName(options.backend);
+  options.selection.check();
+  const Look forms = formsOf(options);
+  if (!options.output.empty()) makeFolder(options.output);
+  GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
+
+  const auto context = openContext(backend);
+  context->makeCurrent();
+  if (!context->remark().empty()) printWarning(context->remark());
+  const GlStrings gl = glStrings();
+  const std::string highlight = stability::parameterText(forms, "highlight"),
+                    fresnel = stability::parameterText(forms, "fresnel");
+  std::vector<stability::CaseResult> results;
+  std::vector<stability::Quality> profile;
+  std::optional<stability::SearchReport> search;
+  Json plots = Json::array();
+  {
+    stability::Bench bench(forms, std::move(sources));
+    Progress progress("stability");
+    results = stability::runCases(
+        bench, options.selection, [&](double share, const stability::Case& item) {
+          progress.show(share, std::string(item.id) + "  " + std::string(item.input));
+        });
+    if (options.selection.isAll()) {
+      progress.show(1, "profile of the driver");
+      profile = stability::measureProfile(bench);
+    }
+    if (options.search > 0) {
+      search = stability::searchNotFinite(bench, std::uint64_t(options.search),
+                                          [&](double share) { progress.show(share, "search"); });
+    }
+    if (!options.output.empty()) {
+      progress.show(1, "plots");
+      plots = stability::plotsJson(bench);
+    }
+  }
+  const bool passed = stability::allPassed(results) && (!search || search->notFinite == 0);
+  if (options.json != "-") {
+    std::cout << backendName(context->backend()) << ": " << gl.renderer << ", " << gl.version
+              << "\n--highlight " << highlight << " --fresnel " << fresnel << "\n";
+    if (!profile.empty()) std::cout << stability::profileText(profile);
+    if (search) std::cout << stability::searchText(*search);
+    std::cout << stability::summaryText(results);
+  }
+  if (options.json.empty() && options.output.empty()) return passed ? done : differs;
+  Json report{{"glint", GLINT_VERSION},
+              {"backend", backendName(context->backend())},
+              {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
+              {"highlight", highlight},
+              {"fresnel", fresnel},
+              {"passed", passed},
+              {"groups", Json::object()},
+              {"cases", stability::casesJson(results)},
+              {"profile", stability::profileJson(profile)}};
+  if (search) report["search"] = stability::searchJson(*search);
+  for (const stability::Group& group : stability::groups())
+    report["groups"][std::string(1, group.letter)] = group.name;
+  if (!options.json.empty()) writeText(options.json, report.dump(2) + "\n");
+  if (!options.output.empty()) {
+    report["plots"] = plots;
+    writePage(options.output, report);
+  }
+  return passed ? done : differs;
+}
+
+}  // namespace
+
+Command addStability(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("stability", "the hard numerical cases, on this machine's driver");
+  auto options = std::make_shared<StabilityOptions>();
+  const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
+    command->add_option(name, value, help)->type_name(type)->take_last();
+  };
+  text("--rendering-backend", options->backend, "auto|egl|egl-software|osmesa",
+       "whose driver to test [default: auto]");
+  text("--highlight", options->highlight, "FORM", "form of the lobe to test [default: exact]");
+  text("--fresnel", options->fresnel, "FORM", "form of the reflectance to test [default: exact]");
+  text("--schlick-exponent", options->schlickExponent, "X",
+       "exponent of Schlick's approximation [default: 5]");
+  command->add_option("--case", options->selection.ids, "run this case alone; repeatable")
+      ->type_name("ID")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--group", options->selection.groups, "run this group alone; repeatable")
+      ->type_name("X")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command
+      ->add_option("--search", options->search,
+                   "also put COUNT random points through every program and draw COUNT/10000 random "
+                   "scenes, half of them pathological: nothing may be NaN or infinite; 1e8 takes "
+                   "minutes")
+      ->type_name("COUNT")
+      ->check(CLI::Range(1.0, 1e12))
+      ->take_last();
+  command->add_flag("--list", options->list, "list the cases and run none");
+  text("--output", options->output, "DIR",
+       "write a page with plots of this driver into this folder: stability.html");
+  text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
+  text("--glsl", options->glsl, "DIR", "take shader files from this folder where it has them");
+  return [options] { return runStability(*options); };
+}
+
+}  // namespace glint

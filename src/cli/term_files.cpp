@@ -1,0 +1,93 @@
+#include "term_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "glint/image/exr_writer.h"
+#include "output_names.h"
+
+namespace glint {
+namespace {
+
+using Kind = PictureTerm::Kind;
+
+// The linear value that is encoded as x: the inverse of the sRGB curve (IEC 61966-2-1).
+float linearOf(double x) {
+  return float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+}
+
+void makeVisible(const PictureTerm& term, Image& image) {
+  float nearest = INFINITY, farthest = 0;
+  for (std::size_t i = 0; i < image.values.size(); i += 4)
+    if (std::isfinite(image.values[i])) {
+      nearest = std::min(nearest, image.values[i]);
+      farthest = std::max(farthest, image.values[i]);
+    }
+  const double range = farthest > nearest ? double(farthest) - nearest : 1;
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    float* const p = image.values.data() + i;
+    for (int c = 0; c < 3; ++c) {
+      if (term.kind == Kind::normal)
+        p[c] = p[3] > 0 ? linearOf((double(p[c]) + 1) / 2) : 0;
+      else
+        p[c] = std::isfinite(p[c]) ? linearOf((double(farthest) - p[c]) / range) : 0;
+    }
+  }
+}
+
+bool endsWith(const std::string& path, const char* ending) {
+  std::string lower = path;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return lower.ends_with(ending);
+}
+
+std::size_t nanPixels(const Image& image) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < image.values.size(); i += 4)
+    count += std::isnan(image.values[i] + image.values[i + 1] + image.values[i + 2]);
+  return count;
+}
+
+std::size_t writeFile(const std::string& path, const Image& image, const PictureOptions& options) {
+  const auto writer = openPictureWriter(path, image.width, image.height, options);
+  writer->write(image);
+  writer->finish();
+  return writer->nanPixels();
+}
+
+}  // namespace
+
+std::string termOutput(const std::string& output, const PictureTerm& term) {
+  return endsWith(output, ".exr") ? output : withWord(output, term.name);
+}
+
+std::size_t writeTerms(const std::string& output, DrawnTerms& drawn,
+                       const PictureOptions& options) {
+  if (endsWith(output, ".exr")) {
+    std::vector<ExrLayer> layers{{"", &drawn.picture, options.alpha ? "RGBA" : "RGB"}};
+    for (const auto& [term, image] : drawn.terms)
+      layers.push_back({term.name, &image,
+                        term.kind == Kind::normal  ? "XYZ"
+                        : term.kind == Kind::depth ? "Z"
+                                                   : "RGB"});
+    writeExr(output, layers, {options.text.begin(), options.text.end()});
+    return nanPixels(drawn.picture);
+  }
+  for (auto& [term, image] : drawn.terms) {
+    PictureOptions own = options;
+    own.alpha = false;
+    // Its key is the picture's alone, which is written last.
+    std::erase_if(own.text, [](const auto& each) { return each.first == "glint-key"; });
+    own.text.emplace_back("glint-term", term.name);
+    if (!term.isLight() && endsWith(output, ".png")) {
+      makeVisible(term, image);
+      own.exposureScale = 1;
+    }
+    writeFile(termOutput(output, term), image, own);
+  }
+  return writeFile(output, drawn.picture, options);
+}
+
+}  // namespace glint

@@ -1,0 +1,175 @@
+#include "glint/render/environment_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <numbers>
+
+#include "glint/image/error.h"
+#include "glint/image/read_image.h"
+
+namespace glint {
+namespace {
+
+using Level = EnvironmentImage::Level;
+constexpr double pi = std::numbers::pi;
+
+struct Span {
+  int first = 0;
+  std::vector<double> weights;  ///< of `first` and those after it; their sum is 1
+};
+
+/// What each of `to` texels covers of `from`; with `weight` of a texel's number.
+template <typename Weight>
+std::vector<Span> spansOf(int from, int to, const Weight& weight) {
+  std::vector<Span> spans(static_cast<std::size_t>(to));
+  for (int i = 0; i < to; ++i) {
+    Span& span = spans[std::size_t(i)];
+    const double begin = double(from) * i / to, end = double(from) * (i + 1) / to;
+    span.first = int(begin);
+    double sum = 0;
+    for (int t = span.first; t < from && t < end; ++t) {
+      const double overlap = std::min(end, t + 1.0) - std::max(begin, double(t));
+      span.weights.push_back(overlap * weight(t));
+      sum += span.weights.back();
+    }
+    for (double& w : span.weights) w /= sum;
+  }
+  return spans;
+}
+
+Level halved(const Level& from) {
+  Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
+  to.rgb.reserve(std::size_t(3) * to.width * to.height);
+  const auto columns = spansOf(from.width, to.width, [](int) { return 1.0; });
+  // A row's share of the sphere goes with the sine of its distance from the pole.
+  const auto rows = spansOf(from.height, to.height,
+                            [&](int row) { return std::sin((row + 0.5) * pi / from.height); });
+  for (const Span& row : rows)
+    for (const Span& column : columns) {
+      glm::dvec3 sum(0.0);
+      for (std::size_t y = 0; y < row.weights.size(); ++y)
+        for (std::size_t x = 0; x < column.weights.size(); ++x) {
+          const float* t = &from.rgb[std::size_t(3) * ((std::size_t(row.first) + y) * from.width +
+                                                       std::size_t(column.first) + x)];
+          sum += row.weights[y] * column.weights[x] * glm::dvec3(t[0], t[1], t[2]);
+        }
+      for (int c = 0; c < 3; ++c) to.rgb.push_back(float(sum[c]));
+    }
+  return to;
+}
+
+/// The mean of each texel's row over `width` texels about it, around the sphere.
+void widenRow(float* row, int count, double width) {
+  if (width <= 1) return;
+  std::vector<glm::dvec3> sums(std::size_t(count) + 1, glm::dvec3(0.0));
+  for (int i = 0; i < count; ++i)
+    sums[std::size_t(i) + 1] =
+        sums[std::size_t(i)] + glm::dvec3(row[3 * i], row[3 * i + 1], row[3 * i + 2]);
+  const auto before = [&](double x) {  // the integral up to x, which may lie on the next round
+    const double round = std::floor(x / count);
+    x -= round * count;
+    const std::size_t i = std::min(std::size_t(x), std::size_t(count) - 1);
+    return sums[std::size_t(count)] * round + sums[i] + (x - double(i)) * (sums[i + 1] - sums[i]);
+  };
+  width = std::min(width, double(count));
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 mean = (before(i + 0.5 + width / 2) - before(i + 0.5 - width / 2)) / width;
+    for (int c = 0; c < 3; ++c) row[3 * i + c] = float(std::max(mean[c], 0.0));
+  }
+}
+
+void widenTowardsPoles(Level& level) {
+  for (int y = 0; y < level.height; ++y) {
+    const double sine = std::sin((y + 0.5) * pi / level.height);
+    // At a pole's row the height of a texel reaches around the pole.
+    const bool pole = y == 0 || y == level.height - 1;
+    const double width = pole ? level.width : level.width / (2 * level.height * sine);
+    widenRow(&level.rgb[std::size_t(3) * level.width * y], level.width, width);
+  }
+}
+
+glm::dvec3 texel(const Level& level, int x, int y) {
+  x %= level.width;
+  if (x < 0) x += level.width;
+  y = std::clamp(y, 0, level.height - 1);
+  const float* t = &level.rgb[std::size_t(3) * (std::size_t(y) * level.width + x)];
+  return {t[0], t[1], t[2]};
+}
+
+glm::dvec3 bilinear(const Level& level, double u, double v) {
+  const double x = u * level.width - 0.5, y = v * level.height - 0.5;
+  const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
+  const int i = int(left), j = int(top);
+  return (1 - b) * ((1 - a) * texel(level, i, j) + a * texel(level, i + 1, j)) +
+         b * ((1 - a) * texel(level, i, j + 1) + a * texel(level, i + 1, j + 1));
+}
+
+std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path) {
+  Image image;
+  try {
+    image = readImage(path);
+  } catch (const InputError& error) {
+    throw InputError("--hdri-file: " + std::string(error.what()));
+  }
+  const std::size_t count = std::size_t(image.width) * image.height;
+  std::vector<float> rgb(3 * count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = image.values[4 * i + c];
+  auto result = std::make_shared<EnvironmentImage>(
+      makeEnvironmentImage(image.width, image.height, std::move(rgb)));
+  result->name = path;
+  return result;
+}
+
+}  // namespace
+
+double EnvironmentImage::levelFor(double spread) const {
+  const double level = std::log2(0.6 * spread * levels[0].height / pi);
+  return level > 0 ? std::min(level, double(levels.size() - 1)) : 0;
+}
+
+glm::dvec3 EnvironmentImage::radiance(const glm::dvec3& direction, double spread) const {
+  const double across = std::hypot(direction.x, direction.z);
+  const double u = 0.5 + std::atan2(direction.x, -direction.z) / (2 * pi);
+  const double v = std::atan2(across, direction.y) / pi;
+  const double level = levelFor(spread);
+  const std::size_t lower = std::size_t(level);
+  const double share = level - double(lower);
+  const glm::dvec3 fine = bilinear(levels[lower], u, v);
+  return share > 0 ? (1 - share) * fine + share * bilinear(levels[lower + 1], u, v) : fine;
+}
+
+EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> rgb) {
+  for (float& value : rgb) value = value > 0 ? std::min(value, 1e30f) : 0.0f;
+  EnvironmentImage image;
+  image.levels.push_back({width, height, std::move(rgb)});
+  Level level = image.levels[0];
+  while (level.width > 1 || level.height > 1) {
+    level = halved(level);
+    image.levels.push_back(level);
+    widenTowardsPoles(image.levels.back());
+  }
+  return image;
+}
+
+std::shared_ptr<const EnvironmentImage> environmentImageFor(const Look& look) {
+  const bool shown =
+      look.shading == Shading::environment || (look.environmentBackground && !look.noBackground);
+  if (look.hdriFile.empty() || !shown) return nullptr;
+  static std::mutex mutex;
+  static std::shared_ptr<const EnvironmentImage> last;
+  static std::filesystem::file_time_type lastTime;
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(look.hdriFile, error);
+  const std::lock_guard lock(mutex);
+  if (!last || error || last->name != look.hdriFile || time != lastTime) {
+    last.reset();  // first: both at once would double the memory
+    last = readEnvironment(look.hdriFile);
+    lastTime = time;
+  }
+  return last;
+}
+
+}  // namespace glint

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "glint/scene/look.h"
+
+namespace glint {
+
+/// A picture of all directions, with smaller levels for wider views.
+///
+/// Equirectangular, +Y up, -Z in its middle: the direction (x, y, z) is seen at
+/// u = 1/2 + atan2(x, -z) / 2 pi from the left and v = acos(y) / pi from the top.
+///
+/// A level is half as high and wide as the one before (rounded down), each texel the mean of the
+/// light from the part of the sphere it covers. From level 1 on a texel is also widened along its
+/// row until it covers as large an angle there as vertically: towards the poles, where texels
+/// crowd, rows would otherwise hold detail finer than the level stands for. The row nearest to a
+/// pole so becomes one colour, and the pole is smooth.
+struct EnvironmentImage {
+  struct Level {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  ///< linear radiance, rows from the top, finite and not negative
+  };
+  std::string name;  ///< the file, for messages
+  std::vector<Level> levels;
+
+  /// Which level shows the radiance over an angle of `spread` radians: log2(0.6 spread height /
+  /// pi), at least 0; between two levels it is interpolated. A bilinear look-up of a level averages
+  /// over more than one texel's height; 0.6 brings pictures nearest to supersampled ones (docs).
+  double levelFor(double spread) const;
+
+  /// The radiance from a direction of any length but 0, world space, as the mean over about
+  /// `spread` radians: bilinear within a level, linear between levels.
+  glm::dvec3 radiance(const glm::dvec3& direction, double spread) const;
+};
+
+/// Makes the levels. `rgb` is width * height * 3 values; those that are not finite or negative
+/// count as 0, those above 1e30 as 1e30.
+EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> rgb);
+
+/// The picture that a look's `hdriFile` names, or none where the look shows no environment. Any
+/// format of readImage(). The last one read is kept, as long as the file does not change. Throws
+/// InputError "--hdri-file: FILE: what: what to do".
+std::shared_ptr<const EnvironmentImage> environmentImageFor(const Look&);
+
+}  // namespace glint

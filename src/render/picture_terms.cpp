@@ -1,0 +1,210 @@
+#include "glint/render/picture_terms.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "glint/render/reference_renderer.h"
+#include "glint/render/renderer.h"
+
+namespace glint {
+namespace {
+
+using Kind = PictureTerm::Kind;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// How many lights of each type the list has: those of any variant that reads lights at all.
+struct LightCounts {
+  explicit LightCounts(const DrawList& list) {
+    for (const DrawItem& item : list.items) {
+      directional = std::max(directional, item.variant.directionalLights);
+      points = std::max(points, item.variant.pointLights);
+      spots = std::max(spots, item.variant.spotLights);
+    }
+  }
+  int directional = 0, points = 0, spots = 0;
+};
+
+void removeLights(Variant& v) {
+  v.directionalLights = v.pointLights = v.spotLights = 0;
+  v.diffuse = v.specular = false;
+}
+
+void keepOneLight(Variant& v, const LightCounts& counts, const PictureTerm& term) {
+  const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
+  const bool diffuse = v.diffuse && term.kind == Kind::diffuse;
+  const bool specular = v.specular && term.kind == Kind::specular;
+  removeLights(v);
+  if (!lit) return;
+  const int first = term.light - counts.directional;
+  (first < 0 ? v.directionalLights : first < counts.points ? v.pointLights : v.spotLights) = 1;
+  v.diffuse = diffuse;
+  v.specular = specular;
+}
+
+void keepLight(DrawItem& item, const LightCounts& counts, const PictureTerm& term) {
+  Variant& v = item.variant;
+  if (v.unlit) {
+    if (term.kind != Kind::emission)
+      item.materialBlock.color = glm::vec4(0, 0, 0, item.materialBlock.color.a);
+    return;
+  }
+  const bool oneLight = term.kind == Kind::diffuse || term.kind == Kind::specular;
+  if (oneLight)
+    keepOneLight(v, counts, term);
+  else
+    removeLights(v);
+  if (term.kind != Kind::emission) v.emission = v.emissionTexture = false;
+  if (v.program != Shading::environment) return;
+  v.output = term.kind == Kind::reflection   ? PixelOutput::reflection
+             : term.kind == Kind::refraction ? PixelOutput::refraction
+                                             : PixelOutput::sum;
+}
+
+// Normals are those of a per-pixel program, whatever the picture's is.
+void keepGeometry(DrawItem& item, const PictureTerm& term) {
+  Variant& v = item.variant;
+  v.centroid = false;
+  v.emission = v.emissionTexture = false;
+  if (term.kind == Kind::depth) {
+    v.output = PixelOutput::depth;
+    return;
+  }
+  v.output = PixelOutput::shadingNormal;
+  if (v.unlit) return;
+  removeLights(v);
+  v.program = Shading::phong;
+  v.vanishingNormal = v.pixelPosition = v.unevenScale = true;
+  v.twoSided = item.faces != FaceSide::front;
+}
+
+DrawList termList(DrawList list, const PictureTerm& term) {
+  const LightCounts counts(list);
+  if (!term.isLight()) {
+    std::erase_if(list.items, [](const DrawItem& item) { return item.blended; });
+    for (DrawItem& item : list.items) keepGeometry(item, term);
+    return list;
+  }
+  for (DrawItem& item : list.items) keepLight(item, counts, term);
+  if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec4(0);
+  if (term.kind == Kind::diffuse || term.kind == Kind::specular)
+    list.lights = {list.lights.at(std::size_t(term.light))};
+  else
+    list.lights.clear();
+  return list;
+}
+
+void toWorld(Image& normals, const Camera& camera) {
+  for (std::size_t i = 0; i < normals.values.size(); i += 4) {
+    float* const n = normals.values.data() + i;
+    const glm::dvec3 world = camera.axes * glm::dvec3(n[0], n[1], n[2]);
+    for (int c = 0; c < 3; ++c) n[c] = float(world[c]);
+  }
+}
+
+void toDistance(Image& depths, const Camera& camera, bool reversed) {
+  for (std::size_t i = 0; i < depths.values.size(); i += 4) {
+    float* const p = depths.values.data() + i;
+    double distance = infinity;
+    if (p[3] > 0 && camera.orthographic) {
+      const double share = reversed ? 1 - double(p[0]) : double(p[0]);
+      distance = camera.near + share * (camera.far - camera.near);
+    } else if (p[3] > 0) {
+      distance = camera.unit / double(p[1]);
+    }
+    p[0] = p[1] = p[2] = float(distance);
+  }
+}
+
+}  // namespace
+
+std::vector<PictureTerm> termsOf(const DrawList& list, const Look& look) {
+  std::vector<PictureTerm> terms{{Kind::ambient, 0, "ambient"}};
+  for (std::size_t i = 0; i < list.lights.size(); ++i) {
+    const std::string number = "-" + std::to_string(i);
+    terms.push_back({Kind::diffuse, int(i), "diffuse" + number});
+    terms.push_back({Kind::specular, int(i), "specular" + number});
+  }
+  if (look.shading == Shading::environment) {
+    terms.push_back({Kind::reflection, 0, "reflection"});
+    terms.push_back({Kind::refraction, 0, "refraction"});
+  }
+  terms.push_back({Kind::emission, 0, "emission"});
+  if (!look.noBackground) terms.push_back({Kind::background, 0, "background"});
+  terms.push_back({Kind::normal, 0, "normal"});
+  terms.push_back({Kind::depth, 0, "depth"});
+  return terms;
+}
+
+Look termLook(const PictureTerm& term, Look look) {
+  if (term.kind != Kind::background) look.noBackground = true;
+  if (!term.isLight()) look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  return look;
+}
+
+Image drawTerm(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const Look& look,
+               const PictureTerm& term) {
+  const DrawList list = makeDrawList(scene.scene(), bounds, look);
+  const Camera camera = list.camera;
+  const Look own = termLook(term, look);
+  auto picture = renderer.begin(scene, termList(list, term), own);
+  Image image{look.resolution.x, look.resolution.y, {}}, band;
+  image.values.reserve(std::size_t(4) * image.width * image.height);
+  for (int i = 0; i < picture.bandCount(); ++i) {
+    picture.drawBand(band);
+    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
+  }
+  if (term.kind == Kind::normal) toWorld(image, camera);
+  if (term.kind == Kind::depth) toDistance(image, camera, renderer.reversedDepth());
+  return image;
+}
+
+Image drawReferenceTerm(const Scene& scene, const DecodedImages& images, const Bounds& bounds,
+                        const Look& look, const PictureTerm& term) {
+  const Look own = termLook(term, look);
+  ReferenceRenderer renderer(scene, images, bounds, own);
+  if (term.isLight()) {
+    renderer.keep(term);
+    return renderer.draw();
+  }
+  const Camera& camera = renderer.stage().camera;
+  Image image{look.resolution.x, look.resolution.y, {}};
+  image.values.reserve(std::size_t(4) * image.width * image.height);
+  for (const reference::Attributes& a : renderer.attributes(0, look.resolution.y)) {
+    glm::dvec3 value(term.kind == Kind::depth ? double(infinity) : 0.0);
+    if (a.item >= 0 && term.kind == Kind::depth) value = glm::dvec3(-a.position.z * camera.unit);
+    if (a.item >= 0 && term.kind == Kind::normal) {
+      const reference::Surface& surface = renderer.stage().items[std::size_t(a.item)].surface;
+      if (!surface.unlit) value = camera.axes * reference::shadingNormal(surface, a);
+    }
+    for (int c = 0; c < 3; ++c) image.values.push_back(float(value[c]));
+    image.values.push_back(a.item >= 0 ? 1.0f : 0.0f);
+  }
+  return image;
+}
+
+void ReferenceRenderer::keep(const PictureTerm& term) {
+  // In the order of the draw list: by type, without those that send nothing.
+  auto& lights = stage_.frame.lights;
+  std::erase_if(lights, [](const auto& l) { return l.intensity == glm::dvec3(0.0); });
+  std::stable_sort(lights.begin(), lights.end(),
+                   [](const auto& a, const auto& b) { return a.type < b.type; });
+  if (term.kind == Kind::diffuse || term.kind == Kind::specular)
+    lights = {lights.at(std::size_t(term.light))};
+  else
+    lights.clear();
+  if (term.kind != Kind::ambient) stage_.frame.ambientLight = glm::dvec3(0.0);
+  for (reference::Item& item : stage_.items) {
+    if (term.kind != Kind::emission) {
+      item.emission = glm::dvec3(0.0);
+      if (item.surface.unlit) item.color = glm::dvec4(0, 0, 0, item.color.a);
+    }
+    if (term.kind == Kind::diffuse) item.surface.specular = 0;
+    if (term.kind == Kind::specular) item.surface.diffuse = 0;
+    item.surface.part = term.kind == Kind::reflection   ? reference::Part::reflection
+                        : term.kind == Kind::refraction ? reference::Part::refraction
+                                                        : reference::Part::sum;
+  }
+}
+
+}  // namespace glint

@@ -1,0 +1,420 @@
+// Group P: properties that hold for every input, over random ones, and the worst inputs that a
+// search finds.
+
+#include <algorithm>
+#include <cmath>
+
+#include "glint/render/probe_error.h"
+#include "glint/render/probe_search.h"
+#include "glint/shading/fresnel.h"
+#include "glint/shading/lobe.h"
+#include "glint/shading/safe.h"
+#include "glint/study/stability_bench.h"
+#include "glint/study/stability_scenes.h"
+
+namespace glint::stability {
+namespace {
+
+using Columns = std::vector<std::vector<float>>;
+
+Look highlightLook(Bench& bench, Shading shading) {
+  Look look = bench.look(shading);
+  look.light = {directional({0, 0, 1})};
+  return look;
+}
+
+void p1(Bench& bench, Record& record) {
+  for (Shading shading : {Shading::phong, Shading::blinnPhong})
+    for (double alpha : {0.5, 1.0, 10.0, 100.0, 1e4, 1e6}) {
+      Points points;
+      const double reach = std::min(90.0 * degrees, std::sqrt(40 / alpha));
+      for (int i = 0; i <= 2000; ++i) {
+        const double angle = reach * i / 2000;
+        points.add({0, 0, 1}, glm::vec3(-std::sin(angle), 0, -std::cos(angle)), {0, 0, 1});
+      }
+      const PointScene scene(highlightLook(bench, shading), litMaterial(0, 1, alpha));
+      const auto got = bench.programs().shade(scene, points);
+      double rise = 0;
+      for (std::size_t i = 1; i < got.size(); ++i)
+        rise = std::max(rise, double(got[i].y) - got[i - 1].y);
+      // Both neighbours may be off by the rounding of D.
+      record.within(std::string(shadingName(shading)) +
+                        ": largest rise away from the peak, exponent " + numberText(alpha),
+                    rise, 0, 2 * lobeTolerance(isBlinn(shading) ? 4 * alpha : alpha));
+    }
+}
+
+void p2(Bench& bench, Record& record) {
+  for (Shading shading : everyShading) {
+    double high = 0, low = 0;
+    Random random(5);
+    for (double alpha : {0.0, 1.0, 100.0, 1e4, 1e6}) {
+      Points points;
+      const auto n = randomDirections(20000, 3), l = randomDirections(20000, 4),
+                 v = randomDirections(20000, 6);
+      for (std::size_t i = 0; i < n.size(); ++i) {
+        const glm::dvec3 r = 2 * glm::dot(n[i], l[i]) * n[i] - l[i];
+        const double spread = std::exp(-18 * random.unit());
+        points.add(glm::vec3(n[i]), glm::vec3(-safeNormalize(r + spread * v[i])), glm::vec3(l[i]));
+      }
+      const PointScene scene(highlightLook(bench, shading), litMaterial(0, 1, alpha));
+      for (const glm::vec3& c : bench.programs().shade(scene, points)) {
+        high = c.y <= high ? high : c.y;
+        low = c.y >= low ? low : c.y;
+      }
+    }
+    record.within(std::string(shadingName(shading)) + ": highest of 100000", high, 0.9, 1);
+    record.within(std::string(shadingName(shading)) + ": lowest", low, 0, 0);
+  }
+}
+
+Scene pebbleScene(const glm::dmat4& world) {
+  Mesh mesh = sphere(24, 12);
+  for (glm::vec3& p : mesh.positions) p *= glm::vec3(1, 0.8f, 0.9f);
+  Material material;
+  material.shading = {0.5, 0.7, 0.4, 30, 0, 1.5, {0.9, 0.6, 0.3}};
+  return sceneOf(mesh, material, world);
+}
+
+/// A look at the origin from all of whose places and directions `turn` moves the same way.
+Look turnedLook(Bench& bench, Shading shading, const glm::dmat4& turn, double scale) {
+  const glm::dmat3 m(turn);
+  Look look = bench.look(shading);
+  look.resolution = {48, 48};
+  look.cameraPosition = m * glm::dvec3(2, 1.5, 3) * scale;
+  look.cameraFocalPoint = glm::dvec3(0);
+  look.cameraViewUp = m * glm::dvec3(0, 1, 0);
+  look.clippingRange = glm::dvec2(1, 8) * scale;
+  look.ambientLight = glm::dvec3(0.25);
+  Light point;
+  point.type = Light::Type::point;
+  point.position = m * glm::dvec3(1, 2, 3) * scale;
+  Light spot = point;
+  spot.type = Light::Type::spot;
+  spot.position = m * glm::dvec3(-2, 2, 2) * scale;
+  spot.direction = m * glm::dvec3(2, -2, -2);
+  spot.intensity = glm::dvec3(0.5);
+  look.light = {directional(m * glm::dvec3(-1, 1, 1), glm::dvec3(0.5)), point, spot};
+  return look;
+}
+
+void expectNearlyAlike(Record& record, const std::string& what, const Image& got,
+                       const Image& expected) {
+  // Every coordinate is rounded anew, and an edge may move over a sample.
+  int different = 0, covered = 0;
+  for (std::size_t i = 0; i < got.values.size(); i += 4) {
+    bool off = false;
+    for (std::size_t k = 0; k < 3; ++k)
+      off = off || !(std::abs(got.values[i + k] - expected.values[i + k]) <= 2e-5);
+    different += off;
+    covered += expected.values[i] != 0;
+  }
+  record.within(what + ": pixels that differ by more than 2e-5", different, 0, 6);
+  record.within(what + ": pixels that show the model", covered, 200, 48 * 48);
+}
+
+void p3(Bench& bench, Record& record) {
+  for (Shading shading : everyShading) {
+    // The built-in environments would turn with the world: a white one is the same from all sides.
+    const Image one =
+        bench.draw(pebbleScene(glm::dmat4(1)), turnedLook(bench, shading, glm::dmat4(1), 1));
+    for (double angle : {0.3, 1.7, 3.1}) {
+      const glm::dmat4 turn = rotation(angle);
+      expectNearlyAlike(record,
+                        std::string(shadingName(shading)) + ", turned by " + numberText(angle),
+                        bench.draw(pebbleScene(turn), turnedLook(bench, shading, turn, 1)), one);
+    }
+  }
+}
+
+void p4(Bench& bench, Record& record) {
+  Random random(23);
+  for (Shading shading : everyShading) {
+    const Image one =
+        bench.draw(pebbleScene(glm::dmat4(1)), turnedLook(bench, shading, glm::dmat4(1), 1));
+    for (int i = 0; i < 3; ++i) {
+      const double scale = std::pow(10, random.between(-12, 12));
+      expectNearlyAlike(record,
+                        std::string(shadingName(shading)) + ", scaled by " + numberText(scale),
+                        bench.draw(pebbleScene(scaling(glm::dvec3(scale))),
+                                   turnedLook(bench, shading, glm::dmat4(1), scale)),
+                        one);
+    }
+  }
+}
+
+void p5(Bench& bench, Record& record) {
+  for (Shading shading : everyShading) {
+    Look look = turnedLook(bench, shading, glm::dmat4(1), 1);
+    const Scene scene = pebbleScene(glm::dmat4(1));
+    for (int i = 0; i < 5; ++i)
+      look.light->push_back(directional({std::cos(i), std::sin(i), 1}, glm::dvec3(0.125 * i)));
+    const Image one = bench.draw(scene, look);
+    std::reverse(look.light->begin(), look.light->end());
+    // A sum of 8 lights of up to 1, in another order: 8 roundings of values of up to 4.
+    record.alike(std::string(shadingName(shading)) + ": lights in reverse", bench.draw(scene, look),
+                 one, 8 * 4 * rounding);
+  }
+}
+
+void p6(Bench& bench, Record& record) {
+  for (Shading shading : everyShading) {
+    const Look look = turnedLook(bench, shading, glm::dmat4(1), 1);
+    const Image one = bench.draw(pebbleScene(glm::dmat4(1)), look);
+    Scene scene = pebbleScene(glm::dmat4(1));
+    std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
+    Random random(29);
+    for (std::size_t i = indices.size() / 3; i-- > 1;) {
+      const std::size_t k = std::size_t(random.below(int(i + 1)));
+      for (std::size_t c = 0; c < 3; ++c) std::swap(indices[3 * i + c], indices[3 * k + c]);
+    }
+    record.alike(std::string(shadingName(shading)) + ": triangles shuffled",
+                 bench.draw(scene, look), one, 1e-6);
+  }
+}
+
+/// Columns of cosines and of boundaries for indices n seen from the thinner or the denser side.
+double boundaryError(Bench& bench, bool denser, const Columns& c, std::vector<double>& errors) {
+  std::vector<float> boundaries;
+  for (float n : c[1]) {
+    const FresnelConstants k = denser ? fresnelConstants(n, 1) : fresnelConstants(1, n);
+    const double critical = k.e < 0 ? std::sqrt(-k.e) : 0.0;
+    boundaries.insert(boundaries.end(), {float(k.e), float(k.nSquared), float(critical),
+                                         float(critical - float(critical))});
+  }
+  const std::vector<float> got =
+      bench.run("float fresnelExact(float, Boundary)", {c[0], boundaries});
+  double worst = 0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    const double truth = denser ? fresnelExact(double(c[0][i]), double(c[1][i]), 1)
+                                : fresnelExact(double(c[0][i]), 1, double(c[1][i]));
+    errors.push_back(absoluteError(got[i], truth));
+    worst = std::max(worst, errors.back());
+  }
+  return worst;
+}
+
+/// Hunts the worst input of a function of the shaders and holds it to its bound.
+void expectHunted(Record& record, const std::string& what, const std::vector<SearchRange>& ranges,
+                  double bound, const SearchErrors& errors) {
+  const SearchResult worst = huntWorst(ranges, errors, 1 << 12, 8);
+  std::string input;
+  for (float x : worst.input) input += (input.empty() ? "" : ", ") + numberText(x);
+  record.near(what + ", worst found at (" + input + ")", worst.error, 0, bound);
+}
+
+void p7(Bench& bench, Record& record) {
+  expectHunted(record, "lobeExact(lambda, exponent)",
+               {{0, 2, {0.5f, 1}}, {0, 1e6f, {0.5f, 1, 2, 10, 1e3f}}}, 1e-6, [&](const Columns& c) {
+                 const auto got = bench.run("float lobeExact(float, float)", c);
+                 std::vector<double> errors;
+                 for (std::size_t i = 0; i < got.size(); ++i)
+                   errors.push_back(absoluteError(got[i], lobeExact(c[0][i], c[1][i])));
+                 return errors;
+               });
+  // Finds of longer searches: the switch of log1m at 1/2, and the largest error near the peak.
+  const Columns finds{{0.5f, 0.50000006f, 9.5367e-7f, 0.333333343f, 0.0191f},
+                      {1, 1, 1e6f, 2, 52.3f}};
+  const auto got = bench.run("float lobeExact(float, float)", finds);
+  for (std::size_t i = 0; i < got.size(); ++i)
+    record.near("lobeExact(" + numberText(finds[0][i]) + ", " + numberText(finds[1][i]) + ")",
+                got[i], lobeExact(finds[0][i], finds[1][i]), 1e-6);
+}
+
+void p8(Bench& bench, Record& record) {
+  for (bool denser : {false, true})
+    expectHunted(
+        record, denser ? "fresnelExact from the denser side" : "fresnelExact from the thinner side",
+        {{0, 1, {1e-4f, 0.7071068f, 0.745356f}}, {1.0000001f, 1e3f, {1.1f, 1.5f, 2}}},
+        fresnelTolerance, [&](const Columns& c) {
+          std::vector<double> errors;
+          boundaryError(bench, denser, c, errors);
+          return errors;
+        });
+}
+
+void p9(Bench& bench, Record& record) {
+  for (const bool safe : {false, true}) {
+    // Components whose squares matter: of 1e-15 to 1e18 for unit, anything but subnormal for
+    // safeUnit.
+    const float low = safe ? 1.2e-38f : 1e-15f, high = safe ? 3e38f : 1e18f;
+    const SearchRange range{low, high, {1, 1.0995116e12f, 9.094947e-13f}};
+    expectHunted(
+        record, safe ? "safeUnit" : "unit", {range, range, range}, 2.2e-7, [&](const Columns& c) {
+          std::vector<float> v;
+          for (std::size_t i = 0; i < c[0].size(); ++i)
+            v.insert(v.end(), {c[0][i], c[1][i], -c[2][i]});
+          const auto got = bench.run(safe ? "vec3 safeUnit(vec3)" : "vec3 unit(vec3)", {v});
+          std::vector<double> errors;
+          for (std::size_t i = 0; i < c[0].size(); ++i) {
+            const glm::dvec3 truth = safeNormalize({c[0][i], c[1][i], -double(c[2][i])});
+            double worst = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+              worst = std::max(worst, absoluteError(got[3 * i + k], truth[int(k)]));
+            errors.push_back(worst);
+          }
+          return errors;
+        });
+  }
+}
+
+void p10(Bench& bench, Record& record) {
+  // The whole programs: direction of the normal (two), of the light (two), around the peak (two),
+  // and the exponent.
+  const SearchRange turn{0, 1, {0.25f, 0.5f}};
+  for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
+    for (double alpha : {20.0, 1e3, 1e5}) {
+      const bool blinn = isBlinn(shading);
+      const PointScene scene(highlightLook(bench, shading), litMaterial(0, 1, alpha));
+      const double bound = blinn ? 2 * lobeTolerance(4 * alpha) : lobeTolerance(alpha);
+      expectHunted(
+          record, std::string(shadingName(shading)) + ", exponent " + numberText(alpha),
+          {turn, turn, turn, {0.3f, 1, {}}, turn, {0, 8, {0.5f, 1}}}, bound, [&](const Columns& c) {
+            const auto direction = [](double a, double b) {
+              const double z = 2 * b - 1, r = std::sqrt(std::max(0.0, 1 - z * z));
+              return glm::dvec3(r * std::cos(2 * pi * a), r * std::sin(2 * pi * a), z);
+            };
+            Points points;
+            for (std::size_t i = 0; i < c[0].size(); ++i) {
+              const glm::dvec3 n = direction(c[0][i], c[1][i]);
+              const glm::dvec3 side = safeNormalize(
+                  glm::cross(n, std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+              const glm::dvec3 other = glm::cross(n, side);
+              const double cosine = c[3][i], sine = std::sqrt(1 - cosine * cosine);
+              const double a = 2 * pi * c[2][i];
+              const glm::dvec3 l = cosine * n + sine * (std::cos(a) * side + std::sin(a) * other);
+              const glm::dvec3 axis = blinn ? n : 2 * cosine * n - l;
+              const double x = 1 - std::min(double(c[5][i]) / (blinn ? 4 * alpha : alpha), 1.0);
+              const double b = 2 * pi * c[4][i];
+              const glm::dvec3 u = safeNormalize(glm::cross(
+                  axis, std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+              const glm::dvec3 at =
+                  x * axis + std::sqrt(std::max(0.0, 1 - x * x)) *
+                                 (std::cos(b) * u + std::sin(b) * glm::cross(axis, u));
+              const glm::dvec3 v = blinn ? 2 * glm::dot(at, l) * at - l : at;
+              points.add(glm::vec3(n), glm::vec3(-v), glm::vec3(l));
+            }
+            const auto got = bench.programs().shade(scene, points);
+            const auto truth = referenceShade(scene, points);
+            std::vector<double> errors;
+            // The half vector is off by the error of L + V over its length.
+            for (std::size_t i = 0; i < got.size(); ++i)
+              errors.push_back(
+                  absoluteError(got[i].y, truth[i].y) *
+                  (blinn ? std::min(1.0f, glm::length(points.lights[i] - points.positions[i]))
+                         : 1.0f));
+            return errors;
+          });
+    }
+  }
+}
+
+void p11(Bench& bench, Record& record) {
+  // A cone from 20 to 30 degrees; the light 1 above the plane, at angles off its axis.
+  for (Shading shading : everyShading)
+    for (double angle : {0.0, 10.0, 19.9, 25.0, 30.1, 60.0, 90.0, 120.0, 180.0}) {
+      Look look = bench.look(shading);
+      Light spot;
+      spot.type = Light::Type::spot;
+      spot.direction = {std::sin(angle * degrees), 0, -std::cos(angle * degrees)};
+      spot.innerAngle = 20;
+      spot.outerAngle = 30;
+      look.light = {spot};
+      Points points;
+      points.add({0, 0, 1}, {0, 0, -1}, {0, 0, 0});
+      const PointScene scene(look, litMaterial(1, 0, 1));
+      const double inner = std::cos(20 * degrees), outer = std::cos(30 * degrees);
+      const double ramp =
+          std::clamp((std::cos(angle * degrees) - outer) / (inner - outer), 0.0, 1.0);
+      const std::string what = ": " + numberText(angle) + " degrees off a spot's axis";
+      const std::string name(shadingName(shading));
+      // The cosine's rounding over the ramp's width of 0.074, twice for the square.
+      record.near(name + what, bench.programs().shade(scene, points)[0].x, ramp * ramp, 8e-6);
+      record.near(name + " in the reference" + what, referenceShade(scene, points)[0].x,
+                  ramp * ramp, 1e-6);
+    }
+}
+
+void p12(Bench& bench, Record& record) {
+  for (Shading shading : everyShading)
+    for (double alpha : {0.25, std::nextafter(0.5f, 0.f) * 1.0, 0.5, 1.0}) {
+      Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
+      look.ambientLight = glm::dvec3(1);
+      look.noLights = true;
+      Material material = litMaterial(0, 0, 1);
+      material.shading.ambient = 1;
+      material.alphaMode = AlphaMode::mask;
+      material.alphaCutoff = 0.5;
+      material.alpha = alpha;
+      const Scene scene = sceneOf(square(), material);
+      const std::string what = std::string(shadingName(shading)) + ": alpha " + numberText(alpha);
+      record.near(what, bench.draw(scene, look).row(1)[4], alpha >= 0.5 ? 1 : 0, 0);
+      record.near(what + " in the reference", bench.reference(scene, look).row(1)[4],
+                  alpha >= 0.5 ? 1 : 0, 0);
+    }
+}
+
+void p13(Bench& bench, Record& record) {
+  // Grazing and near the critical angle, where R is next to 1 and rounds.
+  double low = 1, high = 0;
+  Random random(67);
+  for (int k = 0; k < 60; ++k) {
+    const double n = 1 + std::pow(10, random.between(-7, 2.9));
+    for (bool denser : {false, true}) {
+      Look look = bench.look(Shading::environment);
+      look.noLights = true;
+      look.mediumIor = denser ? n : 1;
+      Material material;
+      material.shading = {0, 0, 0, 1, 0, denser ? 1 : n, glm::dvec3(1)};
+      std::vector<float> cosines{0, 1};
+      const double critical = criticalCosine(n, 1);
+      for (int i = 0; i < 1000; ++i) {
+        cosines.push_back(float(std::exp(-24 * random.unit())));
+        cosines.push_back(float(std::min(critical * (1 + std::exp(-17 * random.unit())), 1.0)));
+        cosines.push_back(float(random.unit()));
+      }
+      for (float r : bench.programs().reflectance({look, material}, cosines, true)) {
+        low = r >= low ? low : r;
+        high = r <= high ? high : r;
+      }
+    }
+  }
+  record.within("lowest of 360000", low, 0, 1);
+  record.within("highest", high, 0.9, 1);
+}
+
+const Case cases[] = {
+    {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
+     "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
+    {"P2", "100000 random geometries crowded around the peak", "between 0 and 1", "exact",
+     "overshoot", "", p2},
+    {"P3", "everything turned about an axis", "the same picture", "2e-5; 6 pixels at edges",
+     "a direction in the wrong space", "", p3},
+    {"P4", "everything scaled by 1e-12 to 1e12", "the same picture", "2e-5; 6 pixels at edges",
+     "lengths that are not divided out", "", p4},
+    {"P5", "eight lights in reverse order", "the same picture", "8 roundings of values of up to 4",
+     "sums", "", p5},
+    {"P6", "triangles in another order", "the same picture", "1e-6", "depth ties", "", p6},
+    {"P7", "worst input of lobeExact, hunted, and earlier finds", "within its bound", "1e-6",
+     "bounds are proven on paper only", "", p7},
+    {"P8", "worst input of fresnelExact, hunted, from both sides", "within its bound", "1e-6",
+     "bounds are proven on paper only", "", p8},
+    {"P9", "worst input of unit and safeUnit, hunted", "within their bound",
+     "2.2e-7: 3.5 roundings and the truth's", "bounds are proven on paper only", "", p9},
+    {"P10", "worst geometry of the highlight of whole programs, hunted", "within its bound",
+     "1e-6 + 4e-7 sqrt(exponent), twice with 4 exponent for Blinn-Phong",
+     "bounds are proven on paper only", "", p10},
+    {"P11", "a spot's cone from its axis to its back", "full inside, glTF's ramp, none outside",
+     "8e-6: the cosine's rounding over the ramp's width", "the square of a negative ramp lights",
+     "", p11},
+    {"P12", "alpha around the cutoff of a mask", "there from the cutoff on", "exact",
+     "masked parts", "", p12},
+    {"P13", "360000 cosines and indices, crowded against grazing and the critical angle",
+     "R in [0, 1]", "exact", "T = 1 - R is negative otherwise", "", p13},
+};
+
+}  // namespace
+
+std::span<const Case> propertyCases() { return cases; }
+
+}  // namespace glint::stability

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+// Scenes and files that cases build: small, with every number known.
+namespace glint::stability {
+
+/// A square in the plane z = 0, seen from +Z, whose four normals are `normal`.
+Mesh square(const glm::dvec3& normal = {0, 0, 1}, float half = 2);
+
+/// The unit sphere by longitude and latitude, with exact normals.
+Mesh sphere(int around, int down);
+
+/// Triangles, three positions each, with the normal +Z.
+Mesh triangles(std::vector<glm::vec3> positions);
+
+/// One mesh with one material at one place.
+Scene sceneOf(Mesh mesh, Material material = {}, const glm::dmat4& world = glm::dmat4(1));
+
+Material unlitMaterial(const glm::dvec3& color);
+
+/// The look with a parallel view along -`toViewer` at the origin, 2 units high, of 8 x 8 pixels:
+/// every pixel has the same V.
+Look parallel(Look look, const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 8);
+
+Light directional(const glm::dvec3& toLight, const glm::dvec3& intensity = glm::dvec3(1));
+
+glm::dmat4 translation(const glm::dvec3& t);
+glm::dmat4 scaling(const glm::dvec3& s);
+/// About a generic axis, radians.
+glm::dmat4 rotation(double angle);
+
+/// Uniform on the sphere, the same on every machine.
+std::vector<glm::dvec3> randomDirections(std::size_t count, unsigned seed);
+
+/// Numbers in [0, 1), the same on every machine and with every library.
+class Random {
+ public:
+  explicit Random(unsigned seed) : state_(seed * 2654435761u + 1) {}
+  double unit();
+  int below(int n) { return int(unit() * n); }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+
+ private:
+  unsigned long long state_;
+};
+
+/// A glTF document that a case puts together, written as .glb into a temporary folder that goes
+/// with it.
+class Document {
+ public:
+  Document();
+  ~Document();
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
+
+  /// An accessor of floats or of 32-bit indices with a buffer view of its own.
+  int accessor(const std::string& type, const std::vector<float>& values);
+  int indices(const std::vector<std::uint32_t>& values);
+  /// Of 16-bit numbers, as joints are.
+  int shorts(const std::string& type, const std::vector<std::uint16_t>& values);
+  /// A mesh of that one primitive, and a node that shows it.
+  void show(nlohmann::json primitive);
+  /// One triangle in the plane z = 0, counter-clockwise from +Z, with these normals (9 floats) or
+  /// without any.
+  void triangle(const std::vector<float>& normals = {});
+
+  /// The scene of the file. Throws InputError.
+  Scene load();
+
+ private:
+  int view(const void* data, std::size_t bytes);
+
+  std::filesystem::path folder_;
+  std::vector<unsigned char> binary_;
+};
+
+}  // namespace glint::stability

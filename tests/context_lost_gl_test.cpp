@@ -1,0 +1,74 @@
+// A driver that runs out of memory or loses its context in the middle of a picture: an error in
+// words, never a picture.
+
+#include <glad/gl.h>
+
+#include <string>
+
+#include "stage.h"
+
+using glint::Backend;
+using glint::Error;
+using namespace glint::test;
+
+namespace {
+
+constexpr GLenum contextLost = 0x0507;
+
+PFNGLGETERRORPROC realGetError = nullptr;
+int goodCalls = 0;
+GLenum failure = GL_NO_ERROR;
+
+/// The driver's own answer a number of times, then the failure for ever, as a lost context has it.
+GLenum failingGetError() { return goodCalls-- > 0 ? realGetError() : failure; }
+
+/// Puts itself in the place of glGetError while it lives.
+class FailingDriver {
+ public:
+  FailingDriver(GLenum code, int callsBefore) {
+    realGetError = glad_glGetError;
+    failure = code;
+    goodCalls = callsBefore;
+    glad_glGetError = failingGetError;
+  }
+  ~FailingDriver() { glad_glGetError = realGetError; }
+};
+
+class ContextLost : public OnStage {};
+
+}  // namespace
+
+TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
+  const glint::Scene scene = sceneOf(sphere(8, 4), materialOf(1, 1, 0.5, 20));
+  glint::Look look = parallelLook({0, 0, 1}, 16);
+  look.light = {directional({0, 0, 1})};
+  const glint::GlslSources sources;
+  const std::pair<GLenum, std::string> failures[] = {{GL_OUT_OF_MEMORY, "out of memory"},
+                                                     {contextLost, "the context is lost"}};
+  for (const auto& [code, words] : failures)
+    for (int calls = 0;; ++calls) {
+      std::string message;
+      bool reached = true;
+      {
+        const FailingDriver driver(code, calls);
+        try {
+          // A renderer of its own: making the target is among what fails.
+          stage().draw(sources, scene, look);
+        } catch (const Error& error) {
+          message = error.what();
+        }
+        reached = goodCalls < 0;
+      }
+      while (glGetError() != GL_NO_ERROR) {
+      }
+      if (!reached) {  // the whole picture asks fewer times than that
+        EXPECT_EQ(message, "");
+        EXPECT_GE(calls, 4) << "making, uploading, drawing and reading are to be checked";
+        break;
+      }
+      EXPECT_NE(message.find(words), std::string::npos) << calls << ": " << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Render, ContextLost, softwareBackends(), nameOfBackend);

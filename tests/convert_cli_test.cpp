@@ -1,0 +1,188 @@
+// `glint convert`: what it writes is what `--material` draws, and all else stays.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "scenes.h"
+
+using glint::test::contents;
+using glint::test::Folder;
+using glint::test::quick;
+using glint::test::Ran;
+using glint::test::runGlint;
+using glint::test::shipped;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string edit =
+    "ambient=0.7,diffuse=0.9,specular=0.6,exponent=33.3,metalness=0.25,ior=1.7,color=0.1,0.4,0.9";
+
+void expectDone(const Ran& ran) {
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.err, IsEmpty());
+}
+
+void expectRefusal(const Ran& ran, const std::string& part) {
+  EXPECT_EQ(ran.status, 2);
+  ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr(part));
+}
+
+// The picture's values, which do not tell of the look.
+std::string drawn(const Folder& folder, const std::string& model,
+                  std::vector<std::string> arguments = {}) {
+  arguments.insert(arguments.begin(),
+                   {"render", model, "-o", folder / "drawn.pfm", "--shading", "environment"});
+  const Ran ran = runGlint(quick(arguments));
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  return contents(folder / "drawn.pfm");
+}
+
+void replace(std::string& text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+}
+
+// A model of two files with things in it that a careless writer would lose.
+std::string peculiar(const Folder& folder, const std::string& name = "model") {
+  const std::string path =
+      glint::test::writeGltf(name, glint::test::sphere(12, 8), nullptr, folder.path());
+  std::string text = contents(path);
+  replace(
+      text, "{\"accessors\"",
+      "{ \"extensionsUsed\" : [\"EXT_of_ours\"],\n  \"extensions\": {\"EXT_of_ours\": {\"big\": "
+      "12345678901234567890, \"e\": 1.50e+02, \"z\": [ ], \"a\": null}},\n\"accessors\"");
+  std::ofstream(path) << text;
+  return path;
+}
+
+}  // namespace
+
+TEST(Convert, WhatIsWrittenIsWhatTheEditDraws) {
+  Folder folder("convert");
+  const std::string inputs[] = {shipped + "teapot.glb", shipped + "sphere.glb", peculiar(folder)};
+  for (const std::string& in : inputs) {
+    const std::string ending = in.substr(in.rfind('.')), out = folder / ("out" + ending);
+    const Ran ran = runGlint({"convert", in, out, "--material", edit});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(drawn(folder, out), drawn(folder, in, {"--material", edit})) << in;
+    EXPECT_NE(drawn(folder, out), drawn(folder, in)) << in;
+    // Once more with nothing to edit: the same bytes.
+    EXPECT_EQ(runGlint({"convert", out, folder / ("again" + ending)}).status, 0);
+    EXPECT_EQ(contents(out), contents(folder / ("again" + ending)));
+  }
+}
+
+TEST(Convert, EverythingElseStays) {
+  Folder folder("convert_keeps");
+  const std::string in = peculiar(folder);
+  runGlint({"convert", in, folder / "out.gltf", "--material", edit});
+  std::string before = contents(in), after = contents(folder / "out.gltf");
+  // The text differs in the material and the list of extensions alone.
+  for (std::string* text : {&before, &after}) {
+    const auto begin = text->find("\"materials\":["), end = text->find("],\"meshes\"");
+    ASSERT_LT(begin, end);
+    text->erase(begin, end - begin);
+    const auto used = text->find("[\"EXT_of_ours\"");
+    text->erase(used, text->find(']', used) - used);
+  }
+  EXPECT_EQ(before, after);
+  const Json material = Json::parse(contents(folder / "out.gltf"))["materials"][0];
+  EXPECT_EQ(material["name"], "paint");
+  EXPECT_EQ(material["extras"]["glint"]["exponent"], 33.3);
+  EXPECT_EQ(material["pbrMetallicRoughness"]["metallicFactor"], 0.25);
+  // (2 / (4 exponent + 2))^(1/4)
+  EXPECT_NEAR(material["pbrMetallicRoughness"]["roughnessFactor"].get<double>(),
+              std::pow(2 / (4 * 33.3 + 2), 0.25), 1e-12);
+  EXPECT_EQ(material["extensions"]["KHR_materials_ior"]["ior"], 1.7);
+
+  // Of a GLB all behind the JSON.
+  runGlint({"convert", shipped + "teapot.glb", folder / "out.glb", "--material", edit});
+  const std::string glb = contents(shipped + "teapot.glb"), edited = contents(folder / "out.glb");
+  const auto jsonLength = [](const std::string& file) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      length |= std::size_t(static_cast<unsigned char>(file[12 + i])) << (8 * i);
+    return length;
+  };
+  EXPECT_EQ(glb.substr(20 + jsonLength(glb)), edited.substr(20 + jsonLength(edited)));
+}
+
+TEST(Convert, TakesTheMaterialsOfALookAndOfAPicture) {
+  Folder folder("convert_look");
+  const std::string in = shipped + "sphere.glb";
+  runGlint(quick({"render", in, "-o", folder / "a.png", "--material", edit, "--save-look",
+                  folder / "a.json"}));
+  for (const char* look : {"a.png", "a.json"}) {
+    expectDone(runGlint({"convert", in, folder / "out.glb", "--look", folder / look}));
+    EXPECT_EQ(drawn(folder, folder / "out.glb"), drawn(folder, in, {"--material", edit}));
+  }
+  // Options go before the look.
+  expectDone(runGlint({"convert", in, folder / "out.glb", "--look", folder / "a.json", "--material",
+                       "exponent=5"}));
+  EXPECT_EQ(drawn(folder, folder / "out.glb"),
+            drawn(folder, in, {"--material", edit + ",exponent=5"}));
+}
+
+TEST(Convert, FilesBesideTheModelGoWithIt) {
+  Folder folder("convert_files"), other("convert_other");
+  const std::string in = peculiar(folder), out = other / "out.gltf";
+  EXPECT_EQ(runGlint({"convert", in, out, "--material", edit}).status, 0);
+  EXPECT_THAT(other.names(), ElementsAre("model.bin", "out.gltf"));
+  EXPECT_EQ(contents(folder / "model.bin"), contents(other / "model.bin"));
+  EXPECT_EQ(drawn(folder, out), drawn(folder, in, {"--material", edit}));
+  // Again: they are there already. Another file of that name stays as it is.
+  EXPECT_EQ(runGlint({"convert", in, out, "--material", edit}).status, 0);
+  std::ofstream(other / "model.bin") << "something else";
+  std::filesystem::remove(out);
+  expectRefusal(runGlint({"convert", in, out, "--material", edit}), "is another file");
+  EXPECT_EQ(contents(other / "model.bin"), "something else");
+  EXPECT_THAT(other.names(), ElementsAre("model.bin"));
+  // Names that lead out of the folder are not followed.
+  std::filesystem::create_directories(folder / "inner");
+  std::string text = contents(in);
+  replace(text, "\"model.bin\"", "\"../model.bin\"");
+  std::ofstream(folder / "inner/model.gltf") << text;
+  expectRefusal(runGlint({"convert", folder / "inner/model.gltf", out, "--material", edit}),
+                "outside of its folder");
+  EXPECT_THAT(other.names(), ElementsAre("model.bin"));
+}
+
+TEST(Convert, TheModelItselfOnlyIfAsked) {
+  Folder folder("convert_in_place");
+  const std::string in = folder / "a.glb";
+  std::filesystem::copy_file(shipped + "sphere.glb", in);
+  const std::string before = contents(in);
+  expectRefusal(runGlint({"convert", in, in, "--material", edit}), "--in-place");
+  expectRefusal(runGlint({"convert", in, folder / "../convert_in_place/a.glb"}), "--in-place");
+  EXPECT_EQ(contents(in), before);
+  expectDone(runGlint({"convert", in, in, "--in-place", "--material", edit}));
+  EXPECT_EQ(drawn(folder, in), drawn(folder, shipped + "sphere.glb", {"--material", edit}));
+}
+
+TEST(Convert, WhatCannotBe) {
+  Folder folder("convert_wrong");
+  const std::string in = shipped + "sphere.glb";
+  expectRefusal(runGlint({"convert", in, folder / "a.gltf", "--material", edit}), ".glb");
+  expectRefusal(runGlint({"convert", in, folder / "a.png", "--material", edit}), ".glb");
+  expectRefusal(runGlint({"convert", in, folder / "a.glb", "--material", "shine=1"}), "shine");
+  expectRefusal(runGlint({"convert", in, folder / "a.glb", "--material", "Nobody:ior=2"}),
+                "Nobody");
+  expectRefusal(runGlint({"convert", folder / "none.glb", folder / "a.glb"}), "none.glb");
+  expectRefusal(runGlint({"convert", in, folder / "none/a.glb", "--material", edit}), "folder");
+  expectRefusal(runGlint({"convert", in}), "OUT");
+  EXPECT_THAT(folder.names(), IsEmpty());
+  const Ran nothing = runGlint({"convert", in, folder / "a.glb"});
+  EXPECT_EQ(nothing.status, 0);
+  EXPECT_THAT(nothing.err, HasSubstr("warning"));
+  EXPECT_EQ(contents(in), contents(folder / "a.glb"));
+}

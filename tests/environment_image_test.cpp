@@ -1,0 +1,126 @@
+// Pictures of the environment: where a direction is looked up, and the smaller levels.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "glint/image/error.h"
+#include "glint/image/picture_writer.h"
+#include "glint/render/environment_image.h"
+#include "gltf_text.h"
+
+namespace {
+
+using glint::EnvironmentImage;
+using glint::makeEnvironmentImage;
+constexpr double pi = std::numbers::pi;
+
+EnvironmentImage::Level makeLevel(int width, int height, auto value) {
+  EnvironmentImage::Level level{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) level.rgb.push_back(float(value(x, y, c)));
+  return level;
+}
+
+EnvironmentImage imageOf(int width, int height, auto value) {
+  return makeEnvironmentImage(width, height, makeLevel(width, height, value).rgb);
+}
+
+// The columns of an 8 x 4 picture, by the directions of their middles: -Z lies between 3 and 4, +X
+// between 5 and 6, +Z at the seam.
+TEST(EnvironmentImage, DirectionsAreFoundWhereTheyBelong) {
+  const EnvironmentImage image = imageOf(8, 4, [](int x, int y, int) { return 10 * y + x; });
+  const auto at = [&](double turn, double down) {
+    return image
+        .radiance(
+            {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)}, 0)
+        .x;
+  };
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_NEAR(at(2 * pi * ((x + 0.5) / 8 - 0.5), pi * (y + 0.5) / 4), 10 * y + x, 1e-12);
+  EXPECT_NEAR(image.radiance({0, 1e-3, -1}, 0).x, 15 + 3.5, 0.02);
+  EXPECT_NEAR(image.radiance({5, 0, 0}, 0).x, 15 + 5.5, 1e-9);
+  EXPECT_NEAR(image.radiance({0, 0, 1}, 0).x, 15 + 3.5, 1e-9);  // the mean of columns 0 and 7
+}
+
+TEST(EnvironmentImage, LevelsKeepTheLightAndAUniformPicture) {
+  std::mt19937 random(1);
+  for (const auto& [width, height] : {std::pair(64, 32), {50, 31}, {7, 5}, {1, 1}, {96, 16}}) {
+    std::uniform_real_distribution<double> number(0, 4);
+    const EnvironmentImage image =
+        imageOf(width, height, [&](int, int, int) { return number(random); });
+    const EnvironmentImage even = imageOf(width, height, [](int, int, int) { return 0.7; });
+    const auto mean = [](const EnvironmentImage::Level& level) {
+      double sum = 0, area = 0;
+      for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x) {
+          const double weight = std::sin(pi * (y + 0.5) / level.height);
+          sum += weight * level.rgb[std::size_t(3 * (y * level.width + x))];
+          area += weight;
+        }
+      return sum / area;
+    };
+    EXPECT_EQ(image.levels.back().width * image.levels.back().height, 1);
+    for (std::size_t k = 1; k < image.levels.size(); ++k) {
+      // Weights are those of rows' middles; a level of few rows knows the sine only roughly.
+      const double rows = image.levels[k].height;
+      EXPECT_NEAR(mean(image.levels[k]), mean(image.levels[0]), 3 / (rows * rows) + 1e-6);
+      for (const float v : even.levels[k].rgb) EXPECT_NEAR(v, 0.7, 1e-6);
+    }
+  }
+}
+
+TEST(EnvironmentImage, APoleIsOneColourFromTheFirstSmallerLevelOn) {
+  std::mt19937 random(2);
+  const EnvironmentImage image =
+      imageOf(128, 64, [&](int, int, int) { return double(random() % 2); });
+  const double spread = 2 * pi / (0.6 * 64);  // level 1
+  EXPECT_NEAR(image.levelFor(spread), 1, 1e-12);
+  const double there = image.radiance({1e-9, 1, 0}, spread).x;
+  for (int i = 1; i < 16; ++i)
+    EXPECT_NEAR(image.radiance({1e-9 * std::cos(i), 1, 1e-9 * std::sin(i)}, spread).x, there, 1e-6);
+}
+
+TEST(EnvironmentImage, LevelsGoFromTheFullSizeToOneTexel) {
+  const EnvironmentImage image = imageOf(32, 16, [](int x, int, int) { return x; });
+  EXPECT_EQ(image.levelFor(0), 0);
+  EXPECT_EQ(image.levelFor(1e-9), 0);
+  EXPECT_EQ(image.levelFor(100), double(image.levels.size() - 1));
+  EXPECT_NEAR(image.radiance({1, 2, 3}, 100).x, 15.5, 1e-5);
+}
+
+TEST(EnvironmentImage, WhatIsNoRadianceCountsAsNone) {
+  const float values[] = {-1, std::nanf(""), INFINITY, 2, 3, 4};
+  const EnvironmentImage image = makeEnvironmentImage(2, 1, {std::begin(values), std::end(values)});
+  EXPECT_EQ(image.levels[0].rgb, (std::vector<float>{0, 0, 1e30f, 2, 3, 4}));
+}
+
+TEST(EnvironmentImage, IsReadOnceAndOnlyWhereItShows) {
+  const std::string file = glint::test::temporaryFolder() + "/env.pfm";
+  const auto writer = glint::openPictureWriter(file, 2, 1);
+  writer->write({2, 1, {1, 2, 3, 1, 4, 5, 6, 1}});
+  writer->finish();
+  glint::Look look;
+  look.hdriFile = file;
+  EXPECT_EQ(environmentImageFor(look), nullptr);
+  look.environmentBackground = true;
+  const auto image = environmentImageFor(look);
+  ASSERT_NE(image, nullptr);
+  EXPECT_EQ(image->levels[0].rgb, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  look.shading = glint::Shading::environment;
+  EXPECT_EQ(environmentImageFor(look), image);
+  look.hdriFile = glint::test::temporaryFolder() + "/none.hdr";
+  try {
+    environmentImageFor(look);
+    ADD_FAILURE();
+  } catch (const glint::InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("--hdri-file: "));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+  }
+}
+
+}  // namespace

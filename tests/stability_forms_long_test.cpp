@@ -1,0 +1,34 @@
+// Every form of lobe and reflectance in every hard case, held against its own formula in double.
+
+#include <gtest/gtest.h>
+
+#include "glint/gl/context.h"
+#include "glint/study/stability_search.h"
+#include "glint/study/stability_suite.h"
+
+using namespace glint;
+
+namespace {
+
+struct Forms {
+  const char *highlight, *fresnel;
+};
+
+class StabilityOfForm : public testing::TestWithParam<Forms> {};
+
+}  // namespace
+
+TEST_P(StabilityOfForm, PassesEveryCase) {
+  const auto context = openContext(Backend::osmesa);
+  context->makeCurrent();
+  Look forms;
+  stability::setParameter(forms, "highlight", GetParam().highlight);
+  stability::setParameter(forms, "fresnel", GetParam().fresnel);
+  stability::Bench bench(forms, GlslSources());
+  const auto results = stability::runCases(bench, {});
+  EXPECT_TRUE(stability::allPassed(results)) << stability::summaryText(results);
+  const stability::SearchReport report = stability::searchNotFinite(bench, 1000000);
+  EXPECT_EQ(report.notFinite, 0u) << stability::searchText(report);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, StabilityOfForm, testing::Values(Forms{"exact", "schlick"}));

@@ -1,0 +1,194 @@
+// Each guard of the shaders taken out, one at a time: a named case of the suite must fail.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "glint/gl/context.h"
+#include "glint/study/stability_suite.h"
+#include "gltf_text.h"
+
+using namespace glint;
+
+namespace {
+
+struct Guard {
+  const char *file, *text, *without;
+  const char* caught;  ///< the case that fails without it; empty: nothing can
+  const char* reason;  ///< what the guard is for, or why nothing can
+  const char *highlight = "exact", *fresnel = "exact";
+};
+
+const Guard guards[] = {
+    {"vector.glsl", "return square > 0.0 ? v / sqrt(square) : vec3(0.0);",
+     "return v / sqrt(square);", "A1", "unit of the zero vector"},
+    {"vector.glsl", "size > 1.0995116e12 ? 1.2924697e-26 : ", "", "A5", "long vectors are scaled"},
+    {"vector.glsl", "size < 9.094947e-13 ? 7.7371252e25 : ", "", "A3", "short vectors are scaled"},
+    {"lobe.glsl", "return lambda < 1.0 ? exp2(1.44269504089 * exponent * log1m(lambda)) : 0.0;",
+     "return exp2(1.44269504089 * exponent * log1m(lambda));", "D1",
+     "the far side, also at exponent 0"},
+    {"lobe.glsl", "return x > 0.5 ? log2(1.0 - x) * 0.69314718056 : -2.0 * s * series;",
+     "return log2(1.0 - x) * 0.69314718056;", "D3", "the series near the peak"},
+    {"lobe.glsl", "return cosine > 0.0 ? pow(min(cosine, 1.0), exponent) : 0.0;",
+     "return pow(min(cosine, 1.0), exponent);", "D6", "pow of a negative base"},
+    {"lobe.glsl", "pow(min(cosine, 1.0), exponent)", "pow(cosine, exponent)", "D10",
+     "cosines above 1"},
+    {"fresnel.glsl", "float c = clamp(cosine, 0.0, 1.0), g2 = refractedSquare(c, b);\n  float q",
+     "float c = max(cosine, 0.0), g2 = refractedSquare(c, b);\n  float q", "K7", "cosines above 1"},
+    {"fresnel.glsl", "float c = clamp(cosine, 0.0, 1.0), g2 = refractedSquare(c, b);\n  float q",
+     "float c = min(cosine, 1.0), g2 = refractedSquare(c, b);\n  float q", "",
+     "for a negative cosine R is the reciprocal of one below 1, and the minimum gives 1"},
+    {"fresnel.glsl", "return b.e == 0.0 ? 0.0 : g2 > 0.0", "return g2 > 0.0", "K2",
+     "equal indices"},
+    {"fresnel.glsl", "g2 > 0.0 ? min(0.5 * (rs * rs + rp * rp), 1.0) : 1.0;",
+     "min(0.5 * (rs * rs + rp * rp), 1.0);", "",
+     "with g = 0 below the critical cosine |rs| and |rp| are at least 1, and the minimum gives 1"},
+    {"fresnel.glsl", "float g = sqrt(max(g2, 0.0));", "float g = sqrt(g2);", "",
+     "a root of a negative number is undefined, but what comes of it is not chosen"},
+    {"fresnel.glsl", "g2 > 0.0 ? min(0.5 * (rs * rs + rp * rp), 1.0) : 1.0;",
+     "g2 > 0.0 ? 0.5 * (rs * rs + rp * rp) : 1.0;", "P13", "grazing incidence rounds above 1"},
+    {"fresnel.glsl", "((c - b.critical) - b.criticalRest) * (c + b.critical)", "b.e + c * c", "P8",
+     "the product that keeps its digits at the critical angle"},
+    {"fresnel.glsl", "((c - b.critical) - b.criticalRest)", "(c - b.critical)", "P8",
+     "the critical cosine in two floats"},
+    {"fresnel.glsl", "if (sin2 >= 1.0 || b.e == 0.0) return b.e == 0.0 ? 0.0 : 1.0;",
+     "if (b.e == 0.0) return 0.0;", "",
+     "the root is NaN in total reflection, and min(NaN, 1) is 1 on this driver", "exact",
+     "textbook"},
+    {"fresnel.glsl", "if (sin2 >= 1.0 || b.e == 0.0) return b.e == 0.0 ? 0.0 : 1.0;",
+     "if (sin2 >= 1.0) return 1.0;", "K2", "equal indices in the textbook's form", "exact",
+     "textbook"},
+    {"lobe.glsl", "return powerOf(max(1.0 - lambda, 0.0), exponent);",
+     "return powerOf(1.0 - lambda, exponent);", "C6", "the far side of a whole exponent",
+     "integer"},
+    {"lobe.glsl", "return powerOf(max(1.0 - beta * lambda, 0.0), gamma);",
+     "return powerOf(1.0 - beta * lambda, gamma);", "D9", "Lyon's skirt ends"},
+    {"lobe.glsl", "return lambda < 1.0 ? powerOf(base, gamma) : 0.0;",
+     "return powerOf(base, gamma);", "C6", "the far side of the cross product's form",
+     "lyon-cross:8"},
+    {"lobe.glsl", "float base = max(1.0 - halfBeta * (lambda * (2.0 - lambda)), 0.0);",
+     "float base = 1.0 - halfBeta * (lambda * (2.0 - lambda));", "P2",
+     "the skirt of the cross product's form ends", "lyon-cross:8"},
+    {"lobe.glsl", "return top > 0.0 ? powerOf(top / (2.0 + rises * lambda), gamma) : 0.0;",
+     "return powerOf(top / (2.0 + rises * lambda), gamma);", "C6", "the skirt of Pade's form ends",
+     "pade:8"},
+    {"fresnel.glsl", "float c = clamp(cosine, 0.0, 1.0);\n  return b.e < 0.0",
+     "float c = min(cosine, 1.0);\n  return b.e < 0.0", "K8", "negative cosines of Schlick's",
+     "exact", "rational"},
+    {"fresnel.glsl", "float c = clamp(cosine, 0.0, 1.0);\n  return b.e < 0.0",
+     "float c = max(cosine, 0.0);\n  return b.e < 0.0", "K7", "cosines above 1 of Schlick's",
+     "exact", "rational"},
+    {"fresnel.glsl", "sqrt(max(refractedSquare(c, b), 0.0) / b.square)",
+     "sqrt(refractedSquare(c, b) / b.square)", "K11", "total reflection of Schlick's", "exact",
+     "rational"},
+    {"fresnel.glsl", "return b.e == 0.0 ? 0.0 : c > 0.0 ?", "return c > 0.0 ?", "K2",
+     "equal indices of Schlick's", "exact", "rational"},
+    {"fresnel.glsl", "x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : 1.0", "pow(x, exponent)",
+     "K15", "pow(0, 0) of Schlick's at normal incidence"},
+    {"sum.glsl", "if (!(cosLight > 0.0)) return;", "", "C10", "the gate N.L > 0"},
+    {"sum.glsl", "if (!(cosLight > 0.0)) return;", "if (!(cosLight >= 0.0)) return;", "C3",
+     "the gate is open above 0 alone"},
+    {"sum.glsl", "if (!(square > 1e-12)) return;", "", "C8", "the half vector where L = -V"},
+    {"sum.glsl", "vec3 h = isConstant ? between : between / sqrt(square);", "vec3 h = between;",
+     "C1", "the half vector is unit"},
+    {"sum.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, -1e30, 1.0);",
+     "P11", "outside a spot's cone"},
+    {"sum.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, 0.0, 1e30);", "P11",
+     "inside a spot's cone"},
+    {"sum.glsl", "return square > 0.0 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
+     "return position / -sqrt(square);", "C13", "the eye on the surface"},
+    {"sum.glsl", "addLight(sum, n, v, safeUnit(way), intensity",
+     "addLight(sum, n, v, unit(way), intensity", "C12", "point lights near and far"},
+    {"sum.glsl", "l = safeUnit(way);", "l = unit(way);", "C12", "spots near and far"},
+    {"per_pixel.glsl", "#else\n  vec3 n = unit(vNormal);", "#else\n  vec3 n = vNormal;", "I3",
+     "interpolated normals are made unit"},
+    {"per_pixel.glsl", "vec3 n = dot(vNormal, vNormal) > 1e-6 ? unit(vNormal) : face;",
+     "vec3 n = unit(vNormal);", "I1", "normals that cancel"},
+    {"per_pixel.glsl", "if (!gl_FrontFacing) face = -face;", "", "I1",
+     "the face's normal is that of its front"},
+    {"per_pixel.glsl", "safeUnit(cross(dFdx(vPosition), dFdy(vPosition)))",
+     "unit(cross(dFdx(vPosition), dFdy(vPosition)))", "I6", "small pixels of a far view"},
+    {"per_pixel.glsl", "if (!gl_FrontFacing) n = -n;", "", "C9", "back faces turn their normal"},
+    {"per_vertex.glsl", "sum = sumLights(point, -n, v);", "sum = sumLights(point, n, v);", "C9",
+     "back faces turn their normal, per vertex"},
+    {"per_vertex.glsl", "if (!gl_FrontFacing) {", "if (false) {", "G9",
+     "the side of a pixel, per vertex"},
+    {"environment.glsl", "float x = 1.0 - clamp(cosine, 0.0, 1.0)", "float x = 1.0 - cosine", "K8",
+     "negative cosines of a metal"},
+    {"environment.glsl", "if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {",
+     "if (true) {", "K11", "nothing is refracted in total reflection"},
+    {"environment.glsl", "sqrt(max(1.0 - dot(along, along), 0.0))", "sqrt(1.0 - dot(along, along))",
+     "", "a NaN direction counts as none, where next to nothing is refracted"},
+    {"environment.glsl", "if (!gl_FrontFacing) b = material.leaving;", "", "K11",
+     "which side light comes from"},
+    {"vertex.glsl", "n = safeUnit(n);", "", "B1", "normals under uneven scales"},
+    {"vertex.glsl", "n = safeUnit(n);", "n = unit(n);", "B6", "scales that are almost 0"},
+    {"fragment.glsl", "if (base.a < material.emission.a) discard;", "", "P12", "masks"},
+    {"fragment.glsl", "if (base.a < material.emission.a) discard;",
+     "if (base.a <= material.emission.a) discard;", "P12", "the cutoff itself is there"},
+};
+
+class Mutation : public testing::TestWithParam<Guard> {
+ protected:
+  static void SetUpTestSuite() {
+    context_ = openContext(Backend::osmesa).release();
+    context_->makeCurrent();
+  }
+  static void TearDownTestSuite() {
+    context_->release();
+    delete context_;
+  }
+
+  static inline Context* context_ = nullptr;
+};
+
+std::string without(const Guard& guard) {
+  std::string text = GlslSources().text(guard.file);
+  const std::string from = guard.text;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << guard.file << " no longer has: " << from;
+  if (at == std::string::npos) return text;
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << guard.file << " has it twice: " << from;
+  return text.replace(at, from.size(), guard.without);
+}
+
+}  // namespace
+
+TEST_P(Mutation, IsCaught) {
+  const Guard& guard = GetParam();
+  const std::string folder = test::temporaryFolder() + "/mutation";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/" + guard.file) << without(guard);
+  Look forms;
+  stability::setParameter(forms, "highlight", guard.highlight);
+  stability::setParameter(forms, "fresnel", guard.fresnel);
+  stability::Selection selection;
+  if (*guard.caught) {
+    selection.ids = {guard.caught};
+  } else {
+    selection.groups = {"K"};
+    selection.ids = {"P8", "P13"};
+  }
+  {
+    // It passes as the shaders stand, so that what fails is the guard's.
+    stability::Bench bench(forms, GlslSources());
+    if (*guard.caught) ASSERT_TRUE(stability::allPassed(stability::runCases(bench, selection)));
+  }
+  stability::Bench bench(forms, GlslSources(folder));
+  const auto results = stability::runCases(bench, selection);
+  EXPECT_EQ(stability::allPassed(results), !*guard.caught)
+      << guard.file << ": " << guard.reason << "\n"
+      << stability::summaryText(results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
+                         [](const testing::TestParamInfo<Guard>& info) {
+                           std::string file = info.param.file;
+                           file.resize(file.find('.'));
+                           std::erase(file, '_');
+                           return file + std::to_string(info.index) +
+                                  (*info.param.caught ? "_" + std::string(info.param.caught)
+                                                      : std::string("_equivalent"));
+                         });

@@ -1,0 +1,95 @@
+// The series of a study against what is known of them, in small.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "glint/study/series.h"
+#include "stage.h"
+
+namespace glint {
+namespace {
+
+class StudySeriesOnGl : public testing::Test {
+ protected:
+  void SetUp() override {
+    context_ = openContext(Backend::automatic);
+    context_->makeCurrent();
+    look_.antiAliasing = {AntiAliasing::Mode::none, 1};
+    look_.noBackground = true;
+    look_.resolution = {256, 256};
+    scene_ = std::make_unique<StudyScene>(sphereScene(4, sphereMaterial()), look_);
+    gpu_ = std::make_unique<GpuScene>(scene_->scene, scene_->images);
+    renderer_ = std::make_unique<Renderer>();
+  }
+  void TearDown() override {
+    renderer_.reset();
+    gpu_.reset();
+  }
+  SeriesTools tools() { return {*scene_, *gpu_, *renderer_, look_, true, 0, 1, {}, {}}; }
+
+  static const SeriesLine& line(const StudySeries& series, const std::string& name) {
+    for (const SeriesLine& each : series.lines)
+      if (each.name == name) return each;
+    throw Error("no line " + name);
+  }
+
+  Look look_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<StudyScene> scene_;
+  std::unique_ptr<GpuScene> gpu_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+// Flat shading converges with the first order, interpolated light and interpolated normals with the
+// second. The tolerances are what the pixels of this size leave: triangles of 4 pixels.
+TEST_F(StudySeriesOnGl, FinenessShowsTheOrders) {
+  const SeriesTools small = tools();
+  const StudySeries series = *finenessSeries(small);
+  EXPECT_NEAR(line(series, "flat").orderRmse, 1, 0.1);
+  EXPECT_NEAR(line(series, "gouraud").orderRmse, 2, 0.2);
+  EXPECT_NEAR(line(series, "phong").orderRmse, 2, 0.1);
+  // Gouraud's largest error is near (2/3) m_s alpha h^2 of its highlight.
+  const SeriesPoint& finest = line(series, "gouraud").points.back();
+  EXPECT_NEAR(finest.max / (2.0 / 3 * 0.5 * 40 * finest.x * finest.x), 1, 0.5);
+}
+
+// max over x of |exp(-x) - exp(-x / cos^2 theta)|, to which the error of 4 alpha tends for large
+// exponents: 0.106, 0.25 and 0.473 at 30, 45 and 60 degrees; 0.135 / alpha at 0.
+TEST_F(StudySeriesOnGl, IncidenceShowsHowFarBlinnIsOff) {
+  const SeriesTools small = tools();
+  const StudySeries series = *incidenceSeries(small);
+  const auto& four = line(series, "blinn-phong 4α").points;
+  const double expected[] = {0.135 / 50, 0.106, 0.25, 0.473};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(four[i].max / expected[i], 1, 0.06) << four[i].x;
+  for (const SeriesPoint& p : line(series, "phong").points) EXPECT_LT(p.max, 4e-5);
+  for (std::size_t i = 1; i < four.size(); ++i)
+    EXPECT_LT(line(series, "blinn-phong 4α cos θ").points[i].max, four[i].max);
+}
+
+// Each picture may be off the exact one by 1e-5 + 4e-6 sqrt(alpha) (docs/accuracy.md), alpha = 160
+// of Blinn-Phong.
+TEST_F(StudySeriesOnGl, AShaderWithEverythingGivesTheSamePicture) {
+  const SeriesTools small = tools();
+  const auto all = specialisations(small);
+  ASSERT_EQ(all.size(), 2u);
+  for (const Specialisation& s : all) {
+    EXPECT_LT(s.difference, 2 * (1e-5 + 4e-6 * std::sqrt(160))) << s.program;
+    EXPECT_EQ(s.times.wall.size(), 2u) << s.program;
+  }
+}
+
+TEST_F(StudySeriesOnGl, StoppedSeriesKeepWhatIsMeasured) {
+  SeriesTools small = tools();
+  int asked = 0;
+  small.stop = [&] { return ++asked > 2; };
+  const StudySeries series = *exponentSeries(small);
+  ASSERT_FALSE(series.lines.empty());
+  EXPECT_EQ(series.lines[0].points.size(), 2u);
+  EXPECT_GT(line(series, "pow").points[0].max, 0);
+  EXPECT_EQ(line(series, "pow").points[0].milliseconds, 0);
+}
+
+}  // namespace
+}  // namespace glint
