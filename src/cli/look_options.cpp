@@ -27,6 +27,12 @@ bool hasBudget(const Look& look) {
 
 }  // namespace
 
+struct LookOptions {
+  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
+  std::string lookFile, saveFile;
+};
+
 void mergeMaterials(Look& look, const Look& options) {
   const auto all = options.material.find("");
   if (all != options.material.end()) {
@@ -48,12 +54,6 @@ void mergeMaterials(Look& look, const Look& options) {
   }
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
-
-struct LookOptions {
-  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
-  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
-  std::string lookFile, saveFile;
-};
 
 LookSource addLookOptions(CLI::App& app) {
   auto state = std::make_shared<LookOptions>();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "glint/render/environment_image.h"
@@ -12,6 +13,7 @@
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
+#include "glint/shading/safe.h"
 #include "interpolation_bound.h"
 
 namespace glint {
@@ -61,8 +63,8 @@ Surroundings surroundingsOf(const Look& look) {
 
 // What all surfaces have in common.
 struct Setting {
-  Look look;  // exact forms, one program
-  Look lit;   // the same with the file's lights in place
+  Look given;
+  Look look;  // with the lights of the file
   Camera camera;
   std::vector<glint::Light> lights;
   glm::dvec3 active{0.0};  // sum of intensities that can meet at a point
@@ -74,36 +76,35 @@ struct Setting {
 
 Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   Setting s;
-  s.look = look;
+  s.given = look;
+  s.look = withFileLights(scene, look);
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
   if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
-  s.lit = withFileLights(scene, look);
-  s.lights = lightsOf(s.lit);
-  // At most what arrives at the nearest point of what is drawn; almost without bound if a light
-  // stands in it, but finite, so that what it is multiplied by may be 0.
-  for (glint::Light& light : s.lights) {
-    if (!light.fallsOff) continue;
-    const double near = glm::length(light.position - bounds.center) - bounds.radius;
-    light.intensity *= 1 / std::max(near * std::abs(near), 1e-30);
-  }
+  s.lights = lightsOf(s.look);
   std::erase_if(s.lights, [](const glint::Light& l) { return l.intensity == glm::dvec3(0.0); });
   s.lightCount = int(s.lights.size());
   std::vector<glm::dvec3> directions, intensities;
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
     if (camera || light.type == glint::Light::Type::directional) {
-      directions.push_back(
-          glm::normalize(camera ? s.camera.axes * light.direction : light.direction));
+      const glm::dvec3 direction = safeNormalize(light.direction);
+      directions.push_back(camera ? s.camera.axes * direction : direction);
       intensities.push_back(light.intensity);
       continue;
     }
-    s.active += light.intensity;
+    // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
+    double most = 1;
+    if (light.fallsOff) {
+      const double way = glm::length(light.position - bounds.center) - bounds.radius;
+      most = 1 / std::pow(std::max(way, 1e-6), 2);
+    }
+    s.active += most * light.intensity;
     if (light.type == glint::Light::Type::spot) {
       constexpr double radians = 0.017453292519943295;
       const double range =
           std::cos(light.innerAngle * radians) - std::cos(light.outerAngle * radians);
-      s.spotSteepness += largest(light.intensity) * 2.0 / std::max(range, 1e-9);
+      s.spotSteepness += most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
     }
   }
   s.active += activeIntensity(directions, intensities);
@@ -144,7 +145,9 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
   if (v.dielectric) s.environment = (1.0 - m.metalness) * radiance * through;
   // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
   // cosines.
-  s.rounding += 1e-5 + 2e-6 * steep + m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through;
+  s.rounding +=
+      1e-5 + 2e-6 * steep +
+      (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
   if (v.refraction) {
     // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
     // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the same
@@ -200,11 +203,12 @@ std::vector<HighlightForm> lobeCandidates(const Group& group) {
     least = std::min(least, s.exponent);
     whole = whole && isIntegerPower(s.exponent);
   }
+  forms.emplace_back(Highlight::pow);
   if (!(least > 0)) return forms;
   if (whole) forms.emplace_back(Highlight::integer);
   for (const Highlight form :
        {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross, Highlight::pade})
-    for (int gamma = 1; gamma <= 64 && gamma <= least; gamma *= 2) forms.emplace_back(form, gamma);
+    for (int gamma = 1; gamma <= 64; gamma *= 2) forms.emplace_back(form, gamma);
   forms.emplace_back(Highlight::gaussian);
   return forms;
 }
@@ -311,7 +315,7 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
     const Material material =
         editedMaterial(scene.materials[std::size_t(mesh.material)], setting.look);
     const Variant v =
-        variantFor(mesh, material, instance.world, setting.lit, setting.camera.orthographic);
+        variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
     if (v.unlit) continue;
     Surface surface = surfaceFor(setting, material, mesh, v);
     if (program != setting.look.shading)
@@ -360,7 +364,7 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
 
 ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
-  resolved.look = setting.look;
+  resolved.look = setting.given;
   resolved.look.shading = program;
   for (const auto& [name, group] : groupsOf(scene, setting, program)) {
     resolved.choices.push_back(chooseForms(name, group, setting, budget));

@@ -12,17 +12,17 @@ namespace glint {
 /// What --max-error chose for the materials of one name, and why.
 struct FormChoice {
   std::string material;
-  bool specular = false;       ///< they have a highlight, and `highlight` says by which form
-  bool dielectric = false;     ///< they reflect an environment, and `fresnel` says by which form
-  HighlightForm highlight;     ///< as --highlight takes it
+  bool specular = false;    ///< they have a highlight, and `highlight` says by which form
+  bool dielectric = false;  ///< they reflect an environment, and `fresnel` says by which form
+  HighlightForm highlight;  ///< as --highlight takes it
   Fresnel fresnel = Fresnel::exact;
   double lobe = 0;         ///< error of the lobe's formula times m_s S sum of I, linear radiance
   double reflectance = 0;  ///< error of the reflectance's formula times the environment's radiance
   double interpolation = 0;  ///< of shading once per face or vertex in place of per pixel
   double rounding = 0;       ///< of single precision in all of the shading
   double bound = 0;          ///< their sum: no pixel is farther from the exact sum
-  double cost = 0;       ///< of lobes and reflectance (glint/shading/costs.h), of all lights
-  double exactCost = 0;  ///< what the exact forms would cost
+  double cost = 0;           ///< of lobes and reflectance (glint/shading/costs.h), of all lights
+  double exactCost = 0;      ///< what the exact forms would cost
   std::string reason;
 };
 

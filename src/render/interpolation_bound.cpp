@@ -85,8 +85,8 @@ double interpolationBound(const PlacedMesh& p, Shading program) {
     }
     chord = std::max(chord, h);
     if (program == Shading::flat) {
-      glm::dvec3 face = safeNormalize(
-          glm::cross(points[k[1]] - points[k[0]], points[k[2]] - points[k[0]]));
+      glm::dvec3 face =
+          safeNormalize(glm::cross(points[k[1]] - points[k[0]], points[k[2]] - points[k[0]]));
       if (glm::determinant(linear) < 0) face = -face;
       for (const std::uint32_t each : k)
         offFace = std::max(offFace, glm::length(turned[each] - face));

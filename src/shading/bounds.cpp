@@ -19,8 +19,8 @@ constexpr double cosineError = 5e-7;    // of a dot product of rounded unit vect
 // log(-f'). s = log(g'/f') vanishes there, and s' is a quotient whose numerator has one root in x,
 // besides, for Pade, a root at 0 (below, form by form). So s has at most one extremum inside, hence
 // at most two roots, one on each side of it; bisection finds them. The ends count too: where g is
-// cut off (x = 1 / beta), from where on the difference is -f, and x = 1, from where on it is g; both
-// fall from there.
+// cut off (x = 1 / beta), from where on the difference is -f, and x = 1, from where on it is g;
+// both fall from there.
 
 struct Difference {
   double alpha, beta;
@@ -68,7 +68,8 @@ struct Difference {
         // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1,
         // t = 2 - p x, b = 2 + m x: times t b (1 - x) a quadratic in x without constant term.
         const double p = 1.0 + beta, m = beta - 1.0, g = gamma;
-        const double linear = -(g - 1) * p * (m - 2) + (g + 1) * m * (p + 2) + (alpha - 1) * 2 * (m - p);
+        const double linear =
+            -(g - 1) * p * (m - 2) + (g + 1) * m * (p + 2) + (alpha - 1) * 2 * (m - p);
         const double square = (g - 1) * p * m - (g + 1) * m * p - (alpha - 1) * p * m;
         return square != 0.0 ? -linear / square : -1.0;
       }
@@ -103,8 +104,7 @@ double largestDifference(const Difference& d) {
   if (end == 1.0) largest = std::max(largest, d.at(1.0));  // what leaks past 90 degrees
   const double inside = end * (1.0 - 1e-15), between = d.extremum();
   if (between > 0.0 && between < inside)
-    return std::max({largest, largestBetween(d, 0.0, between),
-                     largestBetween(d, between, inside)});
+    return std::max({largest, largestBetween(d, 0.0, between), largestBetween(d, between, inside)});
   return std::max(largest, largestBetween(d, 0.0, inside));
 }
 
@@ -152,8 +152,8 @@ struct Subdivision {
     const double middle = 0.5 * (low + high);
     const PolarizedReflectance exact = fresnelPolarized(middle, r.constants);
     const double approximate = r.approximate(middle);
-    largest = std::max(largest,
-                       std::abs(approximate - 0.5 * (exact.perpendicular + exact.parallel)));
+    largest =
+        std::max(largest, std::abs(approximate - 0.5 * (exact.perpendicular + exact.parallel)));
     cover(low, middle, atLow, exact, approximateLow, approximate, depth - 1);
     cover(middle, high, exact, atHigh, approximate, approximateHigh, depth - 1);
   }
@@ -206,8 +206,8 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
 
 double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
   const double off = blinn ? 8.0 * vectorError : vectorError;
-  // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where the
-  // lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
+  // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
+  // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
   double geometry = 0.0;
   if (alpha >= 1.0) {
     const double t2 = 1.0 / (alpha - 0.5);
@@ -232,8 +232,8 @@ double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
       own = (1.5 * gamma + 4.0) * u;
       break;
     case LobeForm::pade:
-      // The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 + beta)
-      // for beta < 1), and 9 u of itself, the division's 5 u included.
+      // The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 +
+      // beta) for beta < 1), and 9 u of itself, the division's 5 u included.
       own = gamma * 12.0 * u * std::max(1.0, 0.5 + 0.5 * gamma / std::max(alpha, 1e-9));
       break;
     case LobeForm::gaussian:
@@ -246,7 +246,11 @@ double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
 double fresnelRoundingBound(FresnelForm form, double n1, double n2, double) {
   if (n1 == n2) return 0.0;
   const double steep = criticalCosine(n1, n2);  // 0 from the thinner side: grazing incidence
-  const double geometry = 1.0 - fresnelExact(std::min(steep + cosineError, 1.0), n1, n2);
+  // R falls from 1 there; for large indices it rises again within that way: the least on it counts.
+  double least = 1.0;
+  for (double way = cosineError; way > 1e-4 * cosineError; way *= 0.9)
+    least = std::min(least, fresnelExact(std::min(steep + way, 1.0), n1, n2));
+  const double geometry = std::min(1.02 * (1.0 - least), 1.0);
   double own = form == FresnelForm::rational ? 1.5e-6 : 1e-6;
   if (form == FresnelForm::schlick) own += 3.4e-7 * 5.0;
   // The textbook's square under the root and its two differences lose what n2 - n1 is small by, and

@@ -7,8 +7,8 @@
 namespace glint {
 
 // How far the forms of lobe and reflectance are from the exact functions, as upper bounds in
-// absolute terms. Two kinds, which add up: that of the formula, as if computed without rounding, and
-// that of the rounding of a shader in single precision.
+// absolute terms. Two kinds, which add up: that of the formula, as if computed without rounding,
+// and that of the rounding of a shader in single precision.
 //
 // The formula's bounds are found at run time from the parameters, not looked up: for the lobes the
 // stationary points of the error are known to be few and are bisected, which is exact to rounding;
@@ -37,14 +37,14 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
 /// whatever the form. Then the form itself rounds: a power p by squaring by 3/2 p + 4 roundings.
 double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn);
 
-/// What rounding adds to a reflectance whose cosine is off by 5e-7, that of a dot product of rounded
-/// unit vectors: the exact R moves most next to grazing incidence, or next to the critical angle,
-/// where it has infinite slope; the formula's own evaluation is off by 1e-6 (the rational form by
-/// 1.5e-6; the textbook's by what it cancels).
+/// What rounding adds to a reflectance whose cosine is off by 5e-7, that of a dot product of
+/// rounded unit vectors: the exact R moves most next to grazing incidence, or next to the critical
+/// angle, where it has infinite slope; the formula's own evaluation is off by 1e-6 (the rational
+/// form by 1.5e-6; the textbook's by what it cancels).
 double fresnelRoundingBound(FresnelForm form, double n1, double n2, double exponent = 5.0);
 
-/// An upper bound of the radiance of a built-in environment in any channel and direction, and of how
-/// fast it changes with the direction (per radian).
+/// An upper bound of the radiance of a built-in environment in any channel and direction, and of
+/// how fast it changes with the direction (per radian).
 double largestRadiance(BuiltinEnvironment environment);
 double steepestRadiance(BuiltinEnvironment environment);
 
