@@ -55,14 +55,17 @@ struct MeshoptSample : Sample {
       return add("bufferViews", view);
     };
     const std::size_t count = positions.size() / 3;
-    const int vertexView = packed(packedVertices,
-                                  {{"byteStride", 12}, {"count", count}, {"mode", "ATTRIBUTES"}},
-                                  12 * count);
+    const int vertexView = packed(
+        packedVertices, {{"byteStride", 12}, {"count", count}, {"mode", "ATTRIBUTES"}}, 12 * count);
     const int indexView =
         packed(packedIndices, {{"byteStride", 4}, {"count", indices.size()}, {"mode", "TRIANGLES"}},
                4 * indices.size());
-    add("accessors", {{"bufferView", vertexView}, {"componentType", 5126}, {"type", "VEC3"}, {"count", count}});
-    add("accessors", {{"bufferView", indexView}, {"componentType", 5125}, {"type", "SCALAR"}, {"count", indices.size()}});
+    add("accessors",
+        {{"bufferView", vertexView}, {"componentType", 5126}, {"type", "VEC3"}, {"count", count}});
+    add("accessors", {{"bufferView", indexView},
+                      {"componentType", 5125},
+                      {"type", "SCALAR"},
+                      {"count", indices.size()}});
     primitive({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
     json["extensionsRequired"] = {"EXT_meshopt_compression"};
     finish();
@@ -108,7 +111,8 @@ TEST(Meshopt, WhatDoesNotFitIsRefusedByPlace) {
       {[](MeshoptSample& s) { s.extension(0)["byteOffset"] = 1 << 20; }, "runs over the end"},
       {[](MeshoptSample& s) { s.extension(0)["filter"] = "WARP"; }, "filter"},
       {[](MeshoptSample& s) { s.extension(1)["filter"] = "OCTAHEDRAL"; }, "filter"},
-      {[](MeshoptSample& s) { s.json["bufferViews"][0]["byteLength"] = 60000; }, "of its buffer view"},
+      {[](MeshoptSample& s) { s.json["bufferViews"][0]["byteLength"] = 60000; },
+       "of its buffer view"},
       {[](MeshoptSample& s) { s.binary[0] ^= 0xff; }, "damaged"},
   };
   for (const Case& c : cases) {
@@ -151,8 +155,8 @@ struct DracoSample : Sample {
       const int c[3] = {0, face + 1, face + 2};
       builder.SetAttributeValuesForFace(position, draco::FaceIndex(face), corners[c[0]],
                                         corners[c[1]], corners[c[2]]);
-      builder.SetAttributeValuesForFace(texcoord, draco::FaceIndex(face), places[c[0]], places[c[1]],
-                                        places[c[2]]);
+      builder.SetAttributeValuesForFace(texcoord, draco::FaceIndex(face), places[c[0]],
+                                        places[c[1]], places[c[2]]);
     }
     const auto mesh = builder.Finalize();
     draco::Encoder encoder;

@@ -10,11 +10,11 @@
 
 namespace {
 
+using glint::Mesh;
+using glint::gltf::makeTangents;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using glint::Mesh;
-using glint::gltf::makeTangents;
 
 /// A square seen from +Z whose picture lies on it upright: u to the right, v downwards.
 Mesh square() {
@@ -130,7 +130,8 @@ struct Mapped : Sample {
     primitive["material"] = 0;
     json["materials"] = {{{"normalTexture", {{"index", 0}, {"scale", 0.5}}}}};
     json["textures"] = {{{"source", 0}}};
-    json["images"] = {{{"bufferView", view<std::uint8_t>({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'})}}};
+    json["images"] = {
+        {{"bufferView", view<std::uint8_t>({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'})}}};
   }
 };
 
@@ -147,11 +148,9 @@ TEST(Tangents, AreMadeOnlyForMaterialsWithANormalMap) {
 TEST(Tangents, OfTheFileAreTakenAndMended) {
   Mapped sample;
   auto& attributes = sample.json["meshes"][0]["primitives"][0]["attributes"];
-  attributes["TANGENT"] =
-      sample.accessor<float>("VEC4", {0, 2, 0, -1, 0, 2, 0, -1, 0, 2, 0, -1});
+  attributes["TANGENT"] = sample.accessor<float>("VEC4", {0, 2, 0, -1, 0, 2, 0, -1, 0, 2, 0, -1});
   EXPECT_THAT(sample.load().meshes.at(0).tangents, Each(glm::vec4(0, 1, 0, -1)));
-  attributes["TANGENT"] =
-      sample.accessor<float>("VEC4", {0, 2, 0, -1, 0, 0, 0, -1, 0, 2, 0, -1});
+  attributes["TANGENT"] = sample.accessor<float>("VEC4", {0, 2, 0, -1, 0, 0, 0, -1, 0, 2, 0, -1});
   const glint::Scene scene = sample.load();
   EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("made anew")));
   EXPECT_THAT(scene.meshes.at(0).tangents, Each(glm::vec4(1, 0, 0, 1)));

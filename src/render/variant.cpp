@@ -149,6 +149,8 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
     v.pixelPosition = v.pointLights + v.spotLights > 0 || v.vanishingNormal ||
                       ((v.specular || environment) && !v.constantView);
   }
+  v.normalTexture = pixels && (lit || environment) && !mesh.tangents.empty() &&
+                    readsTexture(mesh, material.normalTexture);
   // Nothing of the surface's side is left where there is neither light nor environment.
   if (!lit && !environment)
     v.twoSided = v.vanishingNormal = v.pixelPosition = v.unevenScale = false;
@@ -203,6 +205,11 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   add("two-sided", v.twoSided, look.twoSided ? "--two-sided" : "the material is doubleSided",
       material.doubleSided || look.twoSided ? "nothing depends on the side"
                                             : "back faces are not drawn");
+  add("normal-texture", v.normalTexture, "the material has a normal map",
+      !material.normalTexture ? "the material has none"
+      : !perPixel(v.program)  ? "the program has one normal a face or vertex"
+      : mesh.tangents.empty() ? "the mesh has no coordinates for it"
+                              : "nothing reads the normal");
   add("emission", v.emission, "the material emits", "the material does not emit");
   if (v.emission)
     add("emission-texture", v.emissionTexture, "the material has one", "the material has none");
@@ -253,6 +260,7 @@ std::vector<std::string> featureNames(const Variant& v) {
   add(v.twoSided, "two-sided");
   add(v.vertexColors, "vertex-colors");
   add(v.colorTexture, "color-texture");
+  add(v.normalTexture, "normal-texture");
   add(v.emission, "emission");
   add(v.emissionTexture, "emission-texture");
   add(v.alphaMask, "alpha-mask");

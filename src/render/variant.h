@@ -43,6 +43,7 @@ struct Variant {
   bool vanishingNormal = false;  ///< interpolated normals may cancel
   bool twoSided = false;         ///< back faces are drawn, lit from their side
   bool vertexColors = false, colorTexture = false;
+  bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
   bool emission = false, emissionTexture = false;
   bool alphaMask = false, alphaBlend = false;
   // The program environment alone:

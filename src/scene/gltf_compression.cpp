@@ -112,11 +112,11 @@ class Decompressor {
     const auto number = [&](const char* key) {
       return static_cast<std::uint64_t>(views.item(view).member(key).integer(0, 0, maxBytes));
     };
-    const std::vector<unsigned char> packed = read(
-        from,
-        static_cast<std::size_t>(
-            views.item(view).required("buffer").index(document_.buffers.size())),
-        number("byteOffset"), number("byteLength"));
+    const std::vector<unsigned char> packed =
+        read(from,
+             static_cast<std::size_t>(
+                 views.item(view).required("buffer").index(document_.buffers.size())),
+             number("byteOffset"), number("byteLength"));
     DracoMesh mesh(packed, maxGrowth);
     if (!mesh.error().empty()) from.fail(mesh.error());
     const std::size_t accessors = root_.member("accessors").size();
@@ -130,10 +130,10 @@ class Decompressor {
           root_.member("accessors").item(static_cast<std::size_t>(target.index(accessors)));
       Json description = accessor.json();
       std::vector<unsigned char> bytes;
-      const std::string error =
-          mesh.readAttribute(static_cast<std::uint32_t>(id),
-                             static_cast<int>(accessor.required("componentType").integer(0, 0, 1 << 16)),
-                             accessor.required("type").text(), bytes);
+      const std::string error = mesh.readAttribute(
+          static_cast<std::uint32_t>(id),
+          static_cast<int>(accessor.required("componentType").integer(0, 0, 1 << 16)),
+          accessor.required("type").text(), bytes);
       if (!error.empty()) attribute.fail(error);
       description["count"] = mesh.points();
       made.emplace_back(name, addAccessor(std::move(description), std::move(bytes)));

@@ -15,8 +15,8 @@ bool readsCompression(const std::string& extension);
 /// and the document's buffer views, accessors and primitives point there. `document.buffers` is
 /// filled. True if anything was replaced; the document is then to be checked again.
 ///
-/// Fails, naming the place, on data that are damaged, that unfold to more than 512 times their size,
-/// or that do not hold what the document says.
+/// Fails, naming the place, on data that are damaged, that unfold to more than 512 times their
+/// size, or that do not hold what the document says.
 bool decompress(Document& document, const Messages& messages);
 
 }  // namespace glint::gltf

@@ -19,13 +19,12 @@ std::string decodeMeshopt(const MeshoptStream& s, const std::vector<unsigned cha
     return "has a byteStride that its mode does not allow";
   if (triangles && s.count % 3 != 0) return "has a count that is no multiple of 3";
   if (s.count == 0) return {};
-  const int result =
-      vertices ? meshopt_decodeVertexBuffer(plain.data(), s.count, s.stride, packed.data(),
-                                            packed.size())
-      : triangles
-          ? meshopt_decodeIndexBuffer(plain.data(), s.count, s.stride, packed.data(), packed.size())
-          : meshopt_decodeIndexSequence(plain.data(), s.count, s.stride, packed.data(),
-                                        packed.size());
+  const int result = vertices    ? meshopt_decodeVertexBuffer(plain.data(), s.count, s.stride,
+                                                              packed.data(), packed.size())
+                     : triangles ? meshopt_decodeIndexBuffer(plain.data(), s.count, s.stride,
+                                                             packed.data(), packed.size())
+                                 : meshopt_decodeIndexSequence(plain.data(), s.count, s.stride,
+                                                               packed.data(), packed.size());
   if (result != 0) return "is damaged";
   if (s.filter == "NONE") return {};
   if (!vertices) return "has a filter that its mode does not allow";

@@ -9,7 +9,7 @@ namespace glint::gltf {
 
 /// What EXT_meshopt_compression says of a stream.
 struct MeshoptStream {
-  std::uint64_t count = 0;  ///< of elements
+  std::uint64_t count = 0;   ///< of elements
   std::uint64_t stride = 0;  ///< bytes of one, at most 256
   std::string mode;          ///< ATTRIBUTES, TRIANGLES or INDICES
   std::string filter;        ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL

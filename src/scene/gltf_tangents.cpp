@@ -22,7 +22,7 @@ glm::dvec3 inPlane(const glm::dvec3& v, const glm::dvec3& n) {
 }
 
 struct Face {
-  std::array<std::uint32_t, 3> vertex{};  ///< welded
+  std::array<std::uint32_t, 3> vertex{};                  ///< welded
   std::array<std::uint32_t, 3> across{none, none, none};  ///< the face behind each edge
   std::array<std::uint32_t, 3> group{none, none, none};   ///< of each corner
   glm::dvec3 tangent{0.0};  ///< unit, to where u grows; zero where the texture has no area
@@ -63,8 +63,14 @@ class TangentMaker {
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const glm::vec3 &p = mesh_.positions[i], &n = mesh_.normals[i];
       // Adding 0 makes -0 and 0 the same.
-      keys[i].values = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, n.x + 0.0f,
-                        n.y + 0.0f, n.z + 0.0f, texcoords_[i].x + 0.0f, texcoords_[i].y + 0.0f};
+      keys[i].values = {p.x + 0.0f,
+                        p.y + 0.0f,
+                        p.z + 0.0f,
+                        n.x + 0.0f,
+                        n.y + 0.0f,
+                        n.z + 0.0f,
+                        texcoords_[i].x + 0.0f,
+                        texcoords_[i].y + 0.0f};
     }
     std::vector<std::uint32_t> order(keys.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -74,7 +80,8 @@ class TangentMaker {
     });
     welded_.resize(keys.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-      const bool same = i > 0 && std::memcmp(&keys[order[i]], &keys[order[i - 1]], sizeof(Key)) == 0;
+      const bool same =
+          i > 0 && std::memcmp(&keys[order[i]], &keys[order[i - 1]], sizeof(Key)) == 0;
       welded_[order[i]] = same ? welded_[order[i - 1]] : order[i];
     }
   }
@@ -87,7 +94,8 @@ class TangentMaker {
       const auto& v = face.vertex;
       const glm::dvec3 p1 = position(v[1]) - position(v[0]), p2 = position(v[2]) - position(v[0]);
       const glm::dvec2 t0(texcoords_[v[0]]);
-      const glm::dvec2 t1 = glm::dvec2(texcoords_[v[1]]) - t0, t2 = glm::dvec2(texcoords_[v[2]]) - t0;
+      const glm::dvec2 t1 = glm::dvec2(texcoords_[v[1]]) - t0,
+                       t2 = glm::dvec2(texcoords_[v[2]]) - t0;
       const double area = t1.x * t2.y - t1.y * t2.x;
       face.preserving = area > 0;
       if (!(std::abs(area) > 1e-37)) continue;
@@ -112,15 +120,15 @@ class TangentMaker {
         if (a != b) edges.push_back({std::min(a, b), std::max(a, b), f, k, a < b});
       }
     }
-    std::ranges::sort(edges, {}, [](const Edge& e) {
-      return std::tuple(e.low, e.high, e.face, e.edge);
-    });
+    std::ranges::sort(edges, {},
+                      [](const Edge& e) { return std::tuple(e.low, e.high, e.face, e.edge); });
     std::vector<const Edge*> ahead, back;
     for (std::size_t i = 0; i < edges.size();) {
       ahead.clear();
       back.clear();
       std::size_t end = i;
-      for (; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;
+      for (;
+           end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;
            ++end) {
         (edges[end].forward ? ahead : back).push_back(&edges[end]);
       }
@@ -209,8 +217,8 @@ class TangentMaker {
         continue;
       }
       if (groupOf[index] == group) continue;
-      const auto [copy, isNew] = copies.try_emplace({index, group},
-                                                    std::uint32_t(mesh_.positions.size()));
+      const auto [copy, isNew] =
+          copies.try_emplace({index, group}, std::uint32_t(mesh_.positions.size()));
       if (isNew) {
         duplicate(mesh_.positions, index);
         duplicate(mesh_.normals, index);
