@@ -90,7 +90,6 @@ class ModelDrawing {
     std::string error = model_.error;
     if (error.empty()) {
       try {
-        if (!stage_) stage_.emplace(run_.renderer, model_);
         drawInto(planned, start);
         return;
       } catch (const Error& failure) {
@@ -107,7 +106,8 @@ class ModelDrawing {
   }
 
   void drawInto(const PlannedPicture& planned, Clock::time_point start) {
-    const Look look = lookOf(planned, run_.options, run_.look, model_.scene, model_.bounds);
+    pose(planned);
+    const Look look = lookOf(planned, run_.options, run_.look, model_);
     const auto source = run_.sweeps.empty()
                             ? stage_->picture(look)
                             : std::make_unique<ContactSheet>(*stage_, run_.sweeps, look);
@@ -147,6 +147,17 @@ class ModelDrawing {
     run_.encoder.then([&run = run_, out, planned, before, start, result = std::move(result)] {
       finish(run, *out, planned, result, [&] { return before + since(start); });
     });
+  }
+
+  // What moves goes to the driver anew with each picture of a sequence.
+  void pose(const PlannedPicture& planned) {
+    if (model_.file) {
+      stage_.reset();
+      const double time = model_.duration * double(planned.frame) / run_.options.frames;
+      model_.file->pose(model_.scene, {time, run_.look.animation});
+      model_.bounds = boundsOf(model_.scene);
+    }
+    if (!stage_) stage_.emplace(run_.renderer, model_);
   }
 
   void drawRows(const PlannedPicture& planned, PictureSource& source, const PictureOptions& file,
