@@ -42,9 +42,11 @@ if [ "${GLINT_UPDATE_BASELINES:-0}" = 1 ]; then
   "$glint" diff "$baseline" "$actual" "$@" --update
   exit
 fi
-[ ! -f "$baseline" ] || cp "$baseline" "$kept"
 "$glint" diff "$baseline" "$actual" "$@" --output "$difference" --json "$result"
 status=$?
+# The baseline may be that of a driver: the result says which.
+used=$(sed -n 's/^  "a": "\(.*\)",$/\1/p' "$result")
+[ ! -f "$used" ] || cp "$used" "$kept"
 if [ "$status" -ne 0 ]; then
   echo "image test $name: the picture is $actual, the baseline $baseline"
   [ ! -f "$difference" ] || echo "image test $name: the difference is $difference"

@@ -146,7 +146,6 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending tells no known format"},
       {{"a.png", "b.png", "--json", "-", "--junit", "-"}, 2, "goes to stdout already"},
       {{"a.png", "b.png", "--json", "no/such/folder.json"}, 2, "no/such/folder.json"},
-      {{"a.png", "b.png", "--baselines-per-driver"}, 2, "give two folders"},
       // No baseline.
       {{"missing.png", "a.png"}, 4, "missing.png: no baseline: look at a.png and accept it"},
   };
@@ -197,9 +196,11 @@ TEST(DiffReports, JUnit) {
   write(pictures / "x/two & <three>.png");
   write(pictures / "y/two & <three>.png", 3);
   write(pictures / "x/gone.png");
+  write(pictures / "x/caf\xe9.png");
   EXPECT_EQ(pictures.diff({"x", "y", "--junit", "r.xml"}).status, 2);
   const std::string xml = contents(pictures / "r.xml");
-  EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"3\" failures=\"1\" errors=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"4\" failures=\"1\" errors=\"2\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"caf\xef\xbf\xbd.png\""));  // no UTF-8: replaced
   EXPECT_THAT(xml, HasSubstr("name=\"one.png\""));
   EXPECT_THAT(xml, HasSubstr("name=\"two &amp; &lt;three&gt;.png\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"3 pixels differ\">"));
@@ -320,6 +321,11 @@ TEST(DiffDrivers, AreTold) {
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, Not(HasSubstr("across")));
   EXPECT_EQ(pictures.diff({"x", "y"}).status, 1);
+  // Of single pictures likewise.
+  EXPECT_EQ(pictures.diff({"x/one.png", "y/one.png", "--baselines-per-driver"}).status, 0);
+  ran = pictures.diff({"a.png", "y/one.png", "--baselines-per-driver", "--update"});
+  EXPECT_EQ(ran.err, "glint: made the baseline ./driver-llvmpipe-llvm-15/a.png\n");
+  EXPECT_EQ(pictures.diff({"a.png", "y/one.png", "--baselines-per-driver"}).status, 0);
 }
 
 TEST(DiffJobs, DoNotChangeTheResult) {

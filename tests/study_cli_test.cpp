@@ -20,15 +20,13 @@ std::vector<std::string> tiny(std::vector<std::string> more) {
   return more;
 }
 
-TEST(StudyCommand, TellsTimesErrorsFrontsAndAnswersOfTheBuiltInSphere) {
+// The exact forms alone, which leaves the series out; study_page_test.py has a whole study.
+TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   const std::string file = temporaryFolder() + "/results.md";
-  const Ran ran = runGlint(tiny({"--json", "-", "--markdown", file}));
+  const Ran ran = runGlint(
+      tiny({"--highlight", "exact", "--fresnel", "exact", "--json", "-", "--markdown", file}));
   ASSERT_EQ(ran.status, 0) << ran.err;
-  const std::string markdown = contents(file);
-  for (const char* words : {"beat `pow`", "how far off is 4", "Gouraud enough", "Schlick ever",
-                            "only what the scene needs", "glint study --quick --repetitions 3"})
-    EXPECT_THAT(markdown, HasSubstr(words));
-  EXPECT_THAT(markdown, testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(contents(file), HasSubstr("glint study --quick --repetitions 3"));
   const Json json = Json::parse(ran.out);
   EXPECT_TRUE(json["complete"].get<bool>()) << json["missing"];
   EXPECT_EQ(json["triangles"], 20480);
@@ -49,23 +47,21 @@ TEST(StudyCommand, TellsTimesErrorsFrontsAndAnswersOfTheBuiltInSphere) {
     // Each is on the front or dominated by one that is.
     EXPECT_TRUE(e["fronts"]["rmse"].is_boolean() || e["fronts"]["rmse"].is_string());
     // What is exact differs by rounding alone, at most 1e-5 + 4e-6 sqrt(4 alpha) of accuracy.md.
-    const bool perPixel = v["shading"] != "flat" && v["shading"] != "gouraud";
-    if (perPixel && v["highlight"] == "exact" && v.value("fresnel", "exact") == "exact") {
+    if (v["shading"] != "flat" && v["shading"] != "gouraud") {
       EXPECT_LT(e["max"].get<double>(), 1e-5 + 4e-6 * std::sqrt(160));
     }
     // The whole is at most the sum of its parts.
     EXPECT_LE(e["max"].get<double>(), 1.0001 * (v["parts"]["shading"]["max"].get<double>() +
                                                 v["parts"]["interpolation"]["max"].get<double>()));
   }
-  for (const char* name : {"flat exact", "gouraud exact", "phong exact", "phong pow",
-                           "blinn-phong exact", "environment exact", "environment schlick"})
-    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_EQ(names, (std::set<std::string>{"flat exact", "gouraud exact", "phong exact",
+                                          "blinn-phong exact", "environment exact"}));
   EXPECT_EQ(json["fronts"].size(), 15u);
+  EXPECT_TRUE(json["series"].empty());
 }
 
 TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
-  const Ran ran =
-      runGlint(tiny({sphere, "--shading", "phong", "--time-budget", "1", "--json", "-"}));
+  const Ran ran = runGlint(tiny({sphere, "--shading", "phong", "--json", "-"}));
   ASSERT_EQ(ran.status, 0) << ran.err;
   // The model's material has no highlight: all forms are one.
   const Json json = Json::parse(ran.out);
@@ -83,18 +79,20 @@ TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
 
 TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
   const std::string folder = temporaryFolder() + "/interrupted";
-  // Ctrl-C after a second, long before so many frames are done.
-  const std::string command = "timeout --preserve-status -s INT 1 " GLINT_EXECUTABLE
+  // Ctrl-C after two seconds, long before so many frames are done.
+  const std::string command = "timeout --preserve-status -s INT 2 " GLINT_EXECUTABLE
                               " study --resolution 64,64 --shading phong --highlight exact"
                               " --repetitions 100000 --output " +
                               folder + " > /dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const Json json = Json::parse(contents(folder + "/study.json"));
   EXPECT_FALSE(json["complete"].get<bool>());
-  ASSERT_EQ(json["variants"].size(), 1u);
-  EXPECT_GT(json["variants"][0]["errors"][0]["rmse"].get<double>(), 0);
+  EXPECT_FALSE(json["missing"].empty());
+  // On a machine that is very busy not even its error.
+  for (const Json& v : json["variants"]) EXPECT_GT(v["errors"][0]["rmse"].get<double>(), 0);
   EXPECT_THAT(contents(folder + "/study.html"), HasSubstr("</html>"));
-  EXPECT_THAT(contents(folder + "/study.csv"), HasSubstr("phong exact,phong,"));
+  EXPECT_THAT(contents(folder + "/study.svg"), HasSubstr("</svg>"));
+  EXPECT_THAT(contents(folder + "/study.csv"), HasSubstr("variant,against"));
 }
 
 TEST(StudyCommand, RefusesWhatItCannotDo) {

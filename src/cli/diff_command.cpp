@@ -243,8 +243,10 @@ Command addDiff(CLI::App& app) {
               "or of these; tells each")
           ->type_name("[NAME...]")
           ->expected(0, 1 << 20);
-  command->add_flag("--baselines-per-driver", given->perDriver,
-                    "prefer A/driver-NAME/..., NAME made from the GL_RENDERER that B's files tell");
+  command->add_flag(
+      "--baselines-per-driver", given->perDriver,
+      "prefer baselines in a folder driver-NAME of A (of a file: beside it), NAME made "
+      "from the GL_RENDERER that B tells");
   return [=] {
     std::size_t metrics = 0, thresholds = 0;
     for (const CLI::Option* option : command->parse_order()) {

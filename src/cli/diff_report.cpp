@@ -19,9 +19,15 @@ std::string shortNumber(double value) {
   return text;
 }
 
+/// Text with bytes that are no UTF-8 replaced.
+std::string utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
 std::string xmlText(const std::string& text) {
   std::string safe;
-  for (const char letter : text) {
+  for (const char letter : utf8(text)) {
     switch (letter) {
       case '&':
         safe += "&amp;";

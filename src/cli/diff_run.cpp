@@ -229,14 +229,22 @@ int diffFolders(const DiffRequest& request) {
 }
 
 int diffPictures(const DiffRequest& request) {
-  if (request.perDriver)
-    throw InputError("--baselines-per-driver with single pictures: give two folders");
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
   entry.name = fs::path(request.b).filename().string();
   if (isThere(request.a)) entry.a = request.a;
   if (isThere(request.b)) entry.b = request.b;
   checkNames(request, entries);
+  std::string baseline = request.a;
+  if (request.perDriver) {
+    const fs::path a = request.a;
+    const std::string folder = a.has_parent_path() ? a.parent_path().string() : ".";
+    DiffEntry named = entry;
+    named.name = a.filename().string();
+    useDriverBaseline(folder, named);
+    entry.a = named.a;
+    baseline = driverBaseline(folder, named);
+  }
   std::optional<DiffHtml> page;
   if (!request.html.empty()) page.emplace(request.html);
   PairPictures pictures;
@@ -247,7 +255,7 @@ int diffPictures(const DiffRequest& request) {
     entry.error = printablePath(request.a) + ": no baseline: look at " + printablePath(request.b) +
                   " and accept it with --update";
   }
-  if (request.updating) update(request, entry, request.a);
+  if (request.updating) update(request, entry, baseline);
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,20 +12,11 @@
 #include "glint/scene/parameters.h"
 #include "glint/study/study_page.h"
 #include "glint/study/study_results.h"
+#include "interrupt.h"
 #include "progress.h"
 
 namespace glint {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first Ctrl-C ends the study with what there is; the second one kills.
-void stopOnInterrupt() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-}
 
 struct StudyArguments {
   std::string model, output, json, markdown, command, backend = "auto";
@@ -103,11 +93,11 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
     printWarning((given.model.empty() ? "sphere" : given.model) + ": " + warning);
   if (!context->remark().empty()) printWarning(context->remark());
 
-  stopOnInterrupt();
+  const Interrupt interrupt;
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(given.timeBudget);
   const Stop stop = [&] {
-    return interrupted != 0 || (given.timeBudget > 0 && Clock::now() > end);
+    return Interrupt::signal() != 0 || (given.timeBudget > 0 && Clock::now() > end);
   };
   StudyResult result;
   {

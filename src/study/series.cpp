@@ -118,7 +118,7 @@ std::optional<StudySeries> exponentSeries(const SeriesTools& tools) {
     look.material[""].exponent = exponents[i];
     const Radiances truth = truthOf(tools.scene, look, Shading::phong, mask);
     for (const std::string& form : forms) {
-      setParameter(look, "highlight", form);
+      setForms(look, form, "exact");
       drawer.add(form, exponents[i], look, &mask, &truth);
     }
     tools.tell(0.5 * double(i + 1) / double(exponents.size()));
@@ -141,7 +141,7 @@ std::optional<StudySeries> iorSeries(const SeriesTools& tools) {
     look.material[""].ior = indices[i];
     const Radiances truth = truthOf(tools.scene, look, Shading::environment, mask);
     for (const std::string& form : forms) {
-      setParameter(look, "fresnel", form);
+      setForms(look, "exact", form);
       drawer.add(form, indices[i], look, &mask, &truth);
     }
     tools.tell(0.5 * double(i + 1) / double(indices.size()));

@@ -383,6 +383,34 @@ void p13(Bench& bench, Record& record) {
   record.within("highest", high, 0.9, 1);
 }
 
+void p14(Bench& bench, Record& record) {
+  // A lamp of a file with a range of 10, straight above the place: 1/d^2, windowed to 0 at 10.
+  for (Shading shading : everyShading) {
+    Look look = bench.look(shading);
+    Light lamp;
+    lamp.type = Light::Type::point;
+    lamp.fallsOff = true;
+    lamp.range = 10;
+    look.light = {lamp};
+    Points points;
+    const float distances[] = {1e-20f, 1e-7f, 1e-3f, 1, 5, 9.99f, 10, 11, 1e6f, 1e15f};
+    for (float d : distances) points.add({0, 0, 1}, {0, 0, 0}, {0, 0, d});
+    const PointScene scene(look, litMaterial(1, 0, 1));
+    const auto got = bench.programs().shade(scene, points);
+    const auto truth = referenceShade(scene, points);
+    const std::string name(shadingName(shading));
+    for (std::size_t i = 0; i < std::size(distances); ++i) {
+      const double d = std::max(double(distances[i]), 1e-6);
+      const double expected = std::max(1 - std::pow(d / 10, 4), 0.0) / (d * d);
+      const std::string what = ": a lamp " + numberText(distances[i]) + " away";
+      // Relative: the square, its quotient, and the window's 4 roundings of at most 1.
+      const double tolerance = 1e-6 * std::max(expected, 1 / (d * d));
+      record.near(name + what, got[i].x, expected, tolerance);
+      record.near(name + " in the reference" + what, truth[i].x, expected, tolerance);
+    }
+  }
+}
+
 const Case cases[] = {
     {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
      "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
@@ -411,6 +439,9 @@ const Case cases[] = {
      "masked parts", "", p12},
     {"P13", "360000 cosines and indices, crowded against grazing and the critical angle",
      "R in [0, 1]", "exact", "T = 1 - R is negative otherwise", "", p13},
+    {"P14", "a lamp with range 10 from 1e-20 to 1e15 away",
+     "glTF's fall-off, finite, 0 from its range on", "1e-6 of 1/d^2: roundings",
+     "1/0 at the lamp, negative light beyond its range", "distances count as at least 1e-6", p14},
 };
 
 }  // namespace

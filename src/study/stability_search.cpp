@@ -73,7 +73,7 @@ void drawLights() {
 #endif
     lights[i].constant = vec4(between, drawLog(0.0, 30.0));
     if (i >= DIRECTIONAL_LIGHTS) l = drawnPosition + l * (kind == 4u ? drawLog(-100.0, 0.0) : drawLog(-3.0, 49.0));
-    lights[i].position = vec4(l, 0.0);
+    lights[i].position = vec4(l, kind == 5u ? drawLog(-20.0, 20.0) : 0.0);
     drawnLight = l;
   }
 #endif
@@ -146,6 +146,7 @@ Look randomPointLook(Bench& bench, Random& random) {
   for (int i = 0, n = random.below(3); i < n; ++i) {
     Light light = directional({0, 0, 1});
     light.type = typeOf(random.below(3));
+    light.fallsOff = light.type != Light::Type::directional && random.below(2) == 0;
     look.light->push_back(light);
   }
   return look;

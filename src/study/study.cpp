@@ -28,7 +28,7 @@ class Study {
     prepare();
     if (!measureErrors()) return leave("errors of some variants");
     measureTimes();
-    measureSeries();
+    if (options_.filter.isEmpty()) measureSeries();
     result_.complete = result_.missing.empty();
     return std::move(result_);
   }

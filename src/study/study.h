@@ -16,8 +16,8 @@
 namespace glint {
 
 struct StudyOptions {
-  Look look;  ///< without anti-aliasing
-  StudyFilter filter;
+  Look look;           ///< without anti-aliasing
+  StudyFilter filter;  ///< with one there are no series
   int warmUp = 10;     ///< rounds that are not counted
   int rounds = 60;     ///< frames of each variant
   bool quick = false;  ///< series of fewer points

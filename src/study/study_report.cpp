@@ -288,9 +288,12 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
       const VariantError& e = *errorAgainst(v, model);
       const Spread wall = spreadOf(v.times.wall);
       const FrontPlace* place = placeOf(front, i);
-      table += formatted("%-32s %8.3f %8.3f-%8.3f %7.2f %9.2e %9.2e %9.2e %9.2e %6.2f%%  %s\n",
-                         v.variant.name.c_str(), wall.median, wall.lowerQuartile,
-                         wall.upperQuartile, perPixel(r, v.times), e.whole.max,
+      table += formatted("%-32s ", v.variant.name.c_str());
+      table += wall.count == 0
+                   ? formatted("%8s %17s %7s ", "-", "-", "-")
+                   : formatted("%8.3f %8.3f-%8.3f %7.2f ", wall.median, wall.lowerQuartile,
+                               wall.upperQuartile, perPixel(r, v.times));
+      table += formatted("%9.2e %9.2e %9.2e %9.2e %6.2f%%  %s\n", e.whole.max,
                          e.whole.percentile999, e.whole.rmse, e.flip, 100 * e.whole.offByMore,
                          !place           ? ""
                          : place->onFront ? "on the front"

@@ -50,11 +50,24 @@ Shading modelOf(Shading program) {
   return program == Shading::flat || program == Shading::gouraud ? Shading::phong : program;
 }
 
+void setForms(Look& look, const std::string& highlight, const std::string& fresnel) {
+  setParameter(look, "highlight", highlight);
+  setParameter(look, "fresnel", fresnel);
+  for (auto& [name, edit] : look.material) {
+    edit.highlight.reset();
+    edit.fresnel.reset();
+  }
+  // Before those of the model's materials.
+  look.material[""].highlight = look.highlight;
+  look.material[""].fresnel = look.fresnel;
+  for (const Parameter& p : lookParameters())
+    if (p.name == "max-error") p.reset(look);  // it would choose forms
+}
+
 Look exactLook(const Look& look, Shading program) {
   Look exact = look;
   exact.shading = program;
-  setParameter(exact, "highlight", "exact");
-  setParameter(exact, "fresnel", "exact");
+  setForms(exact, "exact", "exact");
   return exact;
 }
 
@@ -87,8 +100,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
         if (environment && !wanted(filter.fresnel, fresnel)) continue;
         v.highlight = highlight;
         v.fresnel = fresnel;
-        setParameter(v.look, "highlight", highlight);
-        setParameter(v.look, "fresnel", environment ? fresnel : "exact");
+        setForms(v.look, highlight, environment ? fresnel : "exact");
         v.name = name + " " + (environment ? fresnel : highlight);
         DrawList own = makeDrawList(scene, bounds, v.look);
         if (std::any_of(drawn.begin(), drawn.end(),

@@ -24,6 +24,7 @@ struct StudyVariant {
 struct StudyFilter {
   std::string shading, highlight, fresnel;  ///< the only one, if given
   bool quick = false;                       ///< of the forms with a number only a few numbers
+  bool isEmpty() const { return shading.empty() && highlight.empty() && fresnel.empty(); }
 };
 
 /// All values that an option of one of several forms takes, from the table of parameters. Quick:
@@ -32,6 +33,9 @@ std::vector<std::string> formsOf(const std::string& parameter, bool quick);
 
 /// Sets one of the look's parameters by its option's name.
 void setParameter(Look& look, const std::string& parameter, const std::string& text);
+
+/// Sets the forms of all materials, whatever the look or the model say of some of them.
+void setForms(Look& look, const std::string& highlight, const std::string& fresnel);
 
 /// The programs and forms that make a difference to a scene: no forms of a highlight that no
 /// material has, none of the reflectance without a dielectric, none that is drawn like an earlier
