@@ -135,8 +135,10 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look) {
   Look phong = look;
   if (!split) phong.shading = Shading::phong;
   const DrawList geometry = makeDrawList(model.scene, model.bounds, phong);
-  const Image positions = attributeImage(renderer, scene, geometry, phong, PixelOutput::position);
-  const Image normals = attributeImage(renderer, scene, geometry, phong, PixelOutput::normal);
+  GpuScene phongScene(model.scene, decodeImages(model.scene, phong));  // may read a normal map
+  const Image positions =
+      attributeImage(renderer, phongScene, geometry, phong, PixelOutput::position);
+  const Image normals = attributeImage(renderer, phongScene, geometry, phong, PixelOutput::normal);
 
   Comparison c;
   for (const DrawItem& item : list.items)

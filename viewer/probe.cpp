@@ -26,6 +26,8 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   scene.cameras = from.cameras;
   scene.lights = from.lights;
   scene.lightScale = from.lightScale;
+  for (const EncodedImage& image : from.images)
+    scene.images.push_back({image.name, {}, image.isData});
   for (const Hit& hit : hits) {
     const Mesh& mesh = from.meshes[std::size_t(hit.mesh)];
     Mesh one;
@@ -37,6 +39,7 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
       const std::uint32_t v = mesh.indices[3 * hit.triangle + i];
       one.positions.push_back(mesh.positions[v]);
       one.normals.push_back(mesh.normals[v]);
+      if (!mesh.tangents.empty()) one.tangents.push_back(mesh.tangents[v]);
       if (!mesh.colors.empty()) one.colors.push_back(mesh.colors[v]);
       for (std::size_t set = 0; set < mesh.texcoords.size(); ++set)
         if (!mesh.texcoords[set].empty()) one.texcoords[set].push_back(mesh.texcoords[set][v]);
