@@ -73,7 +73,7 @@ TEST(Usage, MissingModelAndOutput) {
 TEST(Usage, BadValuesOfOptions) {
   const std::vector<std::vector<std::string>> options = {{"--shading", "toon"},
                                                          {"--highlight", "lyon:7"},
-                                                         {"--fresnel", "rational"},
+                                                         {"--fresnel", "cubic"},
                                                          {"--blinn-factor", "-1"},
                                                          {"--schlick-exponent", "x"},
                                                          {"--material", "shine=1"},

@@ -134,8 +134,11 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look) {
   // Where a pixel lies and how it is turned, which only per-pixel programs can tell.
   Look phong = look;
   if (!split) phong.shading = Shading::phong;
-  const DrawList geometry = makeDrawList(model.scene, model.bounds, phong);
-  GpuScene phongScene(model.scene, decodeImages(model.scene, phong));  // may read a normal map
+  Scene bare = model.scene;  // flat and gouraud leave normal maps out
+  if (!split)
+    for (Material& m : bare.materials) m.normalTexture.reset();
+  const DrawList geometry = makeDrawList(bare, model.bounds, phong);
+  GpuScene phongScene(bare, decodeImages(bare, phong));
   const Image positions =
       attributeImage(renderer, phongScene, geometry, phong, PixelOutput::position);
   const Image normals = attributeImage(renderer, phongScene, geometry, phong, PixelOutput::normal);
