@@ -24,7 +24,7 @@ layout(std140) uniform LightBlock {
 
 layout(std140) uniform DrawBlock {
   mat4 eyeFromModel;
-  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz
+  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz; 4th: scale of the normal map, 0, 0, -1 if mirrored
 } draw;
 
 layout(std140) uniform MaterialBlock {

@@ -40,7 +40,11 @@ void main() {
 #elif OUTPUT != OUTPUT_RADIANCE && UNLIT
   fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL
+#if NORMAL_TEXTURE
+  fragment = vec4(surfaceNormal(), gl_FrontFacing ? 1.0 : -1.0);
+#else
   fragment = vec4(vNormal, gl_FrontFacing ? 1.0 : -1.0);
+#endif
 #elif OUTPUT == OUTPUT_SHADING_NORMAL
   fragment = vec4(shadedPixel().normal, 1.0);
 #elif OUTPUT == OUTPUT_POSITION

@@ -5,29 +5,40 @@ struct LightSum {
 };
 
 #if SPECULAR && HIGHLIGHT != HIGHLIGHT_POW
-// The form of this variant; pow alone takes the cosine itself.
-float lobeOf(float lambda) {
+// The form of this variant; pow alone takes the cosine itself. `shape` is lobeShape().
+float lobeOf(float lambda, vec2 shape) {
 #if HIGHLIGHT == HIGHLIGHT_INTEGER
   return lobeInteger(lambda, LOBE_POWER);
 #elif HIGHLIGHT == HIGHLIGHT_LYON || HIGHLIGHT == HIGHLIGHT_LYON_TUNED
-  return lobeLyon(lambda, material.lobe.x, LOBE_POWER);
+  return lobeLyon(lambda, shape.x, LOBE_POWER);
 #elif HIGHLIGHT == HIGHLIGHT_LYON_CROSS
-  return lobeLyonCross(lambda, material.lobe.x, LOBE_POWER);
+  return lobeLyonCross(lambda, shape.x, LOBE_POWER);
 #elif HIGHLIGHT == HIGHLIGHT_PADE
-  return lobePade(lambda, material.lobe.x, material.lobe.y, LOBE_POWER);
+  return lobePade(lambda, shape.x, shape.y, LOBE_POWER);
 #elif HIGHLIGHT == HIGHLIGHT_GAUSSIAN
-  return lobeGaussian(lambda, material.lobe.x);
+  return lobeGaussian(lambda, shape.x);
 #else
-  return lobeExact(lambda, material.strength.w);
+  return lobeExact(lambda, shape.x);
 #endif
 }
 #endif
+
+// What the lobe's form reads of the material: once, before the loop over the lights.
+vec2 lobeShape() {
+#if SPECULAR && (HIGHLIGHT == HIGHLIGHT_EXACT || HIGHLIGHT == HIGHLIGHT_POW)
+  return material.strength.ww;
+#elif SPECULAR
+  return material.lobe.xy;
+#else
+  return vec2(0.0);
+#endif
+}
 
 // Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
 // and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
 // (Blinn-Phong) where those are constant, and is not read otherwise.
 void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 constant,
-              bool isConstant) {
+              bool isConstant, vec2 shape) {
   float cosLight = dot(n, l);
   if (!(cosLight > 0.0)) return;
 #if DIFFUSE
@@ -41,15 +52,15 @@ void addLight(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 c
   if (!(square > 1e-12)) return;
   vec3 h = isConstant ? between : between / sqrt(square);
 #if HIGHLIGHT == HIGHLIGHT_POW
-  float lobe = lobePow(dot(n, h), material.strength.w);
+  float lobe = lobePow(dot(n, h), shape.x);
 #else
-  float lobe = lobeOf(blinnLambda(n, h));
+  float lobe = lobeOf(blinnLambda(n, h), shape);
 #endif
 #else
 #if HIGHLIGHT == HIGHLIGHT_POW
-  float lobe = lobePow(dot(2.0 * cosLight * n - l, v), material.strength.w);
+  float lobe = lobePow(dot(2.0 * cosLight * n - l, v), shape.x);
 #else
-  float lobe = lobeOf(phongLambda(n, between, cosLight));
+  float lobe = lobeOf(phongLambda(n, between, cosLight), shape);
 #endif
 #endif
   sum.specular += intensity * lobe;
@@ -68,10 +79,11 @@ float lightFalloff(vec3 way, float perRange) {
 // v.
 LightSum sumLights(vec3 position, vec3 n, vec3 v) {
   LightSum sum = LightSum(vec3(0.0), vec3(0.0));
+  vec2 shape = lobeShape();
 #if DIRECTIONAL_LIGHTS > 0
   for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i)
     addLight(sum, n, v, lights[i].position.xyz, lights[i].intensity.rgb, lights[i].constant.xyz,
-             bool(CONSTANT_VIEW));
+             bool(CONSTANT_VIEW), shape);
 #endif
 #if POINT_LIGHTS > 0
   for (int i = DIRECTIONAL_LIGHTS; i < DIRECTIONAL_LIGHTS + POINT_LIGHTS; ++i)
@@ -80,7 +92,7 @@ LightSum sumLights(vec3 position, vec3 n, vec3 v) {
 #if LIGHT_FALLOFF
     intensity *= lightFalloff(way, lights[i].position.w);
 #endif
-    addLight(sum, n, v, safeUnit(way), intensity, vec3(0.0), false);
+    addLight(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape);
   }
 #endif
 #if SPOT_LIGHTS > 0
@@ -92,7 +104,7 @@ LightSum sumLights(vec3 position, vec3 n, vec3 v) {
 #if LIGHT_FALLOFF
     intensity *= lightFalloff(way, lights[i].position.w);
 #endif
-    addLight(sum, n, v, l, intensity, vec3(0.0), false);
+    addLight(sum, n, v, l, intensity, vec3(0.0), false, shape);
   }
 #endif
   sum.diffuse = material.strength.x * frame.ambientLight.rgb + material.strength.y * sum.diffuse;

@@ -15,6 +15,10 @@ VARYING out vec2 vColorTexcoord;
 layout(location = 4) in vec2 emissionTexcoord;
 VARYING out vec2 vEmissionTexcoord;
 #endif
+#if NORMAL_TEXTURE
+layout(location = 6) in vec4 tangent;
+layout(location = 7) in vec2 normalTexcoord;
+#endif
 
 #if !UNLIT
 // Cofactors keep normals perpendicular under any transform; where the transform is a rotation with
@@ -42,5 +46,8 @@ void main() {
 #endif
 #if !UNLIT
   passVertex(eye.xyz, eyeNormal());
+#if NORMAL_TEXTURE
+  passTangent(tangent, normalTexcoord);
+#endif
 #endif
 }

@@ -72,7 +72,7 @@ TEST(Usage, MissingModelAndOutput) {
 // Every option of the table with a bad value: named, with what is expected.
 TEST(Usage, BadValuesOfOptions) {
   const std::vector<std::vector<std::string>> options = {{"--shading", "toon"},
-                                                         {"--highlight", "lyon:8"},
+                                                         {"--highlight", "lyon:7"},
                                                          {"--fresnel", "rational"},
                                                          {"--blinn-factor", "-1"},
                                                          {"--schlick-exponent", "x"},

@@ -79,6 +79,9 @@ const std::vector<Good>& goodTexts() {
       {"shading", "phong", [](Look&) {}},
       {"shading", "blinn-phong", [](Look& l) { l.shading = Shading::blinnPhong; }},
       {"shading", "environment", [](Look& l) { l.shading = Shading::environment; }},
+      {"shading", "auto", [](Look& l) { l.shading = Shading::automatic; }},
+      {"max-error", "0", [](Look& l) { l.maxError = 0; }},
+      {"max-error", "1e-3", [](Look& l) { l.maxError = 1e-3; }},
       {"highlight", "exact", [](Look&) {}},
       {"highlight", "pow", [](Look& l) { l.highlight = Highlight::pow; }},
       {"highlight", "integer", [](Look& l) { l.highlight = Highlight::integer; }},
@@ -238,11 +241,12 @@ const std::vector<Good>& goodTexts() {
 
 const std::map<std::string, std::vector<std::string>>& badTexts() {
   static const std::map<std::string, std::vector<std::string>> table{
-      {"shading", {"", "Phong", "phon", "auto", "blinnphong"}},
+      {"shading", {"", "Phong", "phon", "automatic", "blinnphong"}},
       {"highlight",
        {"", "lyon", "lyon:", "lyon:0", "lyon:3", "lyon:128", "lyon:-8", "lyon:8:8", "lyon:8.0",
         "pade", "gaussian:8", "exact:1", "integer:4", "Exact", "lyontuned:8"}},
       {"fresnel", {"", "Rational", "schlick-exp", "rational:2"}},
+      {"max-error", {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 "}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
       {"schlick-exponent", {"", "-0.1", "1e9", "nan"}},
       {"material",
@@ -339,7 +343,8 @@ class RandomLooks {
 
   Look next() {
     Look l;
-    l.shading = glint::Shading(index(5));
+    l.shading = glint::Shading(index(6));
+    if (coin()) l.maxError = number(0, 1e6);
     l.highlight = highlight();
     l.fresnel = glint::Fresnel(index(5));
     l.blinnFactor = number(0, 1e3);

@@ -80,7 +80,7 @@ TEST(StabilityCommand, ReportAndPage) {
 
 TEST(StabilityCommand, Refusals) {
   expectRefusal(stability({"--case", "Z9"}), "--case Z9: no such case: see glint stability --list");
-  expectRefusal(stability({"--case", ""}), "no such case");
+  expectRefusal(stability({"--case", ""}), "--case");
   expectRefusal(stability({"--group", "E"}), "--group E: no such group: use one of A, B, C");
   expectRefusal(stability({"--group", "AB"}), "no such group");
   expectRefusal(stability({"--highlight", "toon"}), "--highlight: 'toon' is not");

@@ -95,6 +95,7 @@ TEST(ReferenceTask, DrawsTheExactFormsWithoutMultisampling) {
   Look look = scenes::plainLook(48, 40);
   const Image exact = drawn(look);
   look.highlight = Highlight::pow;
+  look.material[""].highlight = HighlightForm(Highlight::lyon, 2);
   look.antiAliasing = {AntiAliasing::Mode::msaa, 4};
   ReferenceTask task;
   task.want(teapot(), look);
@@ -118,8 +119,8 @@ TEST(ReferenceTask, KnowsWhereAnotherRasteriserMayShowSomethingElse) {
   for (const std::uint8_t e : p.edges) edges += e;
   EXPECT_GT(edges, 40u);  // about the outline
   EXPECT_LT(edges, 64u * 48 / 4);
-  EXPECT_FALSE(p.edges[0]);                 // background far from anything
-  EXPECT_FALSE(p.edges[64 * 27 + 30]);      // the middle of the body
+  EXPECT_FALSE(p.edges[0]);             // background far from anything
+  EXPECT_FALSE(p.edges[64 * 27 + 30]);  // the middle of the body
 }
 
 Image picture(std::vector<float> red) {

@@ -4,8 +4,8 @@
 
 #include "glint/scene/gltf.h"
 #include "glint/viewer/probe.h"
-#include "scenes.h"
 #include "reference_scenes.h"
+#include "scenes.h"
 
 namespace glint {
 namespace {
@@ -21,8 +21,8 @@ int compareAll(const Scene& scene, const DecodedImages& images, const Look& look
   int compared = 0, off = 0;
   for (int y = 0; y < look.resolution.y; ++y)
     for (int x = 0; x < look.resolution.x; ++x) {
-      const Probe probe = probePixel({scene, images, bounds, picker, renderer.list()}, look, exact,
-                                     &exact, {x, y});
+      const Probe probe =
+          probePixel({scene, images, bounds, picker, renderer.list()}, look, exact, &exact, {x, y});
       if (!probe.hit) continue;
       ++compared;
       // The reference's own picture is rounded to float once: half a unit of the last place. The

@@ -128,7 +128,9 @@ void App::run() {
     session_.history.settle(session_.document, gestureActive());
   };
   while (!quitting_) {
-    const double patience = shownResult_.request.preview ? restAfter : recovery_.waiting() ? 0.2 : 0.5;
+    const double patience = shownResult_.request.preview ? restAfter
+                            : recovery_.waiting()        ? 0.2
+                                                         : 0.5;
     const bool happened = window_.wait(patience);
     if (!(somethingDue() || happened)) continue;
 
@@ -145,6 +147,7 @@ void App::run() {
     frame(false);
     layout();
     const auto before = Clock::now();
+    followPose();
     updatePicture();
     const double waited = seconds(Clock::now() - before);
     frame(true);
@@ -228,9 +231,12 @@ void App::statusBar() {
   const float room = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   std::string left = session_.status;
-  if (loading_.valid()) left = "reading " + loadingPath_.filename().string() + " ...";
-  else if (painter_->saving()) left = "saving the picture ...";
-  else if (painter_->pending() && seconds(Clock::now() - lastChange_) > 0.25) left = "drawing ...";
+  if (loading_.valid())
+    left = "reading " + loadingPath_.filename().string() + " ...";
+  else if (painter_->saving())
+    left = "saving the picture ...";
+  else if (painter_->pending() && seconds(Clock::now() - lastChange_) > 0.25)
+    left = "drawing ...";
   if (left.empty()) left = "? shows the keys";
   left = left.substr(0, left.find('\n'));
   ImGui::PushClipRect(at, ImVec2(at.x + std::max(0.0f, room - width - 16), at.y + statusHeight_),

@@ -38,8 +38,8 @@ struct AppOptions {
   Settings settings;
 };
 
-/// The window at work: takes input, lets the panel edit the session, shows what has changed. Pictures
-/// come from the painter, references from their task; neither holds up a frame.
+/// The window at work: takes input, lets the panel edit the session, shows what has changed.
+/// Pictures come from the painter, references from their task; neither holds up a frame.
 class App {
  public:
   App(Window&, Look, AppOptions);
@@ -93,6 +93,7 @@ class App {
   void open(const std::string& path);
   void load(const std::filesystem::path& path);
   void finishLoading();
+  void followPose();
   void offerRecovered();
   void restore(const Recovered&);
   void watch();
@@ -109,9 +110,10 @@ class App {
   std::filesystem::path loadingPath_, nextPath_;  ///< nextPath_: to be read after that
   std::optional<Recovered> restoring_;            ///< once its model is there
   bool offered_ = false;
+  PoseRequest triedPose_;  ///< of the last attempt to read
 
-  PaintResult shownResult_;        ///< what the screen is composed from
-  std::optional<Look> failed_;     ///< could not be drawn; not tried again until it changes
+  PaintResult shownResult_;     ///< what the screen is composed from
+  std::optional<Look> failed_;  ///< could not be drawn; not tried again until it changes
   std::optional<PaintRequest> requested_;
   Pace pace_;
   bool screenStale_ = true;

@@ -104,11 +104,11 @@ void App::execute(Action command) {
                     d.a.noBackground, false);
       break;
     case Action::screenshotAs:
-      dialogs_.askPicture(
-          nextFreeName(".", stem, ".png").filename().string(), resolution_, d.a.noBackground,
-          [this](const std::string& path, glm::ivec2 size, bool transparent) {
-            savePictureTo(path, size, transparent, false);
-          });
+      dialogs_.askPicture(nextFreeName(".", stem, ".png").filename().string(), resolution_,
+                          d.a.noBackground,
+                          [this](const std::string& path, glm::ivec2 size, bool transparent) {
+                            savePictureTo(path, size, transparent, false);
+                          });
       break;
     case Action::undo:
       if (!session_.history.undo(d)) session_.say("nothing to undo");

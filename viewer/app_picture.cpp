@@ -112,8 +112,8 @@ void App::composeScreen() {
   const bool exact = comparesExact(document);
   const DrawnPicture& a = *shownResult_.a;
   const auto reference = exact ? reference_->picture() : nullptr;
-  const bool comparable = reference && reference->look == exactLook(a.look) &&
-                          a.look == comparableLook(a.look);
+  const bool comparable =
+      reference && reference->look == exactLook(a.look) && a.look == comparableLook(a.look);
   const int rows = comparable ? int(reference->rows) : 0;
   const bool same = !screenStale_ && shown_.compare == document.compare &&
                     shown_.exact == document.exact && shown_.divider == document.divider &&
@@ -172,7 +172,8 @@ void App::updateProbe() {
     if (!probeShown_) {
       const Camera camera = cameraFor(model.scene, model.bounds, a.look);
       const auto hit = model.picker->pick(
-          model.scene, rayThrough(camera, glm::dvec2(at) + 0.5, a.look.resolution), a.look.twoSided);
+          model.scene, rayThrough(camera, glm::dvec2(at) + 0.5, a.look.resolution),
+          a.look.twoSided);
       if (hit) session_.hovered = hit->material;
       return;
     }

@@ -39,8 +39,8 @@ void App::pictureArea() {
 void App::handlePicture(glm::dvec2 mouse, bool hovered, bool active) {
   const ImGuiIO& io = ImGui::GetIO();
   Document& document = session_.document;
-  const bool split =
-      document.compare == CompareMode::split && (comparesLooks(document) || comparesExact(document));
+  const bool split = document.compare == CompareMode::split &&
+                     (comparesLooks(document) || comparesExact(document));
   const double dividerX = document.divider * resolution_.x;
   const bool nearDivider = split && hovered && std::abs(mouse.x - dividerX) < 6 * ratio_;
 
@@ -136,14 +136,16 @@ void App::drawOverPicture() {
   const ImU32 white = IM_COL32(255, 255, 255, 220);
   const auto write = [&](float x, float y, const std::string& text) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    draw->AddRectFilled(ImVec2(x - 4 * s, y - 2 * s), ImVec2(x + extent.x + 4 * s, y + extent.y + 2 * s),
-                        IM_COL32(0, 0, 0, 130), 3 * s);
+    draw->AddRectFilled(ImVec2(x - 4 * s, y - 2 * s),
+                        ImVec2(x + extent.x + 4 * s, y + extent.y + 2 * s), IM_COL32(0, 0, 0, 130),
+                        3 * s);
     draw->AddText(ImVec2(x, y), white, text.c_str());
   };
   const bool exact = comparesExact(document), compares = exact || comparesLooks(document);
   if (compares && document.compare == CompareMode::split) {
     const float x = float(document.divider * resolution_.x / ratio_);
-    const bool held = draggingDivider_ || (cursor_ && std::abs(cursor_->x / ratio_ - double(x)) < 6);
+    const bool held =
+        draggingDivider_ || (cursor_ && std::abs(cursor_->x / ratio_ - double(x)) < 6);
     draw->AddLine(ImVec2(x, 0), ImVec2(x, size.y),
                   held ? IM_COL32(255, 214, 120, 255) : IM_COL32(255, 255, 255, 150), s);
     write(x - 22 * s, 6 * s, "A");
@@ -162,9 +164,10 @@ void App::drawOverPicture() {
   }
   if (exact && document.compare == CompareMode::difference) {
     const float left = 10 * s, width = 180 * s, top = 8 * s, height = 10 * s;
-    draw->AddRectFilled(ImVec2(left - 6 * s, top - 4 * s),
-                        ImVec2(left + width + 34 * s, top + height + ImGui::GetTextLineHeight() + 4 * s),
-                        IM_COL32(0, 0, 0, 130), 3 * s);
+    draw->AddRectFilled(
+        ImVec2(left - 6 * s, top - 4 * s),
+        ImVec2(left + width + 34 * s, top + height + ImGui::GetTextLineHeight() + 4 * s),
+        IM_COL32(0, 0, 0, 130), 3 * s);
     const std::vector<std::uint8_t> colors = errorScale(64);
     for (int i = 0; i < 64; ++i) {
       const std::uint8_t* c = colors.data() + 4 * i;
@@ -173,8 +176,8 @@ void App::drawOverPicture() {
                           IM_COL32(c[0], c[1], c[2], 255));
     }
     for (const auto& [value, text] : {std::pair{1e-8, "1e-8"}, {1e-4, "1e-4"}, {1.0, "1"}})
-      draw->AddText(ImVec2(left + width * float(errorShade(value)) - 4 * s, top + height + 1), white,
-                    text);
+      draw->AddText(ImVec2(left + width * float(errorShade(value)) - 4 * s, top + height + 1),
+                    white, text);
   }
   if (!session_.model) {
     const std::string text = loading_.valid()

@@ -14,7 +14,7 @@ struct Document {
   Look a;                 ///< what is drawn; its resolution is that of the window, not this one
   std::optional<Look> b;  ///< the look kept for comparison
   CompareMode compare = CompareMode::off;
-  bool exact = false;  ///< compares with the exact reference of A in place of B
+  bool exact = false;           ///< compares with the exact reference of A in place of B
   double divider = 0.5;         ///< of the split: share of the picture's width that shows A
   double amplification = 16.0;  ///< of the difference
   bool operator==(const Document&) const = default;

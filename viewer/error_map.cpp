@@ -18,8 +18,7 @@ ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
   for (int y = 0; y < rows; ++y) {
     const float *a = picture.row(y), *b = exact.row(y);
     for (int x = 0; x < picture.width; ++x, a += 4, b += 4) {
-      if (!edges.empty() &&
-          edges[std::size_t(picture.width) * std::size_t(y) + std::size_t(x)]) {
+      if (!edges.empty() && edges[std::size_t(picture.width) * std::size_t(y) + std::size_t(x)]) {
         ++n.edges;
         continue;
       }
@@ -41,8 +40,8 @@ ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
       }
       if (largest == 0) continue;
       for (int c = 0; c < 3; ++c)
-        n.levels = std::max(n.levels, std::abs(int(encodeSrgb8(a[c] * scale)) -
-                                               int(encodeSrgb8(b[c] * scale))));
+        n.levels = std::max(
+            n.levels, std::abs(int(encodeSrgb8(a[c] * scale)) - int(encodeSrgb8(b[c] * scale))));
     }
   }
   if (values > 0) n.rmse = std::sqrt(squares / double(values));

@@ -26,12 +26,16 @@ std::string materialLabel(const Scene& scene, int index) {
   return key.empty() ? "all materials" : key;
 }
 
-ShadingParameters effectiveParameters(const Scene& scene, const Look& look, int index) {
-  if (index >= 0) return editedMaterial(scene.materials[std::size_t(index)], look).shading;
+Material effectiveMaterial(const Scene& scene, const Look& look, int index) {
+  if (index >= 0) return editedMaterial(scene.materials[std::size_t(index)], look);
   const std::vector<int> drawn = drawnMaterials(scene);
   Material first = scene.materials[std::size_t(drawn.empty() ? 0 : drawn.front())];
   first.name.clear();  // the edits of all materials alone
-  return editedMaterial(first, look).shading;
+  return editedMaterial(first, look);
+}
+
+ShadingParameters effectiveParameters(const Scene& scene, const Look& look, int index) {
+  return effectiveMaterial(scene, look, index).shading;
 }
 
 void setParameters(Look& look, const std::string& key, const ShadingParameters& values) {
@@ -51,9 +55,9 @@ void dropEmpty(Look& look) {
 
 void dropMissing(Look& look, const Scene& scene) {
   std::erase_if(look.material, [&](const auto& each) {
-    return !each.first.empty() &&
-           std::ranges::none_of(scene.materials,
-                                [&](const Material& m) { return m.name == each.first; });
+    return !each.first.empty() && std::ranges::none_of(scene.materials, [&](const Material& m) {
+      return m.name == each.first;
+    });
   });
   if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) look.cameraIndex.reset();
 }

@@ -18,6 +18,10 @@ std::string materialKey(const Scene&, int index);
 /// For lists: the name, or "all materials" for -1.
 std::string materialLabel(const Scene&, int index);
 
+/// A material as drawn. Index -1: with what all materials are set to, the first material's where
+/// they are not.
+Material effectiveMaterial(const Scene&, const Look&, int index);
+
 /// The numbers as drawn. Index -1: those that all materials are set to, the first material's where
 /// they are not.
 ShadingParameters effectiveParameters(const Scene&, const Look&, int index);

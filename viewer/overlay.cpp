@@ -43,8 +43,7 @@ Program make(const char* name, const char* vertex, const char* fragment) {
 
 }  // namespace
 
-OverlayDrawer::OverlayDrawer()
-    : surface_(make("overlay", surfaceVertex, surfaceFragment)) {}
+OverlayDrawer::OverlayDrawer() : surface_(make("overlay", surfaceVertex, surfaceFragment)) {}
 
 void OverlayDrawer::resize(glm::ivec2 size) {
   if (size == size_) return;

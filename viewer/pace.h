@@ -28,8 +28,8 @@ class Pace {
   static constexpr int most = 6;
   double whole_ = 0;
   int division_ = 1;
-  int useful_ = most;    ///< smaller pictures were no faster
-  double larger_ = 0;    ///< ms by one division less
+  int useful_ = most;  ///< smaller pictures were no faster
+  double larger_ = 0;  ///< ms by one division less
 };
 
 }  // namespace glint

@@ -98,6 +98,39 @@ void materialSliders(Session& session) {
   }
 }
 
+// Forms that the material has in place of the look's.
+void materialForms(Session& session) {
+  Look& look = session.document.a;
+  const std::string key = materialKey(session.model->scene, session.material);
+  const auto found = look.material.find(key);
+  MaterialEdit edit = found == look.material.end() ? MaterialEdit{} : found->second;
+  const MaterialEdit before = edit;
+  bool own = edit.highlight || edit.fresnel;
+  widgets::label("own forms", own);
+  if (ImGui::Checkbox("##own", &own)) {
+    edit.highlight = own ? std::optional(look.highlight) : std::nullopt;
+    edit.fresnel = own ? std::optional(look.fresnel) : std::nullopt;
+  }
+  widgets::tooltip("this material's lobe and reflectance by other forms than the look's above");
+  if (own) {
+    HighlightForm form = edit.highlight.value_or(look.highlight);
+    if (widgets::highlightForm("its highlight", edit.highlight.has_value(), form,
+                               "form of this material's lobe"))
+      edit.highlight = form;
+    widgets::label("its fresnel", edit.fresnel.has_value());
+    const Fresnel now = edit.fresnel.value_or(look.fresnel);
+    if (ImGui::BeginCombo("##its fresnel", std::string(fresnelText(now)).c_str())) {
+      for (std::size_t i = 0; i < fresnelTexts().size(); ++i)
+        if (ImGui::Selectable(std::string(fresnelTexts()[i]).c_str(), Fresnel(i) == now))
+          edit.fresnel = Fresnel(i);
+      ImGui::EndCombo();
+    }
+  }
+  if (edit == before) return;
+  look.material[key] = edit;
+  if (edit == MaterialEdit{}) look.material.erase(key);
+}
+
 void materialButtons(PanelContext& context) {
   Session& session = context.session;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -136,6 +169,7 @@ void drawShadingTab(PanelContext& context) {
   if (!session.model) return;
   materialList(session);
   materialSliders(session);
+  materialForms(session);
   materialButtons(context);
   ImGui::Separator();
   drawPlots(context);
@@ -219,6 +253,10 @@ void drawPictureTab(PanelContext& context) {
     context.resizePicture(glm::clamp(typed, glm::ivec2(16), glm::ivec2(16384)));
   widgets::tooltip("width and height of the picture in pixels; typed values resize the window");
   drawSection(context, "Picture", {"resolution"});
+  if (session.model && !session.model->scene.animations.empty()) {
+    ImGui::Separator();
+    drawSection(context, "Animation");
+  }
   ImGui::Separator();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compose.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/parameters.h"
 #include "materials.h"
 #include "panel.h"
@@ -81,8 +82,7 @@ void probeRows(PanelContext& context, const Probe& probe) {
     const bool same = *probe.center == probe.shown;
     if (!same) vectorRow("at the centre", glm::dvec3(*probe.center));
     row("  off by", "%+.2g  %+.2g  %+.2g ulp", probe.ulps[0], probe.ulps[1], probe.ulps[2]);
-    if (!same)
-      ImGui::TextDisabled("at the centre: without anti-aliasing");
+    if (!same) ImGui::TextDisabled("at the centre: without anti-aliasing");
   } else {
     ImGui::TextDisabled("  ulp: drawing without anti-aliasing ...");
   }
@@ -92,6 +92,7 @@ void probeRows(PanelContext& context, const Probe& probe) {
 
 void variantRows(const Scene& scene, const DrawnPicture& picture) {
   std::set<Variant> seen;
+  const Look look = withFileLights(scene, picture.look);
   for (const DrawItem& item : picture.list.items) {
     if (!seen.insert(item.variant).second) continue;
     const std::string title = std::string(shadingName(item.variant.program)) + " " +
@@ -102,7 +103,7 @@ void variantRows(const Scene& scene, const DrawnPicture& picture) {
     const Material material =
         editedMaterial(scene.materials[std::size_t(item.material)], picture.look);
     for (const FeatureReason& reason :
-         reasonsFor(item.variant, mesh, material, picture.look, picture.list.camera.orthographic)) {
+         reasonsFor(item.variant, mesh, material, look, picture.list.camera.orthographic)) {
       ImGui::PushStyleColor(ImGuiCol_Text, reason.present
                                                ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
                                                : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));

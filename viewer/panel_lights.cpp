@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "glint/render/variant.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "panel.h"
@@ -104,6 +105,18 @@ void editLight(Light& light, const PanelContext& context) {
   }
 }
 
+// A light of the file as one of the look, which does not fall off: with the intensity that it has
+// at the model's centre.
+Light ownLight(Light light, const Bounds& bounds) {
+  if (!light.fallsOff) return light;
+  const glm::dvec3 way = light.position - bounds.center;
+  const double square = glm::dot(way, way);
+  if (square > 0) light.intensity = glm::clamp(light.intensity / square, 0.0, 1e6);
+  light.fallsOff = false;
+  light.range = 0;
+  return light;
+}
+
 }  // namespace
 
 void drawLightsTab(PanelContext& context) {
@@ -112,12 +125,15 @@ void drawLightsTab(PanelContext& context) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float third = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   static int selected = 0;
-  std::vector<Light> lights = look.light ? *look.light : lightsOf(look);
-  if (look.noLights) lights.clear();
+  const Model* model = context.session.model.get();
+  std::vector<Light> lights = lightsOf(model ? withFileLights(model->scene, look) : look);
+  const bool fromFile = !look.light && !look.noLights && model && !model->scene.lights.empty();
   selected = std::clamp(selected, 0, std::max(0, int(lights.size()) - 1));
 
   if (look.noLights)
     ImGui::TextDisabled("no lights: ambient light alone");
+  else if (fromFile)
+    ImGui::TextDisabled("%d of the model's file; editing makes them your own", int(lights.size()));
   else if (!look.light)
     ImGui::TextDisabled("the default light; editing makes it your own");
   else
@@ -167,7 +183,7 @@ void drawLightsTab(PanelContext& context) {
     look.noLights = false;
     lights = before;
   }
-  widgets::tooltip("the one light that stands without any of your own");
+  widgets::tooltip("the lights that stand without any of your own: the file's, or else one");
   if (selected < int(lights.size())) {
     ImGui::PushID("light");
     editLight(lights[std::size_t(selected)], context);
@@ -175,6 +191,8 @@ void drawLightsTab(PanelContext& context) {
   }
   if (lights != before) {
     look.noLights = false;
+    if (fromFile)
+      for (Light& light : lights) light = ownLight(light, model->bounds);
     look.light = lights;
   }
   ImGui::Separator();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "glint/scene/parameters.h"
+#include "glint/render/variant.h"
+#include "glint/scene/look_text.h"
 #include "materials.h"
 #include "panel.h"
 #include "plots.h"
@@ -127,7 +127,8 @@ void differencePlot(const Curve& chosen, const Curve& exact, double largest,
   axes.gridY(0, "0");
   std::snprintf(text, sizeof text, "%.0e", tick);
   std::string shortened = text;  // 2e-03 as 2e-3
-  if (const auto zero = shortened.find("e-0"); zero != std::string::npos) shortened.erase(zero + 2, 1);
+  if (const auto zero = shortened.find("e-0"); zero != std::string::npos)
+    shortened.erase(zero + 2, 1);
   if (const auto plus = shortened.find("e+00"); plus != std::string::npos) shortened.erase(plus);
   axes.gridY(tick, shortened.c_str());
   axes.gridY(-tick, "");
@@ -269,25 +270,21 @@ void widthPlots(double exponent) {
 void drawPlots(PanelContext& context) {
   const Session& session = context.session;
   const Look& look = session.document.a;
-  const ShadingParameters s = effectiveParameters(session.model->scene, look, session.material);
-  const auto saved = [&](std::string_view name) {
-    for (const Parameter& p : lookParameters())
-      if (p.name == name) return p.save(look).get<std::string>();
-    return std::string();
-  };
+  const Material material = effectiveMaterial(session.model->scene, look, session.material);
+  const ShadingParameters& s = material.shading;
   SumInput input;
   input.exponent = s.exponent;
   input.specular = s.specular;
   input.blinnFactor = look.blinnFactor;
-  input.blinn = look.shading == Shading::blinnPhong || look.shading == Shading::environment;
-  input.highlight = saved("highlight");
+  input.blinn = usesBlinn(look.shading);
+  input.highlight = highlightText(highlightOf(material, look));
   if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
                               ImGuiTreeNodeFlags_DefaultOpen))
     lobePlots(context.settings, input, input.highlight);
   const bool fresnelOpen = look.shading == Shading::environment;
   ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
   if (ImGui::CollapsingHeader("Fresnel reflectance"))
-    fresnelPlots(saved("fresnel"), look.mediumIor, s.ior, look.schlickExponent);
+    fresnelPlots(std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior, look.schlickExponent);
   if (ImGui::CollapsingHeader(style().greek ? "\u03b1'/\u03b1 of equally wide highlights###width"
                                             : "a'/a of equally wide highlights###width"))
     widthPlots(s.exponent);

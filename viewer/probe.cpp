@@ -18,12 +18,16 @@ namespace {
 
 constexpr std::size_t mostLayers = 64;
 
-// The triangles that the ray meets, each a mesh of its own under the transform that it has: all that
-// the reference needs of the scene for one pixel.
+// The triangles that the ray meets, each a mesh of its own under the transform that it has: all
+// that the reference needs of the scene for one pixel.
 Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   Scene scene;
   scene.materials = from.materials;
   scene.cameras = from.cameras;
+  scene.lights = from.lights;
+  scene.lightScale = from.lightScale;
+  for (const EncodedImage& image : from.images)
+    scene.images.push_back({image.name, {}, image.isData});
   for (const Hit& hit : hits) {
     const Mesh& mesh = from.meshes[std::size_t(hit.mesh)];
     Mesh one;
@@ -35,6 +39,7 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
       const std::uint32_t v = mesh.indices[3 * hit.triangle + i];
       one.positions.push_back(mesh.positions[v]);
       one.normals.push_back(mesh.normals[v]);
+      if (!mesh.tangents.empty()) one.tangents.push_back(mesh.tangents[v]);
       if (!mesh.colors.empty()) one.colors.push_back(mesh.colors[v]);
       for (std::size_t set = 0; set < mesh.texcoords.size(); ++set)
         if (!mesh.texcoords[set].empty()) one.texcoords[set].push_back(mesh.texcoords[set][v]);
@@ -59,8 +64,8 @@ int itemOf(const DrawList& list, int instance, bool back) {
 }
 
 struct LayerValue {
-  int item;         ///< of the stage
-  int order;        ///< in the picture's list
+  int item;   ///< of the stage
+  int order;  ///< in the picture's list
   std::size_t hit;
   reference::Attributes attributes;
   glm::dvec3 radiance;
@@ -125,8 +130,8 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
     alone.frame.lights = std::move(some);
     alone.frame.ambientLight = ambient;
     reference::PixelShader shader(alone);
-    return reference::shade(
-        alone.frame, s, shader.attributes(layer.item, 0, probe.pixel.x, probe.pixel.y));
+    return reference::shade(alone.frame, s,
+                            shader.attributes(layer.item, 0, probe.pixel.x, probe.pixel.y));
   };
   const reference::Terms dark = termsWith({}, stage.frame.ambientLight);
   probe.ambient = sumColor({dark.matte, glm::dvec3(0.0)}, probe.color, s.metalness);
@@ -160,7 +165,8 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
 std::string remarkFor(const reference::Stage& stage, const std::vector<LayerValue>& layers) {
   const reference::Item& item = stage.items[std::size_t(layers.front().item)];
   if (layers.front().attributes.edgeDistance < 1.0 / 256)
-    return "an edge passes the pixel's centre so closely that the driver may show what is beside it";
+    return "an edge passes the pixel's centre so closely that the driver may show what is beside "
+           "it";
   if (item.colorTexture || item.emissionTexture)
     return "textured: drivers filter textures in fixed point, to about 1/256";
   return {};

@@ -35,7 +35,7 @@ struct Probe {
   glm::dvec3 color{0.0};   ///< C with textures and vertex colours
   double alpha = 1;
   glm::dvec3 ambient{0.0}, emission{0.0};
-  bool environment = false;                    ///< the three below say something
+  bool environment = false;  ///< the three below say something
   glm::dvec3 reflection{0.0}, refraction{0.0};
   double transparency = 0;  ///< 1 - this of ambient, diffuse and specular light is left
   std::vector<LightProbe> lights;

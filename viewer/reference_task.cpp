@@ -18,8 +18,8 @@ constexpr int rowsAtOnce = 16;
 // Threads that it starts inherit this: the window comes first.
 void stepBack() { setpriority(PRIO_PROCESS, 0, 10); }
 
-// A surface in front of what is seen at a pixel, an edge of which may reach its sample: the next one
-// across, when that is nearer.
+// A surface in front of what is seen at a pixel, an edge of which may reach its sample: the next
+// one across, when that is nearer.
 bool mayCover(const reference::Attributes& next, const reference::Attributes& seen) {
   constexpr double reach = 1.5, nearer = 1.002;  // samples; depth is 1 at the near plane, 0 far off
   return next.item >= 0 && next.edgeDistance < reach &&
@@ -78,6 +78,10 @@ Look exactLook(const Look& look) {
   Look exact = comparableLook(look);
   exact.highlight = Highlight::exact;
   exact.fresnel = Fresnel::exact;
+  for (auto& [name, edit] : exact.material) {
+    edit.highlight.reset();
+    edit.fresnel.reset();
+  }
   return exact;
 }
 

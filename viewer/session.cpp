@@ -12,11 +12,13 @@
 
 namespace glint {
 
-std::unique_ptr<Model> loadModel(const std::filesystem::path& path) {
+std::unique_ptr<Model> loadModel(const std::filesystem::path& path,
+                                 const PoseRequest& pose) {
   const auto start = std::chrono::steady_clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;
-  model->scene = loadGltf(path, poseOf(look));
+  model->pose = pose;
+  model->scene = loadGltf(path, pose);
   model->bounds = boundsOf(model->scene);
   model->images = decodeImages(model->scene, Look());  // no look reads others
   model->picker.emplace(model->scene);

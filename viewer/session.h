@@ -11,6 +11,7 @@
 #include "document.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
+#include "glint/scene/gltf.h"
 #include "glint/scene/scene.h"
 #include "picking.h"
 
@@ -22,12 +23,13 @@ struct Model {
   Scene scene;
   Bounds bounds;
   DecodedImages images;
+  PoseRequest pose;  ///< that the scene is in
   std::optional<Picker> picker;
   double loadTime = 0;  ///< ms
 };
 
 /// Reads a model; throws InputError.
-std::unique_ptr<Model> loadModel(const std::filesystem::path&);
+std::unique_ptr<Model> loadModel(const std::filesystem::path&, const PoseRequest& = {});
 
 /// When a file was last written, and how long it is: what tells that it has changed.
 struct FileState {

@@ -10,10 +10,10 @@ namespace glint {
 struct Settings {
   glm::ivec2 window{1372, 800};  ///< size at scale 1
   bool panel = true;
-  double scale = 0;            ///< of text and widgets; 0: the screen's
-  double incidence = 30;       ///< of the lobe plot's light, degrees
-  bool polar = true;           ///< the lobe plot
-  double amplification = 16;   ///< of differences
+  double scale = 0;           ///< of text and widgets; 0: the screen's
+  double incidence = 30;      ///< of the lobe plot's light, degrees
+  bool polar = true;          ///< the lobe plot
+  double amplification = 16;  ///< of differences
   bool operator==(const Settings&) const = default;
 };
 

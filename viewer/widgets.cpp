@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -186,12 +187,54 @@ std::string joined(const glm::dvec3& v) {
 
 }  // namespace
 
+bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
+                   const std::string& help) {
+  const auto nameOf = [](const HighlightForm& f) {
+    const std::string text = highlightText(f);
+    return text.substr(0, text.find(':'));
+  };
+  const std::string now = nameOf(form);
+  bool changed = false;
+  label(name, edited);
+  if (ImGui::BeginCombo(("##" + name).c_str(), now.c_str())) {
+    std::string last;
+    for (const std::string& text : highlightTexts()) {
+      HighlightForm each = parseHighlight(text, name);
+      if (nameOf(each) == last) continue;  // the same with another gamma
+      last = nameOf(each);
+      if (!ImGui::Selectable(last.c_str(), last == now) || last == now) continue;
+      if (each.gamma > 0) each.gamma = form.gamma > 0 ? form.gamma : 8;
+      form = each;
+      changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  tooltip(help);
+  if (form.gamma <= 0) return changed;
+  label(style().greek ? "  \u03b3" : "  gamma", edited);
+  int power = std::countr_zero(unsigned(form.gamma));
+  char text[16];
+  std::snprintf(text, sizeof text, "%d", form.gamma);
+  if (ImGui::SliderInt(("##gamma" + name).c_str(), &power, 0, 6, text,
+                       ImGuiSliderFlags_NoInput)) {
+    power = std::clamp(power, 0, 6);
+    if (1 << power != form.gamma) {
+      form.gamma = 1 << power;
+      changed = true;
+    }
+  }
+  tooltip("the power that the form is raised to by squaring: 1, 2, 4, ... 64; larger ones are "
+          "nearer to the exact lobe and cost more");
+  return changed;
+}
+
 bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& shown) {
   const nlohmann::ordered_json now = p.save(look);
   const bool edited = now != p.save(Look{});
   std::string name = p.name;
   if (name.starts_with("camera-")) name = name.substr(7);
   std::replace(name.begin(), name.end(), '-', ' ');
+  if (p.name == "highlight") return highlightForm(name, edited, look.highlight, p.help);
   label(name, edited);
   const std::string id = "##" + p.name;
   bool changed = false;

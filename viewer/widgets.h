@@ -42,6 +42,11 @@ bool vector(const char* id, glm::dvec3& v);
 /// camera as columns; the direction is in world space and unit after a change.
 bool direction(const char* id, glm::dvec3& direction, const glm::dmat3& axes, float size);
 
+/// A form of the lobe: its name, and below it, where it has one, a slider for its gamma. True if it
+/// changed.
+bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
+                   const std::string& help);
+
 /// The widget for one parameter of a look, by its kind. `shown` is what stands where the look
 /// leaves it open. True if the look changed; an error of a typed text is thrown as InputError.
 bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& shown = {});

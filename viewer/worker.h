@@ -10,8 +10,8 @@
 
 namespace glint {
 
-/// A thread that does what takes longer than a frame. Two kinds of jobs: those that are all done, in
-/// order (queue), and those of which only the newest counts (latest). A job must not throw.
+/// A thread that does what takes longer than a frame. Two kinds of jobs: those that are all done,
+/// in order (queue), and those of which only the newest counts (latest). A job must not throw.
 class Worker {
  public:
   /// `stop` becomes true when the job's result is no longer wanted.

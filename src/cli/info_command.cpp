@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "glint/render/draw_list.h"
+#include "glint/render/error_budget.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
 #include "report.h"
@@ -83,6 +84,23 @@ std::string oneLine(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+void printChoice(const Json& choice) {
+  std::cout << "\nChoice by error";
+  if (choice.contains("max-error"))
+    std::cout << ": within " << choice["max-error"] << ", bound " << choice["bound"];
+  std::cout << "\n  " << oneLine(choice["shading"]);
+  if (choice.contains("reason")) std::cout << " (" << oneLine(choice["reason"]) << ")";
+  std::cout << "\n";
+  for (const Json& m : choice["materials"]) {
+    std::cout << "  " << oneLine(m["material"]) << ":";
+    for (const char* form : {"highlight", "fresnel"})
+      if (m.contains(form)) std::cout << " " << form << "=" << oneLine(m[form]);
+    std::cout << ", bound " << m["bound"] << " (lobe " << m["lobe"] << ", reflectance "
+              << m["reflectance"] << ", interpolation " << m["interpolation"] << ", rounding "
+              << m["rounding"] << ")\n      " << oneLine(m["reason"]) << "\n";
+  }
+}
+
 void print(const Json& json) {
   std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
             << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
@@ -112,6 +130,7 @@ void print(const Json& json) {
   for (std::size_t i = 0; i < json["animations"].size(); ++i)
     std::cout << "  " << i << ": " << json["animations"][i]["seconds"] << " s "
               << oneLine(json["animations"][i]["name"]) << "\n";
+  if (json.contains("choice")) printChoice(json["choice"]);
   std::cout << "\nShader variants\n";
   for (const Json& v : json["variants"]) {
     std::cout << "  " << oneLine(v["program"]) << " for";
@@ -137,7 +156,12 @@ Command addInfo(CLI::App& app) {
   return [=] {
     const Look look = makeLook();
     const Scene scene = loadGltf(*model, poseOf(look));
-    const Json json = infoJson(scene, look);
+    checkMaterialNames(scene, look);
+    const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+    if (makeLook.savesResolved(look)) makeLook.saveResolved(resolved.look);
+    Json json = infoJson(scene, resolved.look);
+    if (look.maxError || !resolved.programReason.empty())
+      json["choice"] = choiceJson(resolved, look);
     for (const std::string& warning : scene.warnings) printWarning(*model + ": " + warning);
     if (*jsonFile != "-") print(json);
     if (!jsonFile->empty()) writeText(*jsonFile, json.dump(2) + "\n");

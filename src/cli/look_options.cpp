@@ -21,13 +21,17 @@ std::string defaultText(const Parameter& p) {
   return " [default: " + text + "]";
 }
 
+bool hasBudget(const Look& look) {
+  return look.maxError.has_value() || look.shading == Shading::automatic;
+}
+
+}  // namespace
+
 struct LookOptions {
   std::vector<std::pair<const Parameter*, CLI::Option*>> options;
   std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
   std::string lookFile, saveFile;
 };
-
-}  // namespace
 
 void mergeMaterials(Look& look, const Look& options) {
   const auto all = options.material.find("");
@@ -51,7 +55,7 @@ void mergeMaterials(Look& look, const Look& options) {
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
 
-std::function<Look()> addLookOptions(CLI::App& app) {
+LookSource addLookOptions(CLI::App& app) {
   auto state = std::make_shared<LookOptions>();
   for (const Parameter& p : lookParameters()) {
     CLI::Option* option = nullptr;
@@ -78,25 +82,35 @@ std::function<Look()> addLookOptions(CLI::App& app) {
   app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")
       ->type_name("FILE")
       ->group("Looks");
+  return LookSource(state);
+}
 
-  return [state] {
-    Look look;
-    if (!state->lookFile.empty()) readLookFile(look, state->lookFile);
-    Look materials;
-    for (const auto& [p, option] : state->options) {
-      if (option->count() == 0) continue;
-      if (p->name == "light") {  // in place of the file's, and of its having none
-        look.light.reset();
-        look.noLights = false;
-      }
-      if (p->name == "environment") look.hdriFile.clear();
-      Look& target = p->name == "material" ? materials : look;
-      for (const std::string& text : option->results()) p->read(target, text);
+Look LookSource::operator()() const {
+  Look look;
+  if (!options_->lookFile.empty()) readLookFile(look, options_->lookFile);
+  Look materials;
+  for (const auto& [p, option] : options_->options) {
+    if (option->count() == 0) continue;
+    if (p->name == "light") {  // in place of the file's, and of its having none
+      look.light.reset();
+      look.noLights = false;
     }
-    mergeMaterials(look, materials);
-    if (!state->saveFile.empty()) writeText(state->saveFile, saveLook(look));
-    return look;
-  };
+    if (p->name == "environment") look.hdriFile.clear();
+    Look& target = p->name == "material" ? materials : look;
+    for (const std::string& text : option->results()) p->read(target, text);
+  }
+  mergeMaterials(look, materials);
+  if (!options_->saveFile.empty() && !hasBudget(look))
+    writeText(options_->saveFile, saveLook(look));
+  return look;
+}
+
+bool LookSource::savesResolved(const Look& look) const {
+  return !options_->saveFile.empty() && hasBudget(look);
+}
+
+void LookSource::saveResolved(const Look& resolved) const {
+  writeText(options_->saveFile, saveLook(resolved));
 }
 
 void writeText(const std::string& path, const std::string& text) {

@@ -105,8 +105,13 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
       if (std::find(model.present.begin(), model.present.end(), false) == model.present.end())
         return model;
     }
-    model.scene = loadGltf(entry.model, poseOf(look_));
-    model.bounds = boundsOf(model.scene);
+    model.file.emplace(entry.model);
+    model.scene = model.file->take(poseOf(look_));
+    model.bounds = model.allBounds = boundsOf(model.scene);
+    if (options_.frames > 0)
+      lookThroughFrames(model);
+    else
+      model.file.reset();
     model.loadTime = since(start);
     checkMaterialNames(model.scene, look_);
     const auto decode = Clock::now();
@@ -119,6 +124,26 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
         printablePath(entry.model) + ": out of memory: the model is too large for this machine";
   }
   return model;
+}
+
+// The camera stands still, so that it must see every pose.
+void ModelLoader::lookThroughFrames(LoadedModel& model) const {
+  const auto& animations = model.scene.animations;
+  const auto chosen = [&](const FileAnimation& each) {
+    return look_.animation.empty() || each.name == look_.animation ||
+           std::to_string(&each - animations.data()) == look_.animation;
+  };
+  const auto found = std::find_if(animations.begin(), animations.end(), chosen);
+  if (found == animations.end())
+    throw InputError("--frames: " + printablePath(model.entry.model) +
+                     (animations.empty() ? " has no animation: leave the option out"
+                                         : " has no animation '" + look_.animation + "'"));
+  model.duration = found->duration;
+  for (int frame = 0; frame < options_.frames; ++frame) {
+    model.file->pose(model.scene, {model.duration * frame / options_.frames, look_.animation});
+    const Bounds bounds = boundsOf(model.scene);
+    model.allBounds = frame == 0 ? bounds : around(model.allBounds, bounds);
+  }
 }
 
 void ModelLoader::waitForFirst() {

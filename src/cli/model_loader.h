@@ -11,6 +11,7 @@
 
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
+#include "glint/scene/gltf.h"
 #include "picture_plan.h"
 
 namespace glint {
@@ -24,7 +25,10 @@ struct LoadedModel {
   Scene scene;
   Bounds bounds;
   DecodedImages images;
-  std::string error;  ///< empty if all is well
+  std::optional<SceneFile> file;  ///< of a sequence over an animation, to be posed
+  double duration = 0;            ///< of the animation, seconds
+  Bounds allBounds;               ///< around all its poses; else `bounds`
+  std::string error;              ///< empty if all is well
   double loadTime = 0, decodeTime = 0;
 };
 
@@ -47,6 +51,7 @@ class ModelLoader {
 
  private:
   void readList();
+  void lookThroughFrames(LoadedModel& model) const;
   LoadedModel load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
                    std::string error) const;
 

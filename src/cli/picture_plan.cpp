@@ -3,14 +3,14 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
+#include "model_loader.h"
 
 namespace glint {
 PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
     : options_(options),
-      pattern_(options.output, options.frameCount() > 1 || options.turntable > 0),
+      pattern_(options.output, options.hasFrames()),
       shardsFrames_(!options.hasList() && options.models.size() == 1) {
-  if (!options.reference.empty())
-    referencePattern_.emplace(options.reference, options.turntable > 0);
+  if (!options.reference.empty()) referencePattern_.emplace(options.reference, options.hasFrames());
   if (!options.shard.empty()) shard_ = parseShard(options.shard);
   PictureOptions file;
   file.bitDepth = options.bitDepth;
@@ -45,7 +45,7 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
   if (!shardsFrames_ && !shard_.has(entry.number)) return pictures;
   const std::size_t frames = options_.frameCount(), models = models_.value_or(0);
   const OutputPattern own =
-      entry.output.empty() ? pattern_ : OutputPattern(entry.output, options_.turntable > 0);
+      entry.output.empty() ? pattern_ : OutputPattern(entry.output, options_.hasFrames());
   for (std::size_t frame = 0; frame < frames; ++frame) {
     if (shardsFrames_ && !shard_.has(frame)) continue;
     PlannedPicture picture;
@@ -53,11 +53,12 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
     picture.output = own.name(entry.model, entry.number, models, frame, frames);
     if (referencePattern_)
       picture.reference = referencePattern_->name(entry.model, entry.number, models, frame, frames);
-    if (options_.turntable > 0)
-      picture.variation = "turntable " + std::to_string(frame) + "/" + std::to_string(frames);
     const auto vary = [&](const std::string& what) {
       picture.variation += (picture.variation.empty() ? "" : ", ") + what;
     };
+    const std::string place = std::to_string(frame) + "/" + std::to_string(frames);
+    if (options_.turntable > 0) vary("turntable " + place);
+    if (options_.frames > 0) vary("frame " + place);
     for (const std::string& sweep : options_.sweeps) vary("sweep " + sweep);
     if (options_.terms) vary("terms");
     pictures.push_back(std::move(picture));
@@ -87,9 +88,15 @@ void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture
 }
 
 Look lookOf(const PlannedPicture& picture, const RenderOptions& options, const Look& base,
-            const Scene& scene, const Bounds& bounds) {
-  if (options.turntable == 0 || picture.frame == 0) return base;
-  return turnedLook(base, scene, bounds, 360.0 * double(picture.frame) / options.turntable);
+            const LoadedModel& model) {
+  Look look = base;
+  const Bounds& bounds = model.allBounds;
+  if (options.frames > 0) {
+    look = definiteLook(base, model.scene, bounds);
+    look.animationTime = model.duration * double(picture.frame) / options.frames;
+  }
+  if (options.turntable == 0 || picture.frame == 0) return look;
+  return turnedLook(look, model.scene, bounds, 360.0 * double(picture.frame) / options.turntable);
 }
 
 }  // namespace glint

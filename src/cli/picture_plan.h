@@ -48,8 +48,10 @@ class PicturePlan {
   std::optional<std::size_t> models_, count_;
 };
 
-/// The look of a planned picture. `bounds` are those of the scene.
-Look lookOf(const PlannedPicture&, const RenderOptions&, const Look& base, const Scene&,
-            const Bounds& bounds);
+struct LoadedModel;
+
+/// The look of a planned picture of the model; of a sequence with the moment, and the camera where
+/// it sees all poses.
+Look lookOf(const PlannedPicture&, const RenderOptions&, const Look& base, const LoadedModel&);
 
 }  // namespace glint

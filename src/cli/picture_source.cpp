@@ -71,7 +71,11 @@ class ReferenceSource : public PictureSource {
 }  // namespace
 
 Stage::Stage(Renderer* renderer, LoadedModel& model) : renderer_(renderer), model_(model) {
-  if (renderer_) scene_.emplace(model_.scene, std::move(model_.images));
+  if (!renderer_) return;
+  if (model_.file)  // there will be other stages of it
+    scene_.emplace(model_.scene, model_.images);
+  else
+    scene_.emplace(model_.scene, std::move(model_.images));
 }
 
 std::unique_ptr<PictureSource> Stage::picture(const Look& look) {

@@ -32,7 +32,7 @@ std::string signalText(int number, const RenderReport& report, std::optional<std
   return text + " pictures are done; the same command with --resume makes the others";
 }
 
-int render(const RenderOptions& options, const std::function<Look()>& makeLook) {
+int render(const RenderOptions& options, const LookSource& makeLook) {
   const auto started = Clock::now();
   checkRenderOptions(options);
   const bool reference = options.usesReference();
@@ -47,6 +47,10 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
       look.antiAliasing.mode = AntiAliasing::Mode::none;
     checkReferenceAntiAliasing(look.antiAliasing);
   }
+  if (makeLook.savesResolved(look) && plan.count() != std::size_t(1))
+    throw InputError(
+        "--save-look: the forms that --max-error or --shading auto choose differ from picture to "
+        "picture: give one model and picture");
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 
   // Loading the driver and reading the first model take about as long: side by side.
@@ -70,6 +74,8 @@ int render(const RenderOptions& options, const std::function<Look()>& makeLook) 
   report.expect(plan.count());
   PictureEncoder encoder;
   RenderRun run{options, look, sweeps, renderer ? &*renderer : nullptr, gl, encoder, report, line};
+  if (makeLook.savesResolved(look))
+    run.saveResolved = [&](const Look& resolved) { makeLook.saveResolved(resolved); };
   run.contextTime = since(waited);
   run.startTime = since(started);
   while (auto model = loader.next()) drawModel(run, std::move(*model));

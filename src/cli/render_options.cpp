@@ -37,6 +37,12 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
   command
+      .add_option("--frames", options.frames,
+                  "N pictures evenly over the animation, the last one a step before its end, so "
+                  "that the sequence may be repeated; the camera stands still")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command
       .add_option(
           "--sweep", options.sweeps,
           "a contact sheet over a number of the look or of a material ([NAME:]exponent, "
@@ -101,6 +107,8 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError("-o - and --reference: a picture is compared in its file: give -o a name");
   if (options.output == "-" && options.terms)
     throw InputError("-o - and --terms: several pictures: give -o a name");
+  if (options.turntable > 0 && options.frames > 0 && options.turntable != options.frames)
+    throw InputError("--turntable and --frames: give both the same number");
   if (options.sweeps.size() > 2) throw InputError("--sweep: more than two: give one or two");
   if (!options.sweeps.empty() && options.terms)
     throw InputError("--sweep and --terms: give one of them");

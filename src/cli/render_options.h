@@ -17,6 +17,7 @@ struct RenderOptions {
   std::string output, backend = "auto", json, glsl, shard;
   int bitDepth = 8;
   int turntable = 0;  ///< pictures of it; 0: none
+  int frames = 0;     ///< of the animation; 0: one picture, of the look's moment
   int jobs = 0;       ///< models in the works at once; 0: by the machine
   bool resume = false, terms = false;
   std::vector<std::string> sweeps;
@@ -26,7 +27,10 @@ struct RenderOptions {
 
   bool usesReference() const { return backend == "reference"; }
   bool hasList() const { return !list.empty(); }
-  std::size_t frameCount() const { return turntable > 0 ? std::size_t(turntable) : 1; }
+  bool hasFrames() const { return turntable > 0 || frames > 0; }
+  std::size_t frameCount() const {
+    return turntable > 0 ? std::size_t(turntable) : frames > 0 ? std::size_t(frames) : 1;
+  }
 };
 
 /// Adds the options to the command, which fill in `options` when it is parsed.

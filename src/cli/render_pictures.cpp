@@ -6,7 +6,9 @@
 #include "commands.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
+#include "glint/render/error_budget.h"
 #include "glint/render/picture_text.h"
+#include "glint/scene/parameters.h"
 #include "interrupt.h"
 #include "report.h"
 #include "term_files.h"
@@ -90,7 +92,6 @@ class ModelDrawing {
     std::string error = model_.error;
     if (error.empty()) {
       try {
-        if (!stage_) stage_.emplace(run_.renderer, model_);
         drawInto(planned, start);
         return;
       } catch (const Error& failure) {
@@ -107,7 +108,12 @@ class ModelDrawing {
   }
 
   void drawInto(const PlannedPicture& planned, Clock::time_point start) {
-    const Look look = lookOf(planned, run_.options, run_.look, model_.scene, model_.bounds);
+    pose(planned);
+    const Look asked = lookOf(planned, run_.options, run_.look, model_);
+    checkMaterialNames(model_.scene, asked);
+    const ResolvedLook resolved = resolveLook(model_.scene, model_.bounds, asked);
+    const Look& look = resolved.look;
+    if (run_.saveResolved) run_.saveResolved(look);
     const auto source = run_.sweeps.empty()
                             ? stage_->picture(look)
                             : std::make_unique<ContactSheet>(*stage_, run_.sweeps, look);
@@ -129,6 +135,8 @@ class ModelDrawing {
     result.entry["draws"] = source->list().items.size();
     result.entry["samples"] = source->samples();
     result.entry["variants"] = variantsJson(model_.scene, source->list(), look);
+    if (asked.maxError || !resolved.programReason.empty())
+      result.entry["choice"] = choiceJson(resolved, asked);
     const bool first = run_.first, fresh = !told_;
     run_.first = false;
     told_ = true;
@@ -147,6 +155,17 @@ class ModelDrawing {
     run_.encoder.then([&run = run_, out, planned, before, start, result = std::move(result)] {
       finish(run, *out, planned, result, [&] { return before + since(start); });
     });
+  }
+
+  // What moves goes to the driver anew with each picture of a sequence.
+  void pose(const PlannedPicture& planned) {
+    if (model_.file) {
+      stage_.reset();
+      const double time = model_.duration * double(planned.frame) / run_.options.frames;
+      model_.file->pose(model_.scene, {time, run_.look.animation});
+      model_.bounds = boundsOf(model_.scene);
+    }
+    if (!stage_) stage_.emplace(run_.renderer, model_);
   }
 
   void drawRows(const PlannedPicture& planned, PictureSource& source, const PictureOptions& file,

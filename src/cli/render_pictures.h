@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "contact_sheet.h"
@@ -23,6 +24,7 @@ struct RenderRun {
   StatusLine& line;
   double contextTime = 0, startTime = 0;  ///< ms, told of the first picture
   bool first = true;
+  std::function<void(const Look&)> saveResolved = {};  ///< of --save-look with a budget
 };
 
 /// Draws a model's pictures and hands them on; what goes wrong becomes part of the report. Leaves

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/scene/lights.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 
 namespace glint {
@@ -34,6 +35,30 @@ Json variantsJson(const Scene& scene, const DrawList& list, const Look& given) {
                    {"materials", materials[variant]}});
   }
   return all;
+}
+
+Json choiceJson(const ResolvedLook& resolved, const Look& asked) {
+  Json json = Json::object();
+  if (asked.maxError) json["max-error"] = *asked.maxError;
+  json["bound"] = resolved.bound;
+  json["shading"] = shadingName(resolved.look.shading);
+  if (!resolved.programReason.empty()) json["reason"] = resolved.programReason;
+  json["materials"] = Json::array();
+  for (const FormChoice& c : resolved.choices) {
+    Json one{{"material", c.material}};
+    if (c.specular) one["highlight"] = highlightText(c.highlight);
+    if (c.dielectric) one["fresnel"] = fresnelText(c.fresnel);
+    one["bound"] = c.bound;
+    one["lobe"] = c.lobe;
+    one["reflectance"] = c.reflectance;
+    one["interpolation"] = c.interpolation;
+    one["rounding"] = c.rounding;
+    one["cost"] = c.cost;
+    one["exactCost"] = c.exactCost;
+    one["reason"] = c.reason;
+    json["materials"].push_back(one);
+  }
+  return json;
 }
 
 std::size_t triangleCount(const Scene& scene, const DrawList& list) {

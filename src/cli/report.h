@@ -3,12 +3,16 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "glint/render/draw_list.h"
+#include "glint/render/error_budget.h"
 
 namespace glint {
 
 /// The variants of a picture with their features, reasons and materials, as `render --json` and
 /// `info` report them.
 nlohmann::ordered_json variantsJson(const Scene&, const DrawList&, const Look&);
+
+/// What --max-error and --shading auto chose of `asked`, with bounds and reasons.
+nlohmann::ordered_json choiceJson(const ResolvedLook&, const Look& asked);
 
 /// Triangles drawn, each instance counted.
 std::size_t triangleCount(const Scene&, const DrawList&);

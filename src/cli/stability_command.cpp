@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -43,13 +44,8 @@ Look formsOf(const StabilityOptions& options) {
   return forms;
 }
 
-/// Writes FOLDER/stability.html, the page of a report with its plots in it.
-void writePage(const std::string& folder, const Json& report) {
-  const std::string path = (std::filesystem::path(folder) / "stability.html").string();
-  OutputFile file(path);
-  const std::string data = jsonElement("data", report.dump());
-  for (std::string_view part : {stabilityPage.begin, std::string_view(data), stabilityPage.end})
-    file.write(std::as_bytes(std::span(part)));
+void writeAll(OutputFile& file, std::initializer_list<std::string_view> parts) {
+  for (std::string_view part : parts) file.write(std::as_bytes(std::span(part)));
   file.commit();
 }
 
@@ -73,7 +69,13 @@ int runStability(const StabilityOptions& options) {
   const Backend backend = backendFromName(options.backend);
   options.selection.check();
   const Look forms = formsOf(options);
-  if (!options.output.empty()) makeFolder(options.output);
+  // Before the work, so that what cannot be written is told at once.
+  std::optional<OutputFile> jsonFile, page;
+  if (!options.json.empty()) jsonFile.emplace(options.json);
+  if (!options.output.empty()) {
+    makeFolder(options.output);
+    page.emplace((std::filesystem::path(options.output) / "stability.html").string());
+  }
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
 
   const auto context = openContext(backend);
@@ -114,7 +116,7 @@ int runStability(const StabilityOptions& options) {
     if (search) std::cout << stability::searchText(*search);
     std::cout << stability::summaryText(results);
   }
-  if (options.json.empty() && options.output.empty()) return passed ? done : differs;
+  if (!jsonFile && !page) return passed ? done : differs;
   Json report{{"glint", GLINT_VERSION},
               {"backend", backendName(context->backend())},
               {"gl", {{"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}}},
@@ -127,10 +129,10 @@ int runStability(const StabilityOptions& options) {
   if (search) report["search"] = stability::searchJson(*search);
   for (const stability::Group& group : stability::groups())
     report["groups"][std::string(1, group.letter)] = group.name;
-  if (!options.json.empty()) writeText(options.json, report.dump(2) + "\n");
-  if (!options.output.empty()) {
+  if (jsonFile) writeAll(*jsonFile, {report.dump(2), "\n"});
+  if (page) {
     report["plots"] = plots;
-    writePage(options.output, report);
+    writeAll(*page, {stabilityPage.begin, jsonElement("data", report.dump()), stabilityPage.end});
   }
   return passed ? done : differs;
 }

@@ -21,10 +21,13 @@ constexpr int maxSide = 16384;  ///< pixels
 
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
+bool isWebp(std::span<const std::byte> bytes);
 bool isPfm(std::span<const std::byte> bytes);
 bool isHdr(std::span<const std::byte> bytes);
 bool isExr(std::span<const std::byte> bytes);
 
+/// Throws InputError, too, where the build has no libwebp.
+ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name);
 ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
 
 StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name);

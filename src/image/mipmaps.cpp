@@ -52,20 +52,21 @@ Level shrink(int width, int height, int toWidth, int toHeight, Fetch fetch) {
   return level;
 }
 
-ByteImage rounded(const Level& level, int width, int height) {
+ByteImage rounded(const Level& level, int width, int height, bool isData) {
   ByteImage image;
   image.width = width;
   image.height = height;
   image.values.resize(level.size());
   for (std::size_t i = 0; i < level.size(); ++i)
-    image.values[i] = i % 4 == 3 ? std::uint8_t(std::lround(std::min(level[i], 1.0f) * 255.0f))
-                                 : encodeSrgb8(level[i]);
+    image.values[i] = i % 4 == 3 || isData
+                          ? std::uint8_t(std::lround(std::min(level[i], 1.0f) * 255.0f))
+                          : encodeSrgb8(level[i]);
   return image;
 }
 
 }  // namespace
 
-std::vector<ByteImage> mipLevels(const ByteImage& image) {
+std::vector<ByteImage> mipLevels(const ByteImage& image, bool isData) {
   std::vector<ByteImage> levels;
   Level level;
   int width = image.width, height = image.height;
@@ -74,6 +75,9 @@ std::vector<ByteImage> mipLevels(const ByteImage& image) {
     if (levels.empty()) {
       level = shrink(width, height, toWidth, toHeight, [&](int x, int y) {
         const std::uint8_t* t = &image.values[std::size_t(4) * (std::size_t(y) * width + x)];
+        if (isData)
+          return std::array<float, 4>{float(t[0]) / 255.0f, float(t[1]) / 255.0f,
+                                      float(t[2]) / 255.0f, float(t[3]) / 255.0f};
         return std::array<float, 4>{decodeSrgb8(t[0]), decodeSrgb8(t[1]), decodeSrgb8(t[2]),
                                     float(t[3]) / 255.0f};
       });
@@ -85,7 +89,7 @@ std::vector<ByteImage> mipLevels(const ByteImage& image) {
     }
     width = toWidth;
     height = toHeight;
-    levels.push_back(rounded(level, width, height));
+    levels.push_back(rounded(level, width, height, isData));
   }
   return levels;
 }

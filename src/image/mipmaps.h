@@ -13,6 +13,8 @@ namespace glint {
 ///
 /// Made here and not by glGenerateMipmap, because drivers differ in rounding and odd sizes, and
 /// because a software driver compiles programs for it in every process.
-std::vector<ByteImage> mipLevels(const ByteImage& image);
+///
+/// `isData`: the values are numbers, not sRGB, and are averaged and rounded as they are.
+std::vector<ByteImage> mipLevels(const ByteImage& image, bool isData = false);
 
 }  // namespace glint

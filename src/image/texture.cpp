@@ -6,9 +6,12 @@
 
 namespace glint {
 
+bool canDecodeWebp() { return GLINT_WEBP; }
+
 ByteImage decodeTexture(std::span<const std::byte> bytes, const std::string& name) {
   try {
     if (detail::isJpeg(bytes)) return detail::decodeJpeg(bytes, name);
+    if (detail::isWebp(bytes)) return detail::decodeWebp(bytes, name);
     if (detail::isPng(bytes)) {
       detail::PngReader reader(bytes, name);
       ByteImage image;

@@ -17,8 +17,12 @@ struct ByteImage {
   std::vector<std::uint8_t> values;  ///< 4 * width * height
 };
 
+/// Whether this build reads WebP.
+bool canDecodeWebp();
+
 /// Decodes a PNG (all colour types and depths; 16 bits lose the lower 8) or a JPEG (grey, YCbCr,
-/// RGB, CMYK and YCCK by the usual naive conversion); the format is told by the first bytes. `name`
+/// RGB, CMYK and YCCK by the usual naive conversion); or a WebP,
+/// where canDecodeWebp(); the format is told by the first bytes. `name`
 /// stands in the messages. Nothing is printed.
 ///
 /// Throws InputError "NAME: what: what to do" for other formats, for data that are damaged or cut

@@ -42,7 +42,8 @@ std::string defines(const Variant& v) {
   for (const char* output : outputs)
     text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
   text += define("OUTPUT", int(v.output));
-  if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0);
+  if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0) +
+           define("NORMAL_TEXTURE", 0);
   const int lights = v.directionalLights + v.pointLights + v.spotLights;
   text += define("LIGHTS", lights);
   text += define("DIRECTIONAL_LIGHTS", v.directionalLights);
@@ -61,6 +62,7 @@ std::string defines(const Variant& v) {
   text += define("UNEVEN_SCALE", v.unevenScale);
   text += define("PIXEL_POSITION", v.pixelPosition);
   text += define("VANISHING_NORMAL", v.vanishingNormal);
+  text += define("NORMAL_TEXTURE", v.normalTexture);
   text += define("TWO_SIDED", v.twoSided);
   text +=
       std::string("#define CARRIED ") + (v.program == Shading::flat ? "flat" : "VARYING") + "\n";

@@ -203,6 +203,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
     item.materialBlock = materialBlock(material, item.variant, look);
     item.mirrored = isMirrored(instance.world);
+    item.draw.normalMatrix[3] = {float(material.normalScale), 0, 0, item.mirrored ? -1 : 1};
     const bool both = material.doubleSided || look.twoSided || mesh.topology != Topology::triangles;
     item.faces = both ? FaceSide::both : FaceSide::front;
     // Seen through a surface, the program environment shows refraction: nothing is left to blend.
@@ -236,6 +237,7 @@ std::vector<int> imagesRead(const Scene& scene, const Look& given) {
     const Variant v = variantFor(mesh, material, instance.world, look, false);
     if (v.colorTexture) images.insert(material.colorTexture->image);
     if (v.emissionTexture) images.insert(material.emissionTexture->image);
+    if (v.normalTexture) images.insert(material.normalTexture->image);
   }
   return {images.begin(), images.end()};
 }

@@ -53,9 +53,13 @@ class VertexLayout {
   std::size_t size_ = 0;
 };
 
-std::span<const glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
+// The coordinates by which a texture is looked up, with its transform.
+std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
   if (!texture || std::size_t(texture->texcoord) >= mesh.texcoords.size()) return {};
-  return mesh.texcoords[std::size_t(texture->texcoord)];
+  std::vector<glm::vec2> places = mesh.texcoords[std::size_t(texture->texcoord)];
+  if (texture->transform != glm::dmat3x2(1.0))
+    for (glm::vec2& place : places) place = glm::vec2(texture->transform * glm::dvec3(place, 1));
+  return places;
 }
 
 GLenum modeOf(Topology topology) {
@@ -83,11 +87,11 @@ bool readsMipLevels(const Scene& scene, int image) {
     return t && t->image == image && t->sampler.mip != MipFilter::none;
   };
   return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
-    return reads(m.colorTexture) || reads(m.emissionTexture);
+    return reads(m.colorTexture) || reads(m.emissionTexture) || reads(m.normalTexture);
   });
 }
 
-TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name) {
+TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name, bool isData) {
   const ByteImage& image = decoded.image;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -98,8 +102,9 @@ TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const auto upload = [](GLint level, const ByteImage& from) {
-    glTexImage2D(GL_TEXTURE_2D, level, GL_SRGB8_ALPHA8, from.width, from.height, 0, GL_RGBA,
+  const GLint format = isData ? GL_RGBA8 : GL_SRGB8_ALPHA8;
+  const auto upload = [&](GLint level, const ByteImage& from) {
+    glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, from.values.data());
   };
   upload(0, image);
@@ -123,7 +128,8 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
     tasks.emplace_back(i, std::async(std::launch::async, [&scene, i] {
                          const EncodedImage& image = scene.images[std::size_t(i)];
                          DecodedImage decoded{decodeTexture(image.bytes, image.name), {}};
-                         if (readsMipLevels(scene, i)) decoded.mipLevels = mipLevels(decoded.image);
+                         if (readsMipLevels(scene, i))
+                           decoded.mipLevels = mipLevels(decoded.image, image.isData);
                          return decoded;
                        }));
   }
@@ -138,6 +144,8 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
           material.colorTexture.reset();
         if (material.emissionTexture && material.emissionTexture->image == i)
           material.emissionTexture.reset();
+        if (material.normalTexture && material.normalTexture->image == i)
+          material.normalTexture.reset();
       }
     }
   }
@@ -166,8 +174,15 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   layout.add(0, std::span(mesh.positions), source);
   layout.add(1, faces ? std::span(faceMesh.normals) : std::span(mesh.normals));
   layout.add(2, std::span(mesh.colors), source);
-  layout.add(3, texcoordsOf(mesh, material.colorTexture), source);
-  layout.add(4, texcoordsOf(mesh, material.emissionTexture), source);
+  const auto colorPlaces = texcoordsOf(mesh, material.colorTexture);
+  const auto emissionPlaces = texcoordsOf(mesh, material.emissionTexture);
+  const auto normalPlaces = texcoordsOf(mesh, material.normalTexture);
+  layout.add(3, std::span(colorPlaces), source);
+  layout.add(4, std::span(emissionPlaces), source);
+  if (!faces && !mesh.tangents.empty()) {
+    layout.add(6, std::span(mesh.tangents));
+    layout.add(7, std::span(normalPlaces));
+  }
   if (faces) layout.add(5, std::span(faceMesh.centers));
   layout.upload();
   const auto& indices = faces ? faceMesh.indices : mesh.indices;
@@ -183,7 +198,8 @@ void GpuScene::bindTexture(const Texture& use, GLuint unit) {
   glActiveTexture(GL_TEXTURE0 + unit);
   TextureHandle& texture = textures_[use.image];
   if (!texture) {
-    texture = uploadTexture(images_.at(use.image), scene_->images[std::size_t(use.image)].name);
+    const EncodedImage& image = scene_->images[std::size_t(use.image)];
+    texture = uploadTexture(images_.at(use.image), image.name, image.isData);
     images_.erase(use.image);
   }
   glBindTexture(GL_TEXTURE_2D, texture.id());

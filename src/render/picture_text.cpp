@@ -16,6 +16,7 @@ std::string pictureKey(const Look& look, const PictureOrigin& origin) {
        {std::string(program), saveLook(look), origin.modelHash, std::to_string(origin.bitDepth),
         origin.variation, std::string(origin.gl ? "gl" : "reference")})
     hash.add(part);
+  if (!look.hdriFile.empty()) hash.add(modelHash(look.hdriFile));
   return hash.text();
 }
 

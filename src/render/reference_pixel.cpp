@@ -19,9 +19,9 @@ auto mean(const Footprint& f, Get get) {
   return w * sum;
 }
 
-glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::vec2> texcoords,
+glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::dvec2> texcoords,
                          const Footprint& f) {
-  const auto get = [&](std::uint32_t i) { return glm::dvec2(texcoords[i]); };
+  const auto get = [&](std::uint32_t i) { return texcoords[i]; };
   const glm::dvec2 uv = mean(f, get);
   // d(sum / weight) = (d sum - uv d weight) / weight
   const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
@@ -38,6 +38,21 @@ glm::dvec3 emissionOf(const Item& item, const Footprint& f) {
   if (!item.emissionTexture) return item.emission;
   return item.emission *
          glm::dvec3(sampleTexture(*item.emissionTexture, item.emissionTexcoords, f));
+}
+
+// The interpolated normal, bent by the normal map: its texel is the direction in the frame of
+// tangent, bitangent and normal, none of which is renormalised.
+glm::dvec3 normalOf(const Item& item, const Vertices& v, const Footprint& f,
+                    const glm::dvec3& faceNormal) {
+  glm::dvec3 N = mean(f, [&](std::uint32_t i) { return v.normals[i]; });
+  if (!item.normalTexture) return N;
+  if (!(glm::dot(N, N) > 1e-6)) N = faceNormal;
+  const glm::dvec4 tangent = mean(f, [&](std::uint32_t i) { return v.tangents[i]; });
+  const glm::dvec3 T(tangent), B = tangent.w * glm::cross(N, T);
+  const glm::dvec3 texel(sampleTexture(*item.normalTexture, item.normalTexcoords, f));
+  const glm::dvec3 m = (texel * 2.0 - 1.0) * glm::dvec3(item.normalScale, item.normalScale, 1);
+  const glm::dvec3 bent = m.x * T + m.y * B + m.z * N;
+  return glm::dot(bent, bent) > 1e-12 ? bent : N;
 }
 
 double edgeDistanceOf(const Footprint& f) {
@@ -113,9 +128,7 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   const auto positionAt = [&](const Footprint& at) {
     return mean(at, [&](std::uint32_t i) { return v.eye[i]; });
   };
-  const auto normalAt = [&](const Footprint& at) {
-    return mean(at, [&](std::uint32_t i) { return v.normals[i]; });
-  };
+  const auto normalAt = [&](const Footprint& at) { return normalOf(item, v, at, faceNormal_); };
   a.position = positionAt(f);
   if (item.surface.unlit) return a;
   a.emission = emissionOf(item, f);

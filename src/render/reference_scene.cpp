@@ -97,6 +97,12 @@ Vertices verticesOf(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   v.normals.reserve(mesh.normals.size());
   for (const glm::vec3& n : mesh.normals)
     v.normals.push_back(safeNormalize(normals * glm::dvec3(n)));
+  // Seen in a mirror, a right-handed frame is left-handed.
+  const double hand =
+      glm::determinant(v.eyeFromModel / glm::length(v.eyeFromModel[0])) < 0 ? -1 : 1;
+  v.tangents.reserve(mesh.tangents.size());
+  for (const glm::vec4& t : mesh.tangents)
+    v.tangents.emplace_back(safeNormalize(v.eyeFromModel * glm::dvec3(t)), hand * t.w);
   return v;
 }
 
@@ -140,7 +146,7 @@ FresnelForm fresnelForm(Fresnel form) {
 
 Surface surfaceFor(const Material& material, const Variant& variant, const Look& look) {
   Surface s;
-  s.program = Program(int(look.shading));
+  s.program = Program(int(programOf(look)));
   s.unlit = variant.unlit;
   s.twoSided = material.doubleSided || look.twoSided;
   const HighlightForm highlight = material.highlight.value_or(look.highlight);
@@ -163,14 +169,19 @@ Surface surfaceFor(const Material& material, const Variant& variant, const Look&
   return s;
 }
 
-std::span<const glm::vec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
-  if (std::size_t(texture.texcoord) >= mesh.texcoords.size()) return {};
-  return mesh.texcoords[std::size_t(texture.texcoord)];
+std::vector<glm::dvec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
+  std::vector<glm::dvec2> places;
+  if (std::size_t(texture.texcoord) >= mesh.texcoords.size()) return places;
+  const glm::dmat3x2& t = texture.transform;
+  for (const glm::vec2& place : mesh.texcoords[std::size_t(texture.texcoord)])
+    places.push_back(double(place.x) * t[0] + double(place.y) * t[1] + t[2]);
+  return places;
 }
 
-TextureSampler samplerFor(const Texture& texture, const DecodedImages& images) {
+TextureSampler samplerFor(const Texture& texture, const Scene& scene, const DecodedImages& images) {
   const DecodedImage& decoded = images.at(texture.image);
-  return {decoded.image, decoded.mipLevels, texture.sampler};
+  return {decoded.image, decoded.mipLevels, texture.sampler,
+          scene.images[std::size_t(texture.image)].isData};
 }
 
 Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& images,
@@ -187,14 +198,19 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
   item.faces = from.faces;
   // The variant says what is read, and so decoded: no texture without coordinates for it.
   if (from.variant.colorTexture) {
-    item.colorTexture = samplerFor(*material.colorTexture, images);
+    item.colorTexture = samplerFor(*material.colorTexture, scene, images);
     item.colorTexcoords = texcoordsOf(*item.mesh, *material.colorTexture);
   }
   if (item.surface.unlit) return item;
   item.emission = material.emission;
   if (from.variant.emissionTexture) {
-    item.emissionTexture = samplerFor(*material.emissionTexture, images);
+    item.emissionTexture = samplerFor(*material.emissionTexture, scene, images);
     item.emissionTexcoords = texcoordsOf(*item.mesh, *material.emissionTexture);
+  }
+  if (from.variant.normalTexture) {
+    item.normalTexture = samplerFor(*material.normalTexture, scene, images);
+    item.normalTexcoords = texcoordsOf(*item.mesh, *material.normalTexture);
+    item.normalScale = material.normalScale;
   }
   return item;
 }

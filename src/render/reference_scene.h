@@ -18,6 +18,8 @@ struct Vertices {
   std::vector<double> depth;       ///< z of clip space: depth times w
   std::vector<glm::dvec3> eye;
   std::vector<glm::dvec3> normals;  ///< unit, eye space; empty unless triangles
+  /// Unit, eye space, and handedness; empty unless the mesh has them.
+  std::vector<glm::dvec4> tangents;
   glm::dmat3 eyeFromModel{1.0};     ///< without translation
 };
 
@@ -31,8 +33,9 @@ struct Item {
   bool mask = false, blended = false, mirrored = false;
   double alphaCutoff = 0;
   FaceSide faces = FaceSide::both;
-  std::optional<TextureSampler> colorTexture, emissionTexture;
-  std::span<const glm::vec2> colorTexcoords, emissionTexcoords;  ///< of the textures above
+  std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
+  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of those
+  double normalScale = 1;
 };
 
 /// A scene before the camera, in double throughout. Of the draw list it takes the order, the

@@ -37,7 +37,6 @@ struct Frame {
 enum class Program { flat, gouraud, phong, blinnPhong, environment };
 /// Which part of the radiance a surface shows.
 enum class Part { all, sum, reflection, refraction };
-enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
 
 /// A material under a look.
 struct Surface {

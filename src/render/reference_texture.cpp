@@ -29,8 +29,8 @@ int wrapped(double i, int size, Wrap wrap) {
 }  // namespace
 
 TextureSampler::TextureSampler(const ByteImage& base, std::span<const ByteImage> smaller,
-                               const Sampler& sampler)
-    : base_(&base), smaller_(smaller), sampler_(sampler) {}
+                               const Sampler& sampler, bool isData)
+    : base_(&base), smaller_(smaller), sampler_(sampler), isData_(isData) {}
 
 const ByteImage& TextureSampler::level(int i) const {
   return i == 0 ? *base_ : smaller_[std::size_t(i - 1)];
@@ -40,6 +40,7 @@ glm::dvec4 TextureSampler::fetch(const ByteImage& image, double x, double y) con
   const int column = wrapped(x, image.width, sampler_.wrapS);
   const int row = wrapped(y, image.height, sampler_.wrapT);
   const std::uint8_t* t = &image.values[std::size_t(4) * (std::size_t(row) * image.width + column)];
+  if (isData_) return glm::dvec4(t[0], t[1], t[2], t[3]) / 255.0;
   return {decodeSrgb8(t[0]), decodeSrgb8(t[1]), decodeSrgb8(t[2]), t[3] / 255.0};
 }
 

@@ -19,7 +19,9 @@ namespace glint::reference {
 class TextureSampler {
  public:
   /// The pixels must outlive it. An empty picture samples as white.
-  TextureSampler(const ByteImage& base, std::span<const ByteImage> smaller, const Sampler&);
+  /// `isData`: texels are numbers, not sRGB.
+  TextureSampler(const ByteImage& base, std::span<const ByteImage> smaller, const Sampler&,
+                 bool isData = false);
 
   /// Linear RGB and alpha at `at`, whose change from pixel to pixel is `dx` and `dy`.
   glm::dvec4 sample(const glm::dvec2& at, const glm::dvec2& dx, const glm::dvec2& dy) const;
@@ -35,6 +37,7 @@ class TextureSampler {
   const ByteImage* base_;
   std::span<const ByteImage> smaller_;
   Sampler sampler_;
+  bool isData_ = false;
 };
 
 }  // namespace glint::reference

@@ -34,6 +34,7 @@ void connect(const Program& program) {
   program.bindBlock("MaterialBlock", materialBinding);
   program.bindSampler("colorTexture", 0);
   program.bindSampler("emissionTexture", 1);
+  program.bindSampler("normalTexture", 2);
   program.bindSampler("environmentImage", environmentUnit);
 }
 
@@ -249,6 +250,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       const Material& material = scene_.scene().materials[std::size_t(item.material)];
       if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
       if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);
+      if (item.variant.normalTexture) scene_.bindTexture(*material.normalTexture, 2);
       const GpuScene::Geometry& g =
           scene_.geometry(item.mesh, item.variant.program == Shading::flat);
       glBindVertexArray(g.array.id());

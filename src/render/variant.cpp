@@ -65,6 +65,10 @@ std::vector<Light> lightsOf(const Look& look) {
   return {light};
 }
 
+Shading programOf(const Look& look) {
+  return look.shading == Shading::automatic ? Shading::phong : look.shading;
+}
+
 bool usesBlinn(Shading shading) {
   return shading == Shading::blinnPhong || shading == Shading::environment;
 }
@@ -91,7 +95,7 @@ Fresnel fresnelOf(const Material& material, const Look& look) {
 Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4& world,
                    const Look& look, bool orthographic) {
   Variant v;
-  v.program = look.shading;
+  v.program = programOf(look);
   v.unlit = material.unlit || mesh.topology != Topology::triangles;
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
   v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
@@ -106,7 +110,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   v.emission = material.emission != glm::dvec3(0.0);
   v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
 
-  const bool pixels = perPixel(look.shading);
+  const bool pixels = perPixel(programOf(look));
   const ShadingParameters& s = material.shading;
   const bool wantsLight = s.diffuse > 0 || s.specular > 0;
   for (const Light& light : lightsOf(look)) {
@@ -145,6 +149,8 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
     v.pixelPosition = v.pointLights + v.spotLights > 0 || v.vanishingNormal ||
                       ((v.specular || environment) && !v.constantView);
   }
+  v.normalTexture = pixels && (lit || environment) && !mesh.tangents.empty() &&
+                    readsTexture(mesh, material.normalTexture);
   // Nothing of the surface's side is left where there is neither light nor environment.
   if (!lit && !environment)
     v.twoSided = v.vanishingNormal = v.pixelPosition = v.unevenScale = false;
@@ -199,6 +205,11 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   add("two-sided", v.twoSided, look.twoSided ? "--two-sided" : "the material is doubleSided",
       material.doubleSided || look.twoSided ? "nothing depends on the side"
                                             : "back faces are not drawn");
+  add("normal-texture", v.normalTexture, "the material has a normal map",
+      !material.normalTexture ? "the material has none"
+      : !perPixel(v.program)  ? "the program has one normal a face or vertex"
+      : mesh.tangents.empty() ? "the mesh has no coordinates for it"
+                              : "nothing reads the normal");
   add("emission", v.emission, "the material emits", "the material does not emit");
   if (v.emission)
     add("emission-texture", v.emissionTexture, "the material has one", "the material has none");
@@ -249,6 +260,7 @@ std::vector<std::string> featureNames(const Variant& v) {
   add(v.twoSided, "two-sided");
   add(v.vertexColors, "vertex-colors");
   add(v.colorTexture, "color-texture");
+  add(v.normalTexture, "normal-texture");
   add(v.emission, "emission");
   add(v.emissionTexture, "emission-texture");
   add(v.alphaMask, "alpha-mask");

@@ -43,6 +43,7 @@ struct Variant {
   bool vanishingNormal = false;  ///< interpolated normals may cancel
   bool twoSided = false;         ///< back faces are drawn, lit from their side
   bool vertexColors = false, colorTexture = false;
+  bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
   bool emission = false, emissionTexture = false;
   bool alphaMask = false, alphaBlend = false;
   // The program environment alone:
@@ -67,6 +68,9 @@ struct FeatureReason {
 /// `orthographic` is that of the camera in use.
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
+
+/// The program that a look is drawn by as it stands.
+Shading programOf(const Look&);
 
 /// Whether a program computes the lobe of Blinn-Phong; the others have Phong's.
 bool usesBlinn(Shading);

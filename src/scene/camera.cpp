@@ -173,16 +173,10 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   return camera;
 }
 
-Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, double degrees) {
-  Look look = base;
-  const bool aboutCenter = !look.cameraViewUp && !look.cameraFocalPoint && !look.cameraIndex &&
-                           !(look.cameraPosition && look.cameraDirection);
-  if (aboutCenter) {  // then the azimuth is the same, and fits other models too
-    look.cameraAzimuthAngle += degrees;
-    return look;
-  }
-  // Made definite, then turned: position, focal point and way up.
-  const Camera camera = cameraFor(scene, bounds, base);
+namespace {
+
+// The look with the camera by position, focal point and way up, turned about +Y through the centre.
+Look definite(Look look, const Camera& camera, const Bounds& bounds, double degrees) {
   const double angle = degrees * radians, c = std::cos(angle), s = std::sin(angle);
   const auto turn = [&](const glm::dvec3& v) {
     return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
@@ -200,6 +194,32 @@ Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, doub
   const double half = camera.orthographic ? camera.halfHeight / distance : camera.halfHeight;
   look.cameraViewAngle = 2 * std::atan(half) / radians;
   return look;
+}
+
+}  // namespace
+
+Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, double degrees) {
+  Look look = base;
+  const bool aboutCenter = !look.cameraViewUp && !look.cameraFocalPoint && !look.cameraIndex &&
+                           !(look.cameraPosition && look.cameraDirection);
+  if (aboutCenter) {  // then the azimuth is the same, and fits other models too
+    look.cameraAzimuthAngle += degrees;
+    return look;
+  }
+  return definite(look, cameraFor(scene, bounds, base), bounds, degrees);
+}
+
+Look definiteLook(const Look& look, const Scene& scene, const Bounds& bounds) {
+  return definite(look, cameraFor(scene, bounds, look), bounds, 0);
+}
+
+Bounds around(const Bounds& a, const Bounds& b) {
+  const glm::dvec3 way = b.center - a.center;
+  const double distance = std::sqrt(glm::dot(way, way));
+  if (distance + b.radius <= a.radius) return a;
+  if (distance + a.radius <= b.radius) return b;
+  const double radius = (distance + a.radius + b.radius) / 2;
+  return {a.center + way * ((radius - a.radius) / distance), radius};
 }
 
 glm::dmat3 eyeRotation(const Camera& camera) {

@@ -41,6 +41,13 @@ Camera cameraFor(const Scene&, const Bounds&, const Look&);
 /// right; what it sees of the model is the same as if the model had turned to the left.
 Look turnedLook(const Look&, const Scene&, const Bounds&, double degrees);
 
+/// The look with its camera given by position, focal point, way up and view angle, so that it stays
+/// where it is when the model moves.
+Look definiteLook(const Look&, const Scene&, const Bounds&);
+
+/// A sphere around both.
+Bounds around(const Bounds&, const Bounds&);
+
 /// From world space to eye space (units of camera.unit, looking along -Z), without translation.
 glm::dmat3 eyeRotation(const Camera&);
 

@@ -6,6 +6,9 @@
 #include <set>
 #include <vector>
 
+#include "glint/image/texture.h"
+#include "glint/scene/gltf_compression.h"
+
 namespace glint::gltf {
 namespace {
 
@@ -19,9 +22,12 @@ constexpr std::array supportedExtensions = {"KHR_materials_unlit",
                                             "KHR_materials_emissive_strength",
                                             "KHR_mesh_quantization",
                                             "KHR_lights_punctual",
-                                            "KHR_node_visibility"};
+                                            "KHR_node_visibility",
+                                            "KHR_texture_transform"};
 
 bool isSupported(const std::string& extension) {
+  if (readsCompression(extension)) return true;
+  if (extension == "EXT_texture_webp") return canDecodeWebp();
   return std::ranges::find(supportedExtensions, extension) != supportedExtensions.end();
 }
 
@@ -191,6 +197,7 @@ void checkAttributes(Cursor attributes, std::size_t accessors) {
 }
 
 void checkMeshes(Cursor root) {
+  const char* const draco = "KHR_draco_mesh_compression";
   const std::size_t accessors = root.member("accessors").size();
   const std::size_t materials = root.member("materials").size();
   const Cursor meshes = root.member("meshes");
@@ -214,7 +221,9 @@ void checkMeshes(Cursor root) {
         indices.fail("refers to an accessor that does not hold unsigned whole numbers");
       }
       // tinygltf refuses these; all-zero indices draw nothing anyway.
-      if (!list.member("bufferView").exists()) {
+      const bool compressed =
+          readsCompression(draco) && primitive.member("extensions").member(draco).exists();
+      if (!list.member("bufferView").exists() && !compressed) {
         indices.fail("refers to an accessor without a buffer view");
       }
     }
@@ -300,6 +309,11 @@ void checkDocument(Json& document, Messages& messages) {
   const Cursor root(document, messages);
   checkAsset(root, messages);
   checkExtensions(root, messages);
+  checkStructure(document, messages);
+}
+
+void checkStructure(Json& document, const Messages& messages) {
+  const Cursor root(document, messages);
   checkAccessors(root, checkViews(root));
   checkMeshes(root);
   checkNodes(root);

@@ -15,4 +15,7 @@ namespace glint::gltf {
 /// Fails with a message that names the place; warns of extensions that are used but not known.
 void checkDocument(Json& document, Messages& messages);
 
+/// The part of it that looks at indices, offsets and counts; once more where those have changed.
+void checkStructure(Json& document, const Messages& messages);
+
 }  // namespace glint::gltf

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "glint/scene/gltf_check.h"
+#include "glint/scene/gltf_compression.h"
 #include "glint/scene/gltf_file.h"
 
 namespace glint::gltf {
@@ -16,6 +17,7 @@ constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
 
 ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& container,
                       const std::filesystem::path& folder, const Messages& messages) {
+  const char* const meshopt = "EXT_meshopt_compression";
   const std::string label = "buffers[" + std::to_string(index) + "]";
   const auto wanted =
       static_cast<std::uint64_t>(buffer.member("byteLength").integer(0, 0, INT64_MAX));
@@ -30,6 +32,8 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
     }
   } else if (index == 0 && container.binary) {
     source = *container.binary;
+  } else if (readsCompression(meshopt) && buffer.member("extensions").member(meshopt).exists()) {
+    return ByteSource(std::vector<unsigned char>());  // stands for what is compressed
   } else {
     messages.fail(label + " has neither a uri nor a binary GLB chunk");
   }
@@ -185,6 +189,7 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
     document.buffers.push_back(
         openBuffer(list.item(i), i, container, path.parent_path(), messages));
   }
+  if (decompress(document, messages)) checkStructure(document.json, messages);
   document.views = placeViews(root);
   document.nodeExtensions = readNodeExtensions(root);
   std::vector<Bytes> buffers = readGeometry(root, document, messages);

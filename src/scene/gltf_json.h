@@ -58,6 +58,8 @@ class Cursor {
 
   /// The member "name" where it is text, else nothing: a name is never worth failing for.
   std::string name() const;
+  /// Of what forEachMember() gives: its key.
+  const char* key() const { return steps_[depth_ - 1].key; }
   /// The path, as in `nodes[3].children`.
   std::string path() const;
   [[noreturn]] void fail(const std::string& what) const;

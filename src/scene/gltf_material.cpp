@@ -108,6 +108,11 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   if (material.emission != glm::dvec3(0)) {
     material.emissionTexture = textures.read(from.member("emissiveTexture"));
   }
+  if (const Cursor normal = from.member("normalTexture"); normal.exists()) {
+    material.normalTexture = textures.read(normal, true);
+    material.normalScale =
+        std::clamp(normal.member("scale").number(1), -largestFactor, largestFactor);
+  }
   material.transmission =
       unit(extensions.member("KHR_materials_transmission").member("transmissionFactor"), 0);
   material.unlit = extensions.member("KHR_materials_unlit").exists();

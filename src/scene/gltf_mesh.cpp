@@ -8,6 +8,7 @@
 
 #include "glint/scene/gltf_accessor.h"
 #include "glint/scene/gltf_normals.h"
+#include "glint/scene/gltf_tangents.h"
 #include "glint/scene/gltf_topology.h"
 
 namespace glint::gltf {
@@ -62,6 +63,7 @@ class Builder {
   void readColors();
   void readTexcoords(const Material& material);
   void finishNormals();
+  void readTangents(const Material& material, bool stale);
   void warn(const std::string& what) { messages_.warn(label_ + ": " + what); }
   [[noreturn]] void fail(const std::string& what) const { messages_.fail(label_ + ", " + what); }
 
@@ -236,7 +238,8 @@ void Builder::readColors() {
 }
 
 void Builder::readTexcoords(const Material& material) {
-  for (const auto& texture : {material.colorTexture, material.emissionTexture}) {
+  for (const auto& texture :
+       {material.colorTexture, material.emissionTexture, material.normalTexture}) {
     if (!texture) continue;
     const auto set = static_cast<std::size_t>(texture->texcoord);
     auto& sets = built_.mesh.texcoords;
@@ -273,6 +276,29 @@ void Builder::finishNormals() {
   if (mesh.topology == Topology::triangles) mesh.normalsMayCancel = normalsMayCancel(mesh);
 }
 
+/// Those of the file, or made where it has none or they no longer fit the vertices.
+void Builder::readTangents(const Material& material, bool stale) {
+  Mesh& mesh = built_.mesh;
+  if (!material.normalTexture || mesh.topology != Topology::triangles) return;
+  const auto set = static_cast<std::size_t>(material.normalTexture->texcoord);
+  if (set >= mesh.texcoords.size() || mesh.texcoords[set].empty()) return;
+  if (!stale) mesh.tangents = read<glm::vec4>(primitive_.attributes, "TANGENT", 4, 4, true);
+  bool good = !mesh.tangents.empty();
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    glm::vec4& tangent = mesh.tangents[i];
+    const glm::dvec3 unit = direction(glm::dvec3(tangent));
+    good = good && glm::dot(unit, unit) > 0.5 && std::abs(tangent.w) > 0.5f;
+    tangent = glm::vec4(glm::vec3(unit), tangent.w < 0 ? -1.0f : 1.0f);
+  }
+  if (good) return;
+  if (!mesh.tangents.empty()) warn("has tangents of length 0 or without handedness, made anew");
+  budget_.keep(mesh.indices.size());
+  std::vector<glm::vec2> places = mesh.texcoords[set];
+  for (glm::vec2& place : places)
+    place = glm::vec2(material.normalTexture->transform * glm::dvec3(place, 1));
+  makeTangents(mesh, places);
+}
+
 std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Material>& materials) {
   if (!readElements()) return std::nullopt;
   Mesh& mesh = built_.mesh;
@@ -289,7 +315,8 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
     return true;
   };
   bool drawn = false;
-  if (built_.skinned || (pose.morphs() && !primitive_.targets.empty())) {
+  const bool posed = built_.skinned || (pose.morphs() && !primitive_.targets.empty());
+  if (posed) {
     auto positions = read<glm::dvec3>(attributes, "POSITION", 3, 3);
     auto normals = read<glm::dvec3>(attributes, "NORMAL", 3, 3);
     morph(pose, "POSITION", positions);
@@ -305,8 +332,11 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
   }
   if (!drawn) return std::nullopt;
   readColors();
-  readTexcoords(materials[static_cast<std::size_t>(mesh.material)]);
+  const Material& material = materials[static_cast<std::size_t>(mesh.material)];
+  readTexcoords(material);
+  const bool flat = mesh.normals.empty();
   finishNormals();
+  readTangents(material, posed || flat);
   return std::move(built_);
 }
 

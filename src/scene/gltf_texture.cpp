@@ -1,7 +1,9 @@
 #include "glint/scene/gltf_texture.h"
 
+#include <cmath>
 #include <cstring>
 
+#include "glint/image/texture.h"
 #include "glint/scene/gltf_file.h"
 
 namespace glint::gltf {
@@ -33,41 +35,69 @@ Wrap wrapOf(std::int64_t value) {
 TextureReader::TextureReader(Document& document, Messages& messages)
     : document_(document), messages_(messages), root_(document.json, messages) {}
 
-std::optional<Texture> TextureReader::read(Cursor info) {
+namespace {
+
+/// uv' = offset + rotation (scale uv); the rotation is counter-clockwise where v runs downwards.
+glm::dmat3x2 transformOf(Cursor from) {
+  const auto pair = [&](const char* key, double fallback) {
+    const Cursor list = from.member(key);
+    list.checkNumbers(2);
+    if (!list.exists()) return glm::dvec2(fallback);
+    return glm::dvec2(list.item(0).number(0), list.item(1).number(0));
+  };
+  const glm::dvec2 offset = pair("offset", 0), scale = pair("scale", 1);
+  const double angle = from.member("rotation").number(0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y, offset};
+}
+
+}  // namespace
+
+std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
   if (!info.exists()) return std::nullopt;
   const Cursor textures = root_.member("textures");
   const auto index = static_cast<std::size_t>(info.required("index").index(textures.size()));
-  const std::int64_t texcoord = info.member("texCoord").integer(0, 0, INT32_MAX);
+  const Cursor transform = info.member("extensions").member("KHR_texture_transform");
+  const std::int64_t texcoord =
+      transform.member("texCoord")
+          .integer(info.member("texCoord").integer(0, 0, INT32_MAX), 0, INT32_MAX);
   const Cursor texture = textures.item(index);
-  const int image = texture.member("source").index(root_.member("images").size());
+  const std::size_t images = root_.member("images").size();
+  int image = texture.member("source").index(images);
+  if (canDecodeWebp()) {
+    const Cursor webp = texture.member("extensions").member("EXT_texture_webp").member("source");
+    if (webp.exists()) image = webp.index(images);
+  }
   if (texcoord > maxTexcoord) {
     messages_.warn(info.path() + " reads texture coordinates " + std::to_string(texcoord) +
                    ", beyond " + std::to_string(maxTexcoord) + ", and is left out");
     return std::nullopt;
   }
   if (image < 0) {
-    messages_.warn(texture.path() + " has no PNG or JPEG image and is left out");
+    messages_.warn(texture.path() + " has no image that is read and is left out");
     return std::nullopt;
   }
   Texture result;
-  result.image = imageSlot(static_cast<std::size_t>(image));
+  result.image = imageSlot(static_cast<std::size_t>(image), isData);
   result.texcoord = static_cast<int>(texcoord);
   result.sampler = sampler(texture);
+  if (transform.exists()) result.transform = transformOf(transform);
   if (result.image < 0) return std::nullopt;
   return result;
 }
 
-int TextureReader::imageSlot(std::size_t index) {
-  if (const auto known = slots_.find(index); known != slots_.end()) return known->second;
-  int& slot = slots_[index];
+int TextureReader::imageSlot(std::size_t index, bool isData) {
+  if (const auto known = slots_.find({index, isData}); known != slots_.end()) return known->second;
+  int& slot = slots_[{index, isData}];
   slot = -1;
   const Cursor image = root_.member("images").item(index);
   // A data URI is its own source; as a key it would be a copy of the image.
   const std::string uri = image.member("uri").text();
   const int view = image.member("bufferView").index(document_.views.size());
-  const std::string source = view >= 0                  ? "view " + std::to_string(view)
-                             : uri.starts_with("data:") ? "image " + std::to_string(index)
-                                                        : "file " + uri;
+  std::string source = view >= 0                  ? "view " + std::to_string(view)
+                       : uri.starts_with("data:") ? "image " + std::to_string(index)
+                                                  : "file " + uri;
+  if (isData) source += " as data";
   if (const auto known = slotsBySource_.find(source); known != slotsBySource_.end()) {
     return slot = known->second;
   }
@@ -76,12 +106,13 @@ int TextureReader::imageSlot(std::size_t index) {
   loaded.bytes = load(image, loaded.name, error);
   if (error.empty()) {
     const std::string_view format = formatOf(loaded.bytes);
-    if (format != "PNG" && format != "JPEG") {
+    if (format != "PNG" && format != "JPEG" && !(format == "WebP" && canDecodeWebp())) {
       error = "is neither PNG nor JPEG (" + std::string(format) + ")";
     }
   }
   if (error.empty()) {
     slot = static_cast<int>(images_.size());
+    loaded.isData = isData;
     images_.push_back(std::move(loaded));
   } else {
     messages_.warn("the image " + loaded.name + " " + error + ", drawn without it");

@@ -17,13 +17,14 @@ class TextureReader {
   TextureReader(Document& document, Messages& messages);
 
   /// Reads a textureInfo object (`baseColorTexture` and the like). Nothing where there is none, or,
-  /// with a warning, where the image is missing or neither PNG nor JPEG.
-  std::optional<Texture> read(Cursor info);
+  /// with a warning, where the image is missing or of no format that is read. `isData`: numbers,
+  /// not colours.
+  std::optional<Texture> read(Cursor info, bool isData = false);
 
   std::vector<EncodedImage> takeImages() { return std::move(images_); }
 
  private:
-  int imageSlot(std::size_t image);
+  int imageSlot(std::size_t image, bool isData);
   std::vector<std::byte> load(Cursor image, std::string& name, std::string& error);
   Sampler sampler(Cursor texture);
 
@@ -31,8 +32,8 @@ class TextureReader {
   Messages& messages_;
   Cursor root_;
   std::vector<EncodedImage> images_;
-  std::map<std::size_t, int> slots_;          ///< by image; -1 is not usable
-  std::map<std::string, int> slotsBySource_;  ///< several images may name one file or view
+  std::map<std::pair<std::size_t, bool>, int> slots_;  ///< by image and use; -1 is not usable
+  std::map<std::string, int> slotsBySource_;           ///< several images may name one file or view
 };
 
 }  // namespace glint::gltf

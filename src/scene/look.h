@@ -9,7 +9,8 @@
 
 namespace glint {
 
-enum class Shading { flat, gouraud, phong, blinnPhong, environment };
+/// `automatic` is a choice by error budget (glint/render/error_budget.h); drawn as it stands, phong.
+enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
 enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
 enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
@@ -67,6 +68,8 @@ struct Look {
   Shading shading = Shading::phong;
   HighlightForm highlight;
   Fresnel fresnel = Fresnel::exact;
+  /// What error the forms may cost in linear radiance; read by resolveLook alone.
+  std::optional<double> maxError;
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;
   std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material

@@ -223,8 +223,8 @@ Parameter resetting(Parameter p, Value Look::*member) {
   return p;
 }
 
-constexpr std::array<std::string_view, 5> shadingNames{"flat", "gouraud", "phong", "blinn-phong",
-                                                       "environment"};
+constexpr std::array<std::string_view, 6> shadingNames{"flat",        "gouraud",     "phong",
+                                                       "blinn-phong", "environment", "auto"};
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
 constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
 
@@ -240,12 +240,17 @@ std::vector<Parameter> makeTable() {
       "Shading",
       {choice("shading", shadingNames, &Look::shading,
               "what is computed where: once per face, per vertex, or per pixel by Phong or "
-              "Blinn-Phong; environment adds reflection and refraction to Blinn-Phong"),
+              "Blinn-Phong; environment adds reflection and refraction to Blinn-Phong; auto is "
+              "phong, or flat or gouraud where --max-error allows"),
        highlight(),
        choice("fresnel", fresnelTexts(), &Look::fresnel,
               "form of the reflectance in environment: exact without cancellation, the textbook's, "
               "Schlick's approximation, the same with its power by exp2, or a rational square "
               "fitted to the index"),
+       slider(number("max-error", "E", 0, 1e6, &Look::maxError,
+                     "takes the cheapest forms of lobe and reflectance whose proven bound for this "
+                     "scene is within E, in linear light; where none is, the exact ones"),
+              1e-5, 1, true),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),

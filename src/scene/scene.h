@@ -24,6 +24,9 @@ struct Mesh {
   glm::dvec3 origin{0.0};
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  ///< unit length, one a position; empty unless triangles
+  /// xyz unit, to where the normal map's picture goes right, w its handedness (1 or -1), one a
+  /// position; empty unless the material has a normal map that the mesh has coordinates for.
+  std::vector<glm::vec4> tangents;
   /// Linear RGB and alpha, one a position, or empty (glTF COLOR_0).
   std::vector<glm::vec4> colors;
   /// texcoords[set] has one a position, or is empty; only sets that the material's textures read.
@@ -48,10 +51,11 @@ struct Sampler {
   Wrap wrapT = Wrap::repeat;
 };
 
-/// A picture as it stands in the file: PNG or JPEG bytes, decoded only when a program reads it.
+/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads it.
 struct EncodedImage {
   std::string name;  ///< for messages: the file, or the place in the model file
   std::vector<std::byte> bytes;
+  bool isData = false;  ///< numbers, as of a normal map, not colours in sRGB
 };
 
 /// Which texture and which texture coordinates a material reads; empty means none.
@@ -59,6 +63,9 @@ struct Texture {
   int image = 0;  ///< index into Scene::images
   int texcoord = 0;
   Sampler sampler;
+  /// From the mesh's coordinates to those of the picture: columns for u, v and 1
+  /// (KHR_texture_transform).
+  glm::dmat3x2 transform{1.0};
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -84,6 +91,8 @@ struct Material {
   double transmission = 0.0;  ///< [0, 1], read by the program `environment`
   std::optional<Texture> colorTexture;     ///< sRGB colour and alpha
   std::optional<Texture> emissionTexture;  ///< sRGB
+  std::optional<Texture> normalTexture;    ///< x right, y up, z out of the surface: 2 texel - 1
+  double normalScale = 1.0;                ///< multiplies its x and y
   AlphaMode alphaMode = AlphaMode::opaque;
   double alphaCutoff = 0.5;  ///< for AlphaMode::mask
   bool doubleSided = false;

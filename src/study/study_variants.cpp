@@ -83,6 +83,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     v.look = look;
     setParameter(v.look, "shading", name);
     v.program = v.look.shading;
+    if (v.program == Shading::automatic) continue;  // one of the others
     const bool environment = v.program == Shading::environment;
     const bool perPixel = v.program == modelOf(v.program);
     const DrawList list = makeDrawList(scene, bounds, exactLook(look, v.program));

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glint/scene/camera.h"
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// What --max-error chose for the materials of one name, and why.
+struct FormChoice {
+  std::string material;
+  bool specular = false;    ///< they have a highlight, and `highlight` says by which form
+  bool dielectric = false;  ///< they reflect an environment, and `fresnel` says by which form
+  HighlightForm highlight;  ///< as --highlight takes it
+  Fresnel fresnel = Fresnel::exact;
+  double lobe = 0;         ///< error of the lobe's formula times m_s S sum of I, linear radiance
+  double reflectance = 0;  ///< error of the reflectance's formula times the environment's radiance
+  double interpolation = 0;  ///< of shading once per face or vertex in place of per pixel
+  double rounding = 0;       ///< of single precision in all of the shading
+  double bound = 0;          ///< their sum: no pixel is farther from the exact sum
+  double cost = 0;           ///< of lobes and reflectance (glint/shading/costs.h), of all lights
+  double exactCost = 0;      ///< what the exact forms would cost
+  std::string reason;
+};
+
+/// A look without --max-error and without --shading auto: it draws what the choice says.
+struct ResolvedLook {
+  Look look;
+  std::vector<FormChoice> choices;  ///< by material; empty without --max-error
+  double bound = 0;                 ///< the largest of the choices
+  std::string programReason;        ///< of --shading auto; otherwise empty
+};
+
+/// Replaces the look's budget by the cheapest forms whose proven bounds keep within it, and
+/// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
+/// enough to it. The forms that the look asks for give way to those chosen. Where no form is within
+/// the budget the exact one is taken, and `bound` is above the budget. A pure function of its
+/// arguments; about a millisecond, and with `auto` a look at every triangle.
+///
+/// The bound is that of shading: of the sum and the environment's terms in linear light, before
+/// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the
+/// outline; and points at which the model itself jumps, where N.L, or what is left to refract,
+/// rounds to the other side of 0.
+ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
+
+/// The largest sum of intensities of lights that can light one point at once, per channel:
+/// directional ones only if some normal sees them all.
+glm::dvec3 activeIntensity(const std::vector<glm::dvec3>& directions,
+                           const std::vector<glm::dvec3>& intensities);
+
+}  // namespace glint

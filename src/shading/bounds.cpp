@@ -1,0 +1,291 @@
+#include "glint/shading/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace glint {
+namespace {
+
+constexpr double u = 0x1p-24;
+constexpr double vectorError = 6.5e-7;  // of D
+constexpr double cosineError = 5e-7;    // of a dot product of rounded unit vectors
+
+// ---- Lobes -----------------------------------------------------------------------------------
+//
+// With f = (1 - x)^a the lobe and g a form, the difference g - f is stationary where log(-g') =
+// log(-f'). s = log(g'/f') vanishes there, and s' is a quotient whose numerator has one root in x,
+// besides, for Pade, a root at 0 (below, form by form). So s has at most one extremum inside, hence
+// at most two roots, one on each side of it; bisection finds them. The ends count too: where g is
+// cut off (x = 1 / beta), from where on the difference is -f, and x = 1, from where on it is g;
+// both fall from there.
+
+struct Difference {
+  double alpha, beta;
+  int gamma;
+  LobeForm form;
+
+  double base(double x) const {
+    return form == LobeForm::pade ? (2.0 - (1.0 + beta) * x) / (2.0 + (beta - 1.0) * x)
+                                  : 1.0 - beta * x;
+  }
+  double logForm(double x) const {
+    if (form == LobeForm::gaussian) return -beta * x;
+    if (form == LobeForm::pade)
+      return gamma * (std::log1p(-0.5 * (1.0 + beta) * x) - std::log1p(0.5 * (beta - 1.0) * x));
+    return gamma * std::log1p(-beta * x);
+  }
+  // f (exp(log g - log f) - 1) keeps its digits where both are nearly the same.
+  double at(double x) const {
+    if (x >= 1.0) return std::exp(logForm(x));
+    const double logExact = alpha * std::log1p(-x);
+    if (form != LobeForm::gaussian && base(x) <= 0.0) return std::exp(logExact);
+    const double above = logForm(x) - logExact;
+    return above > 1.0 ? std::exp(logExact + above) - std::exp(logExact)
+                       : std::abs(std::exp(logExact) * std::expm1(above));
+  }
+  // s, log(g'/f').
+  double slopes(double x) const {
+    const double exact = (alpha - 1.0) * std::log1p(-x);
+    switch (form) {
+      case LobeForm::gaussian:  // g' = -beta exp(-beta x)
+        return std::log(beta / alpha) - beta * x - exact;
+      case LobeForm::pade:  // g' = -4 a top^(gamma - 1) / bottom^(gamma + 1)
+        return (gamma - 1) * std::log1p(-0.5 * (1.0 + beta) * x) -
+               (gamma + 1) * std::log1p(0.5 * (beta - 1.0) * x) - exact;
+      default:  // g' = -gamma beta (1 - beta x)^(gamma - 1)
+        return std::log(gamma * beta / alpha) + (gamma - 1) * std::log1p(-beta * x) - exact;
+    }
+  }
+  // The root of s' between 0 and the end, or a value outside.
+  double extremum() const {
+    switch (form) {
+      case LobeForm::gaussian:  // -beta + (a - 1) / (1 - x)
+        return 1.0 - (alpha - 1.0) / beta;
+      case LobeForm::pade: {
+        // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1,
+        // t = 2 - p x, b = 2 + m x: times t b (1 - x) a quadratic in x without constant term.
+        const double p = 1.0 + beta, m = beta - 1.0, g = gamma;
+        const double linear =
+            -(g - 1) * p * (m - 2) + (g + 1) * m * (p + 2) + (alpha - 1) * 2 * (m - p);
+        const double square = (g - 1) * p * m - (g + 1) * m * p - (alpha - 1) * p * m;
+        return square != 0.0 ? -linear / square : -1.0;
+      }
+      default: {  // -(g - 1) beta / (1 - beta x) + (a - 1) / (1 - x)
+        const double scale = beta * (alpha - gamma);
+        return scale != 0.0 ? ((alpha - 1.0) - (gamma - 1) * beta) / scale : -1.0;
+      }
+    }
+  }
+};
+
+// The largest difference between `low` and `high`, where s has at most one root.
+double largestBetween(const Difference& d, double low, double high) {
+  double largest = std::max(d.at(low), d.at(high));
+  const bool rises = d.slopes(low) < d.slopes(high);
+  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    ((d.slopes(middle) < 0.0) == rises ? low : high) = middle;
+    largest = std::max(largest, d.at(middle));
+  }
+  return largest;
+}
+
+double largestDifference(const Difference& d) {
+  if (!(d.beta > 0.0)) return 1.0;
+  // The end of the form: beyond it, up to 1, only the exact lobe is left.
+  double end = 1.0;
+  if (d.form == LobeForm::pade) end = std::min(2.0 / (1.0 + d.beta), 1.0);
+  if (d.form == LobeForm::lyon) end = std::min(1.0 / d.beta, 1.0);
+  double largest = end < 1.0 ? std::pow(1.0 - end, d.alpha) : 0.0;
+  if (end == 1.0) largest = std::max(largest, d.at(1.0));  // what leaks past 90 degrees
+  const double inside = end * (1.0 - 1e-15), between = d.extremum();
+  if (between > 0.0 && between < inside)
+    return std::max({largest, largestBetween(d, 0.0, between), largestBetween(d, between, inside)});
+  return std::max(largest, largestBetween(d, 0.0, inside));
+}
+
+// ---- Reflectances ----------------------------------------------------------------------------
+
+struct Reflectance {
+  FresnelForm form;
+  FresnelConstants constants;  // from the thinner side: reciprocity gives the other
+  double exponent, k;
+
+  double approximate(double c) const {
+    switch (form) {
+      case FresnelForm::schlick:
+        return schlick(c, constants, exponent);
+      case FresnelForm::schlickExp2:
+        return schlickExp2(c, constants);
+      case FresnelForm::rational:
+        return schlickRational(c, constants, k);
+      default:
+        return fresnelExact(c, constants);
+    }
+  }
+};
+
+// Bounds |approximate - exact| over [low, high]: the approximations fall with c, R_perp too, R_par
+// falls to Brewster's angle (c = 1 / sqrt(n^2 + 1)) and rises from there. Subdivides until that is
+// within `slack` of the largest error seen.
+struct Subdivision {
+  const Reflectance& r;
+  double brewster, largest;
+
+  void cover(double low, double high, const PolarizedReflectance& atLow,
+             const PolarizedReflectance& atHigh, double approximateLow, double approximateHigh,
+             int depth) {
+    const bool bends = low < brewster && brewster < high;
+    const double parallelLeast = bends ? 0.0 : std::min(atLow.parallel, atHigh.parallel);
+    const double least = 0.5 * (atHigh.perpendicular + parallelLeast);
+    const double most = 0.5 * (atLow.perpendicular + std::max(atLow.parallel, atHigh.parallel));
+    const double here = std::max(approximateLow - least, most - approximateHigh);
+    if (here <= 1.25 * largest) return;
+    if (depth == 0) {
+      largest = here;
+      return;
+    }
+    const double middle = 0.5 * (low + high);
+    const PolarizedReflectance exact = fresnelPolarized(middle, r.constants);
+    const double approximate = r.approximate(middle);
+    largest =
+        std::max(largest, std::abs(approximate - 0.5 * (exact.perpendicular + exact.parallel)));
+    cover(low, middle, atLow, exact, approximateLow, approximate, depth - 1);
+    cover(middle, high, exact, atHigh, approximate, approximateHigh, depth - 1);
+  }
+};
+
+// Lengths of the subdivision: depth 48 is 4e-15, below which no index in [1e-3, 1e3] has features.
+constexpr int deepest = 48;
+
+}  // namespace
+
+double lobeFormulaBound(LobeForm form, int gamma, double alpha) {
+  if (!(alpha > 0.0)) return 0.0;  // every form is 1 there, or drawn as the exact one
+  switch (form) {
+    case LobeForm::exact:
+    case LobeForm::pow:
+    case LobeForm::integer:
+      return 0.0;
+    case LobeForm::lyon:
+      return largestDifference({alpha, alpha / gamma, gamma, LobeForm::lyon});
+    case LobeForm::lyonTuned:
+      return largestDifference({alpha, tunedSlope(alpha, gamma), gamma, LobeForm::lyon});
+    case LobeForm::lyonCross:
+      // With y = x (2 - x) in [0, 1], 1 - y = (1 - x)^2: lyon of alpha / 2, gated.
+      return largestDifference({0.5 * alpha, 0.5 * alpha / gamma, gamma, LobeForm::lyon});
+    case LobeForm::pade:
+      return largestDifference({alpha, alpha / gamma, gamma, LobeForm::pade});
+    case LobeForm::gaussian:
+      return largestDifference({alpha, alpha + gaussianShift, 1, LobeForm::gaussian});
+  }
+  return 1.0;
+}
+
+double fresnelFormulaBound(FresnelForm form, double n1, double n2, double exponent) {
+  if (n1 == n2 || form == FresnelForm::exact || form == FresnelForm::textbook) return 0.0;
+  const FresnelConstants constants = fresnelConstants(std::min(n1, n2), std::max(n1, n2));
+  const Reflectance r{form, constants, exponent,
+                      form == FresnelForm::rational ? rationalMinimax(n1, n2) : 0.0};
+  Subdivision s{r, 1.0 / std::sqrt(constants.nSquaredPlus1), 1e-9};
+  // First a look around, so that little needs subdividing: half of the angles within the scale on
+  // which R falls.
+  const double scale = std::sqrt(constants.e) / constants.nSquaredPlus1;
+  for (int i = 0; i < 256; ++i) {
+    const double t = (i + 0.5) / 256, c = scale * t / (1.0 - t + scale * t);
+    s.largest = std::max(s.largest, std::abs(r.approximate(c) - fresnelExact(c, constants)));
+  }
+  // At 0 both are 1 (exponent 0 aside, whose form is 1 throughout); right of it too.
+  s.cover(0.0, 1.0, {1.0, 1.0}, fresnelPolarized(1.0, constants), 1.0, r.approximate(1.0), deepest);
+  return std::min(1.25 * s.largest, 1.0);
+}
+
+double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
+  const double off = blinn ? 8.0 * vectorError : vectorError;
+  // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
+  // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
+  double geometry = 0.0;
+  if (alpha >= 1.0) {
+    const double t2 = 1.0 / (alpha - 0.5);
+    geometry = off * alpha * std::sqrt(t2) * std::pow(1.0 - 0.5 * t2, alpha - 1.0);
+  } else {
+    geometry = std::pow(std::numbers::sqrt2 * off, std::max(alpha, 0.0)) + off;
+  }
+  double own = 1e-6;
+  switch (form) {
+    case LobeForm::exact:
+      break;
+    case LobeForm::pow:
+      // The cosine of rounded vectors by 1e-6, log2 by 2^-21 log 2: alpha times both.
+      own += 1.4e-6 * alpha;
+      break;
+    case LobeForm::integer:
+      own = (1.5 * alpha + 4.0) * u;
+      break;
+    case LobeForm::lyon:
+    case LobeForm::lyonTuned:
+    case LobeForm::lyonCross:
+      own = (1.5 * gamma + 4.0) * u;
+      break;
+    case LobeForm::pade:
+      // The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 +
+      // beta) for beta < 1), and 9 u of itself, the division's 5 u included.
+      own = gamma * 12.0 * u * std::max(1.0, 0.5 + 0.5 * gamma / std::max(alpha, 1e-9));
+      break;
+    case LobeForm::gaussian:
+      own = 6.5 * u;
+      break;
+  }
+  return std::min(geometry + own, 1.0);
+}
+
+double fresnelRoundingBound(FresnelForm form, double n1, double n2, double) {
+  if (n1 == n2) return 0.0;
+  const double steep = criticalCosine(n1, n2);  // 0 from the thinner side: grazing incidence
+  // R falls from 1 there; for large indices it rises again within that way: the least on it counts.
+  double least = 1.0;
+  for (double way = cosineError; way > 1e-4 * cosineError; way *= 0.9)
+    least = std::min(least, fresnelExact(std::min(steep + way, 1.0), n1, n2));
+  const double geometry = std::min(1.02 * (1.0 - least), 1.0);
+  double own = form == FresnelForm::rational ? 1.5e-6 : 1e-6;
+  if (form == FresnelForm::schlick) own += 3.4e-7 * 5.0;
+  // The textbook's square under the root and its two differences lose what n2 - n1 is small by, and
+  // all of it from the denser side.
+  if (form == FresnelForm::textbook)
+    own = n2 > n1 ? std::min(1e-6 + 1e-7 / ((n2 - n1) / n1), 1.0) : 1.0;
+  return std::min(geometry + own, 1.0);
+}
+
+double largestRadiance(BuiltinEnvironment environment) {
+  // The largest of a search over all directions, which the test repeats: 2.24 and 2.94.
+  switch (environment) {
+    case BuiltinEnvironment::white:
+      return 1.0;
+    case BuiltinEnvironment::sky:
+      return 2.3;
+    case BuiltinEnvironment::studio:
+      return 3.0;
+  }
+  return 1.0;
+}
+
+double steepestRadiance(BuiltinEnvironment environment) {
+  // A smoothstep of width w is as steep as 1.5 / w: the studio's strip of 2.1 with edges of 0.1 by
+  // 31.5, where its other side is flat. The sky's horizon is 0.1 wide over less than 1.9, 28. What
+  // else changes there adds less than the rest.
+  switch (environment) {
+    case BuiltinEnvironment::white:
+      return 0.0;
+    case BuiltinEnvironment::sky:
+      return 40.0;
+    case BuiltinEnvironment::studio:
+      return 45.0;
+  }
+  return 0.0;
+}
+
+}  // namespace glint

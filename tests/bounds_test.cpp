@@ -1,0 +1,174 @@
+// The bounds of the forms, attacked from both sides: nothing found is above, and none is more than
+// 1.5 times the worst found.
+
+#include "glint/shading/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+using namespace glint;
+
+namespace {
+
+int draws(int usual) {
+  const char* more = std::getenv("GLINT_BOUND_DRAWS");
+  return more != nullptr ? std::max(std::atoi(more), 1) : usual;
+}
+
+// The worst error of a lobe's form: where it is cut off, at 90 degrees and just beyond, and over
+// two scales of lambda, then nearer and nearer to the worst of them.
+double worstOfLobe(LobeForm form, int gamma, double alpha) {
+  double worst = 0, at = 0;
+  const auto attempt = [&](double x) {
+    if (!(x >= 0 && x <= 2)) return;
+    const double exact = x < 1 ? std::exp(alpha * std::log1p(-x)) : 0.0;
+    const double error = std::abs(lobe(form, gamma, x, alpha) - exact);
+    if (error > worst) worst = error, at = x;
+  };
+  const int count = 600;
+  const double scale = std::min(12 / alpha, 2.0);
+  for (int i = 0; i <= count; ++i) {
+    attempt(2.0 * i / count);
+    attempt(scale * i / count);
+  }
+  for (double end : {1.0, gamma / alpha, 2 * gamma / (gamma + alpha), 1 / tunedSlope(alpha, gamma)})
+    for (double off : {0.0, 1e-15, 1e-9}) attempt(end * (1 - off)), attempt(end * (1 + off));
+  for (double step = scale / count; step > 1e-9 * scale; step *= 0.5) {
+    const double middle = at;
+    for (int i = -2; i <= 2; ++i) attempt(middle + step * i);
+  }
+  return worst;
+}
+
+TEST(Bounds, OfLobesAreTheWorstThereIs) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  constexpr LobeForm forms[] = {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross,
+                                LobeForm::pade, LobeForm::gaussian};
+  double loosest = 0;
+  for (int i = 0; i < draws(4000); ++i) {
+    const LobeForm form = forms[i % 5];
+    const int gamma = 1 << int(7 * unit(random));
+    // From 0.2 on: below, doubles next to lambda = 1 no longer reach what the lobe falls by there.
+    double alpha = 0.2 * std::pow(5e6, unit(random));
+    if (i % 7 == 0) alpha = gamma * (1 + 0.02 * (unit(random) - 0.5));
+    const double bound = lobeFormulaBound(form, gamma, alpha);
+    const double worst = worstOfLobe(form, gamma, alpha);
+    ASSERT_LE(worst, bound + 1e-9 * bound + 1e-12)
+        << int(form) << ":" << gamma << " alpha " << alpha;
+    ASSERT_LE(bound, 1.5 * worst + 1e-9) << int(form) << ":" << gamma << " alpha " << alpha;
+    if (worst > 1e-8) loosest = std::max(loosest, bound / worst);
+  }
+  RecordProperty("loosest", std::to_string(loosest));
+}
+
+TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
+  for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
+                        LobeForm::gaussian})
+    for (int gamma = 1; gamma <= 64; gamma *= 2) {
+      EXPECT_EQ(lobeFormulaBound(form, gamma, 0), 0.0);
+      for (double alpha : {1e-6, 1e-3, 1.0, 2.0, 1e6}) {
+        const double bound = lobeFormulaBound(form, gamma, alpha);
+        EXPECT_TRUE(bound >= 0 && bound <= 1) << int(form) << ":" << gamma << " " << alpha;
+        EXPECT_LE(worstOfLobe(form, gamma, alpha), bound + 1e-12);
+      }
+      if (form == LobeForm::lyon || form == LobeForm::pade) {  // exact there
+        EXPECT_LE(lobeFormulaBound(form, gamma, gamma), 1e-12);
+      }
+    }
+  for (LobeForm form : {LobeForm::exact, LobeForm::pow, LobeForm::integer})
+    EXPECT_EQ(lobeFormulaBound(form, 1, 20), 0.0);
+  // Published: 0.0350 (gamma 8, alpha 1000), 0.0164 tuned, 0.134 / alpha.
+  EXPECT_NEAR(lobeFormulaBound(LobeForm::lyon, 8, 1000), 0.0350, 6e-5);
+  EXPECT_NEAR(lobeFormulaBound(LobeForm::lyonTuned, 8, 1000), 0.0164, 6e-5);
+  EXPECT_NEAR(lobeFormulaBound(LobeForm::gaussian, 1, 1e4), 0.1337e-4, 1e-8);
+}
+
+TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < draws(300); ++i) {
+    const auto form = FresnelForm(2 + i % 3);
+    double n = 1 + 3 * unit(random);
+    if (i % 3 == 1) n = 1 + std::pow(10, -7 + 6 * unit(random));
+    if (i % 3 == 2) n = std::pow(10, 3 * unit(random));
+    const double exponent = i % 2 ? 5 : 20 * unit(random);
+    const FresnelConstants constants = fresnelConstants(1, n);
+    const double k = rationalMinimax(1, n),
+                 scale = std::sqrt(constants.e) / constants.nSquaredPlus1;
+    double worst = 0;
+    for (int j = 0; j < 3000; ++j) {
+      const double t = (j + 0.5) / 3000;
+      for (double c : {t, scale * t / (1 - t + scale * t)}) {
+        const double value = form == FresnelForm::schlick       ? schlick(c, constants, exponent)
+                             : form == FresnelForm::schlickExp2 ? schlickExp2(c, constants)
+                                                                : schlickRational(c, constants, k);
+        worst = std::max(worst, std::abs(value - fresnelExact(c, constants)));
+      }
+    }
+    const double bound = fresnelFormulaBound(form, 1, n, exponent);
+    ASSERT_LE(worst, bound + 1e-9) << int(form) << " n " << n << " exponent " << exponent;
+    ASSERT_LE(bound, 1.5 * worst + 1e-8) << int(form) << " n " << n << " exponent " << exponent;
+    // The same from the denser side, whose angles are compressed.
+    EXPECT_NEAR(fresnelFormulaBound(form, n, 1, exponent), bound, 1e-6 * bound + 1e-12);
+  }
+  EXPECT_EQ(fresnelFormulaBound(FresnelForm::schlick, 1.5, 1.5), 0.0);
+  EXPECT_EQ(fresnelFormulaBound(FresnelForm::exact, 1, 1.5), 0.0);
+}
+
+// What rounding of the cosine does to the exact reflectance is largest at grazing incidence or next
+// to the critical angle.
+TEST(Bounds, OfRoundingCoverEveryCosine) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < draws(200); ++i) {
+    const double n = i % 2 ? 1 + 3 * unit(random) : 1 + std::pow(10, -6 + 8 * unit(random));
+    for (bool denser : {false, true}) {
+      const double n1 = denser ? n : 1, n2 = denser ? 1 : n, steep = criticalCosine(n1, n2);
+      const double bound = fresnelRoundingBound(FresnelForm::exact, n1, n2);
+      for (int j = 0; j < 300; ++j) {
+        const double c = steep + (1 - steep) * std::pow(10, -7 * unit(random)) - 1e-7;
+        for (double off : {5e-7, -5e-7})
+          ASSERT_LE(std::abs(fresnelExact(c + off, n1, n2) - fresnelExact(c, n1, n2)), bound)
+              << n1 << " to " << n2 << " at " << c;
+      }
+    }
+  }
+}
+
+TEST(Bounds, OfEnvironments) {
+  for (auto map :
+       {BuiltinEnvironment::studio, BuiltinEnvironment::sky, BuiltinEnvironment::white}) {
+    double most = 0, steepest = 0;
+    std::mt19937 random(14);
+    std::normal_distribution<double> normal;
+    const auto brightest = [&](const glm::dvec3& d) {
+      const glm::dvec3 e = environmentRadiance(map, d);
+      return std::max({e.x, e.y, e.z});
+    };
+    glm::dvec3 best(0, 1, 0);
+    for (int i = 0; i < 100000; ++i) {
+      // Half of them ever nearer to the brightest.
+      const glm::dvec3 any(normal(random), normal(random), normal(random));
+      const glm::dvec3 d = glm::normalize(i % 2 ? any : best + std::pow(0.5, i / 5000.0) * any);
+      const double value = brightest(d);
+      if (value > most) most = value, best = d;
+      const glm::dvec3 near =
+          glm::normalize(d + 1e-6 * glm::dvec3(normal(random), normal(random), normal(random)));
+      const glm::dvec3 change = environmentRadiance(map, near) - environmentRadiance(map, d);
+      const double way = glm::length(near - d);
+      if (way > 1e-7)
+        steepest = std::max(
+            steepest, std::max({std::abs(change.x), std::abs(change.y), std::abs(change.z)}) / way);
+    }
+    EXPECT_LE(most, largestRadiance(map));
+    EXPECT_GE(1.1 * most, largestRadiance(map));
+    EXPECT_LE(steepest, steepestRadiance(map));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,136 @@
+// --max-error on the driver: the shading of pictures in the forms chosen, against the exact
+// reference given the driver's own interpolated positions and normals.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+#include "glint/gl/context.h"
+#include "glint/render/error_budget.h"
+#include "glint/render/reference_renderer.h"
+#include "glint/render/renderer.h"
+#include "glint/scene/parameters.h"
+#include "scenes.h"
+
+namespace glint {
+namespace {
+
+class BudgetOnDriver : public testing::TestWithParam<Backend> {};
+
+struct Random {
+  std::mt19937 engine;
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine); }
+  double log(double low, double high) { return low * std::pow(high / low, unit()); }
+  int below(int count) { return int(unit() * count); }
+  bool coin() { return unit() < 0.5; }
+  glm::dvec3 color() { return {unit(), unit(), unit()}; }
+  glm::dvec3 direction() {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(engine), normal(engine), normal(engine)));
+  }
+};
+
+Image pictureOf(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look) {
+  auto picture = renderer.begin(scene, std::move(list), look);
+  Image image{look.resolution.x, look.resolution.y, {}}, band;
+  for (int i = 0; i < picture.bandCount(); ++i) {
+    picture.drawBand(band);
+    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
+  }
+  return image;
+}
+
+glm::dvec3 at(const Image& image, int x, int y) {
+  const float* p = image.row(y) + 4 * x;
+  return {p[0], p[1], p[2]};
+}
+
+TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
+  const auto context = openContext(GetParam());
+  context->makeCurrent();
+  Renderer renderer;
+  Random r{std::mt19937(31)};
+  const char* more = std::getenv("GLINT_BUDGET_DRAWS");
+  const int draws = more != nullptr ? std::max(std::atoi(more), 1) : 12;
+  int pixels = 0, approximate = 0;
+  double nearest = 0;
+  for (int i = 0; i < draws; ++i) {
+    Material m = test::materialOf(r.unit(), r.unit(), r.log(0.05, 1.5), r.log(1, 2000),
+                                  r.coin() ? 0 : r.unit(), r.color());
+    if (r.coin()) m.shading.exponent = std::round(m.shading.exponent);
+    m.shading.ior = 1.1 + 2 * r.unit();
+    Scene scene = test::sceneOf(test::sphere(24, 12), m);
+    Look look;
+    constexpr Shading programs[] = {Shading::phong, Shading::blinnPhong, Shading::environment,
+                                    Shading::automatic};
+    look.shading = programs[i % 4];
+    const Shading truth = i % 4 == 3 ? Shading::phong : look.shading;
+    look.maxError = r.log(2e-5, 0.3);
+    look.light.emplace();
+    for (int k = r.below(3); k >= 0; --k)
+      look.light->push_back(test::directional(r.direction(), r.color()));
+    look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
+    look.environment = Environment(r.below(3));
+    look.resolution = {32, 32};
+    look.antiAliasing = {AntiAliasing::Mode::none, 1};
+    look.noBackground = true;
+    const Bounds bounds = boundsOf(scene);
+    const ResolvedLook resolved = resolveLook(scene, bounds, look);
+    approximate += resolved.look.highlight != HighlightForm(Highlight::exact);
+    Look exact = resolved.look;
+    exact.shading = truth;
+    exact.highlight = Highlight::exact;
+    exact.fresnel = Fresnel::exact;
+    const ReferenceRenderer reference(scene, {}, bounds, exact, 1);
+    const auto attributes = reference.attributes(0, 32);
+    GpuScene gpu(scene, {});
+    const Image drawn =
+        pictureOf(renderer, gpu, makeDrawList(scene, bounds, resolved.look), resolved.look);
+    const DrawList geometry = makeDrawList(scene, bounds, exact);
+    const auto attribute = [&](PixelOutput output) {
+      DrawList list = geometry;
+      for (DrawItem& item : list.items) item.variant = attributeVariant(item.variant, output);
+      return pictureOf(renderer, gpu, std::move(list), exact);
+    };
+    const Image positions = attribute(PixelOutput::position);
+    const Image normals = attribute(PixelOutput::normal);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) {
+        reference::Attributes a = attributes[std::size_t(32 * y + x)];
+        if (a.item < 0 || drawn.row(y)[4 * x + 3] == 0) continue;
+        a.position = at(positions, x, y);
+        a.normal = at(normals, x, y);
+        // Where N.L rounds to either side of 0 the model itself jumps.
+        const glm::dvec3 n = glm::normalize(a.normal);
+        bool jumps = false;
+        for (const reference::Light& light : reference.stage().frame.lights)
+          jumps = jumps || std::abs(glm::dot(n, light.place)) < 2e-6;
+        if (jumps) continue;
+        const glm::dvec3 difference = glm::abs(at(drawn, x, y) - reference.shade(a).radiance);
+        const double error = std::max({difference.x, difference.y, difference.z});
+        ++pixels;
+        nearest = std::max(nearest, error / resolved.bound);
+        ASSERT_LE(error, resolved.bound)
+            << saveLook(look) << saveLook(resolved.look) << x << "," << y;
+        if (resolved.bound <= *look.maxError) {
+          ASSERT_LE(error, *look.maxError);
+        }
+      }
+  }
+  std::printf(
+      "%d pixels of %d pictures, %d of them in another form than exact; at most %.3f of the "
+      "bound\n",
+      pixels, draws, approximate, nearest);
+  EXPECT_GT(pixels, 100 * draws);
+  EXPECT_GT(approximate, draws / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Software, BudgetOnDriver, testing::Values(Backend::osmesa),
+                         [](const auto&) { return "osmesa"; });
+
+}  // namespace
+}  // namespace glint

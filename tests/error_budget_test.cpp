@@ -1,0 +1,264 @@
+// --max-error: the choice keeps within its budget, and is not needlessly dear. Without GL: the
+// formulas in double, with what single precision does to the inputs of a lobe.
+
+#include "glint/render/error_budget.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "glint/render/reference_renderer.h"
+#include "glint/scene/parameters.h"
+#include "glint/shading/bounds.h"
+#include "glint/shading/costs.h"
+#include "scenes.h"
+
+using namespace glint;
+
+namespace {
+
+int draws(int usual) {
+  const char* more = std::getenv("GLINT_BUDGET_DRAWS");
+  return more != nullptr ? std::max(std::atoi(more), 1) : usual;
+}
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine_); }
+  double log(double low, double high) { return low * std::pow(high / low, unit()); }
+  int below(int count) { return int(unit() * count); }
+  bool coin() { return unit() < 0.5; }
+  glm::dvec3 direction() {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
+  }
+  glm::dvec3 color() { return {unit(), unit(), unit()}; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+struct Draw {
+  Scene scene;
+  Look look;
+};
+
+Draw randomDraw(Random& r, bool automatic) {
+  Draw d;
+  Material m = test::materialOf(r.unit(), r.unit(), r.log(0.01, 2), r.log(0.5, 3000),
+                                r.coin() ? 0.0 : r.unit());
+  if (r.below(3) == 0) m.shading.exponent = std::round(m.shading.exponent) + 1;
+  m.shading.color = r.color();
+  m.shading.ior = r.coin() ? 1 + 2 * r.unit() : r.log(0.4, 4);
+  if (r.below(4) == 0) m.transmission = r.unit();
+  d.scene = test::sceneOf(test::quad(), m);
+  for (glm::vec3& n : d.scene.meshes[0].normals)
+    n = glm::normalize(glm::vec3(n) +
+                       float(r.coin() ? 0.2 * r.unit() : 0) * glm::vec3(r.direction()));
+  constexpr Shading programs[] = {Shading::phong, Shading::blinnPhong, Shading::environment};
+  d.look.shading = automatic ? Shading::automatic : programs[r.below(3)];
+  d.look.maxError = r.log(1e-5, 0.5);
+  d.look.light.emplace();
+  for (int i = r.below(automatic ? 3 : 5); i >= 0; --i) {
+    Light light = test::directional(r.direction(), r.color());
+    if (!automatic && r.below(3) == 0) {
+      light.type = Light::Type::point;
+      light.position = 3.0 * r.direction();
+      light.direction = glm::dvec3(0.0);
+    }
+    d.look.light->push_back(light);
+  }
+  d.look.ambientLight = 0.2 * r.color();
+  d.look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
+  d.look.environment = Environment(r.below(3));
+  d.look.resolution = {12, 12};
+  d.look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  return d;
+}
+
+double largestDifference(const Image& a, const Image& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    worst = std::max(worst, std::abs(double(a.values[i]) - double(b.values[i])));
+  return worst;
+}
+
+Look exactly(const Look& look, Shading shading) {
+  Look exact = look;
+  exact.maxError.reset();
+  exact.shading = shading;
+  exact.highlight = Highlight::exact;
+  exact.fresnel = Fresnel::exact;
+  for (auto& [name, edit] : exact.material) edit.highlight.reset(), edit.fresnel.reset();
+  return exact;
+}
+
+Image drawn(const Draw& d, const Look& look) {
+  return ReferenceRenderer(d.scene, {}, boundsOf(d.scene), look, 1).draw();
+}
+
+std::string describe(const Draw& d, const ResolvedLook& r) {
+  return saveLook(d.look) + saveLook(r.look) + " exponent " +
+         std::to_string(d.scene.materials[0].shading.exponent);
+}
+
+}  // namespace
+
+TEST(ErrorBudget, PicturesKeepWithinIt) {
+  Random random(21);
+  int chosen = 0;
+  for (int i = 0; i < draws(1500); ++i) {
+    const Draw d = randomDraw(random, i % 3 == 0);
+    const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
+    EXPECT_FALSE(resolved.look.maxError);
+    const Shading truth = d.look.shading == Shading::automatic ? Shading::phong : d.look.shading;
+    const double error =
+        largestDifference(drawn(d, resolved.look), drawn(d, exactly(d.look, truth)));
+    // The formulas' part alone: the reference has no rounding to speak of but that of its floats.
+    ASSERT_LE(error, std::max(resolved.bound, 0.0) + 1e-6) << describe(d, resolved);
+    if (resolved.bound <= *d.look.maxError) {
+      ASSERT_LE(error, *d.look.maxError + 1e-6) << describe(d, resolved);
+    }
+    chosen += resolved.look.highlight != HighlightForm(Highlight::exact);
+  }
+  EXPECT_GT(chosen, draws(1500) / 4);
+}
+
+// Against the search over all forms for those whose measured error over lambda, not whose bound, is
+// within: the chosen one costs no more than the cheapest of those for half of the budget.
+TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
+  Random random(22);
+  for (int i = 0; i < draws(150); ++i) {
+    Draw d = randomDraw(random, false);
+    d.look.shading = Shading::phong;
+    d.look.maxError = random.log(1e-3, 0.3);
+    ShadingParameters& m = d.scene.materials[0].shading;
+    const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
+    ASSERT_EQ(resolved.choices.size(), 1u);
+    glm::dvec3 light(0.0);
+    for (const Light& each : *d.look.light) light += each.intensity;
+    const glm::dvec3 S = m.metalness * m.color + (1 - m.metalness);
+    const double scale = m.specular * std::max({S.x * light.x, S.y * light.y, S.z * light.z});
+    double least = lobeCost(LobeForm::exact, 1);
+    for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
+                          LobeForm::gaussian})
+      for (int gamma = 1; gamma <= 64; gamma *= 2) {
+        double worst = 0;
+        for (int k = 0; k <= 4000; ++k)
+          for (double x : {k / 2000.0, std::min(15.0 / m.exponent, 2.0) * k / 4000}) {
+            const double exact = x < 1 ? std::exp(m.exponent * std::log1p(-x)) : 0.0;
+            worst = std::max(worst, std::abs(lobe(form, gamma, x, m.exponent) - exact));
+          }
+        if (scale * worst < 0.6 * *d.look.maxError) least = std::min(least, lobeCost(form, gamma));
+      }
+    EXPECT_LE(resolved.choices[0].cost, least * double(d.look.light->size()) + 1e-9)
+        << describe(d, resolved);
+  }
+}
+
+TEST(ErrorBudget, BelowTheExactFormsOwnBoundItIsExact) {
+  Random random(23);
+  for (int i = 0; i < 20; ++i) {
+    Draw d = randomDraw(random, false);
+    d.look.maxError = 0;
+    const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
+    EXPECT_EQ(resolved.look.highlight, Highlight::exact);
+    EXPECT_EQ(resolved.look.fresnel, Fresnel::exact);
+    EXPECT_GT(resolved.bound, 0);
+    EXPECT_THAT(resolved.choices.at(0).reason, testing::HasSubstr("no form is within 0"));
+  }
+}
+
+TEST(ErrorBudget, ALargerBudgetNeverCostsMore) {
+  Random random(24);
+  for (int i = 0; i < 40; ++i) {
+    Draw d = randomDraw(random, false);
+    double before = 1e9;
+    for (double budget : {0.0, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 1e6}) {
+      d.look.maxError = budget;
+      const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
+      EXPECT_LE(resolved.choices.at(0).cost, before) << budget;
+      before = resolved.choices.at(0).cost;
+    }
+  }
+}
+
+TEST(ErrorBudget, ResolvedLooksStayAsTheyAre) {
+  Random random(25);
+  for (int i = 0; i < 40; ++i) {
+    const Draw d = randomDraw(random, i % 2 == 0);
+    const ResolvedLook once = resolveLook(d.scene, boundsOf(d.scene), d.look);
+    EXPECT_EQ(resolveLook(d.scene, boundsOf(d.scene), once.look).look, once.look);
+    Look back;
+    readLook(back, saveLook(once.look), "look");
+    EXPECT_EQ(back, once.look);
+  }
+}
+
+TEST(ErrorBudget, MaterialsThatDifferGetFormsOfTheirOwn) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 1, 2000));
+  scene.materials[0].name = "sharp";
+  Material dull = test::materialOf(1, 1, 0.001, 3.5);
+  dull.name = "dull";
+  scene.materials.push_back(dull);
+  scene.meshes.push_back(scene.meshes[0]);
+  scene.meshes[1].material = int(scene.materials.size()) - 1;
+  scene.instances.push_back({1, glm::dmat4(1.0)});
+  Look look;
+  look.maxError = 0.005;
+  const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+  ASSERT_EQ(resolved.choices.size(), 2u);
+  EXPECT_NE(resolved.choices[0].highlight, resolved.choices[1].highlight);
+  EXPECT_EQ(resolved.look.material.at("dull").highlight, resolved.choices[0].highlight);
+  EXPECT_EQ(resolved.look.material.at("sharp").highlight, resolved.choices[1].highlight);
+}
+
+TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 20));
+  Look look;
+  look.shading = Shading::automatic;
+  look.viewer = Viewer::infinite;
+  look.maxError = 1e-3;
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  look.viewer = Viewer::local;  // the highlight moves over the face
+  EXPECT_NE(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  look.maxError.reset();
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
+}
+
+TEST(ActiveIntensity, CountsOnlyLightsThatOneNormalSees) {
+  using V = std::vector<glm::dvec3>;
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), one(1.0), half(0.5);
+  EXPECT_EQ(activeIntensity({}, {}), glm::dvec3(0.0));
+  EXPECT_EQ(activeIntensity({x}, {one}), one);
+  EXPECT_EQ(activeIntensity({x, -x}, {one, half}), one);
+  EXPECT_EQ(activeIntensity({x, y, z}, {one, one, one}), glm::dvec3(3.0));
+  EXPECT_EQ(activeIntensity({x, -x, y, -y, z, -z}, V(6, one)), glm::dvec3(3.0));
+  EXPECT_EQ(activeIntensity({x, x, -x}, V(3, one)), glm::dvec3(2.0));
+  // Against normals at random: never below, and reached.
+  Random random(26);
+  for (int i = 0; i < 20; ++i) {
+    V directions, intensities;
+    for (int k = 2 + random.below(8); k > 0; --k) {
+      directions.push_back(random.direction());
+      intensities.push_back(random.color());
+    }
+    glm::dvec3 most(0.0);
+    for (int k = 0; k < 5000; ++k) {
+      const glm::dvec3 n = random.direction();
+      glm::dvec3 sum(0.0);
+      for (std::size_t j = 0; j < directions.size(); ++j)
+        if (glm::dot(n, directions[j]) > 0) sum += intensities[j];
+      most = glm::max(most, sum);
+    }
+    const glm::dvec3 bound = activeIntensity(directions, intensities);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_LE(most[c], bound[c] + 1e-12);
+      EXPECT_GE(most[c], 0.75 * bound[c]);
+    }
+  }
+}
