@@ -1,0 +1,35 @@
+#include <algorithm>
+#include <cstring>
+
+#include "glint/image/decoders.h"
+
+#if GLINT_WEBP
+#include <webp/decode.h>
+#endif
+
+namespace glint::detail {
+
+bool isWebp(std::span<const std::byte> bytes) {
+  return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+         std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name) {
+#if GLINT_WEBP
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  ByteImage image;
+  // 16383 pixels a side are the most that the format has.
+  if (!WebPGetInfo(data, bytes.size(), &image.width, &image.height))
+    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+  image.values.resize(std::size_t(4) * image.width * image.height);
+  if (!WebPDecodeRGBAInto(data, bytes.size(), image.values.data(), image.values.size(),
+                          4 * image.width))
+    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+  return image;
+#else
+  throw InputError(printablePath(name) +
+                   ": WebP, which this build does not read: convert it to PNG or JPEG");
+#endif
+}
+
+}  // namespace glint::detail
