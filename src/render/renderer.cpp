@@ -257,7 +257,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
     }
     target.resolve();
-    glFinish();  // reading back waits for it in any case; so each time is told apart
+    if (rows) glFinish();  // reading back waits for it in any case; so each time is told apart
     checkGl("draw");
   }
   if (!rows) return;

@@ -33,8 +33,8 @@ class Renderer {
     /// The next band's rows: linear, premultiplied by alpha over the background, before exposure.
     /// The image is reused if it has room.
     void drawBand(Image& rows);
-    /// Draws the whole picture once more, without reading it back, and waits until it is done: what
-    /// is measured of a frame. The bands stay as they are.
+    /// Draws the whole picture once more without reading it back, and does not wait: what is
+    /// measured of a frame until glFinish. The bands stay as they are.
     void redraw();
     const DrawList& list() const { return list_; }
     /// Samples a pixel that the driver gave.

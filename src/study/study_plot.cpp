@@ -134,6 +134,7 @@ std::string studyPlot(const Json& json) {
   for (const Point& p : points)
     if (p.onFront) path += (path.empty() ? "M" : " L") + number(x(p.ms)) + " " + number(y(p.error));
   svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.5\"/>\n";
+  bool above = true;
   for (const Point& p : points) {
     const std::string color = colorOf(p.shading);
     svg += line(x(p.low), y(p.error), x(p.high), y(p.error),
@@ -141,7 +142,10 @@ std::string studyPlot(const Json& json) {
     svg += "<circle cx=\"" + number(x(p.ms)) + "\" cy=\"" + number(y(p.error)) + "\" r=\"" +
            (p.onFront ? "5" : "3") + "\" fill=\"" + color + "\"><title>" + p.name +
            "</title></circle>\n";
-    if (p.onFront) svg += text(x(p.ms) + 8, y(p.error) - 6, p.name, "font-weight=\"bold\"");
+    // Neighbours' names above and below, or they would lie on each other.
+    if (p.onFront)
+      svg += text(x(p.ms) + 8, y(p.error) + (above ? -7 : 15), p.name, "font-weight=\"bold\"");
+    above = above != p.onFront;
   }
   double place = left;
   for (const char* shading : {"flat", "gouraud", "phong", "blinn-phong", "environment"}) {

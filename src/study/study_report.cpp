@@ -110,9 +110,10 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
           "%d that are not counted.",
           head.rounds, head.warmUp),
       "wall: from the first GL call of a frame until glFinish returns, nothing read back.",
-      software ? "query: GL_TIME_ELAPSED. llvmpipe counts from the first to the last work of its "
-                 "rasteriser's threads; vertices and binning run on the calling thread, outside it."
-               : "query: GL_TIME_ELAPSED, the time of the GPU alone.",
+      software
+          ? "query: GL_TIME_ELAPSED. llvmpipe counts in its rasteriser's threads, anew in each "
+            "tile: a small part of a frame, which is why nothing here is judged by it."
+          : "query: GL_TIME_ELAPSED, the time of the GPU alone.",
       formatted(
           "empty: the target is cleared and no more; constant: the same surface in one colour. ns "
           "per pixel: median above the empty frame, for each of the %zu covered pixels.",
