@@ -278,7 +278,8 @@ std::vector<std::string> featureNames(const Variant& v) {
 }
 
 std::string_view shadingName(Shading shading) {
-  constexpr std::string_view names[] = {"flat", "gouraud", "phong", "blinn-phong", "environment"};
+  constexpr std::string_view names[] = {"flat",        "gouraud",     "phong",
+                                        "blinn-phong", "environment", "auto"};
   return names[std::size_t(shading)];
 }
 
