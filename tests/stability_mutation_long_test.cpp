@@ -192,11 +192,11 @@ TEST_P(Mutation, IsCaught) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
-                         [](const testing::TestParamInfo<Guard>& info) {
-                           std::string file = info.param.file;
+                         [](const testing::TestParamInfo<Guard>& tested) {
+                           std::string file = tested.param.file;
                            file.resize(file.find('.'));
                            std::erase(file, '_');
-                           return file + std::to_string(info.index) +
-                                  (*info.param.caught ? "_" + std::string(info.param.caught)
+                           return file + std::to_string(tested.index) +
+                                  (*tested.param.caught ? "_" + std::string(tested.param.caught)
                                                       : std::string("_equivalent"));
                          });
