@@ -257,6 +257,31 @@ def test_the_window_shows_what_glint_render_draws():
             assert a.read() == b.read(), "the screenshot is another file than glint render's"
 
 
+def test_what_a_budget_chooses_is_what_glint_render_draws():
+    # Without highlight vertices come near enough, so that auto is another program than phong.
+    with Viewer(SPHERE, "--max-error", "0.02", screen=(1000, 640)) as viewer:
+        drawn, look = viewer.picture()
+        assert look["max-error"] == 0.02
+        assert look["highlight"] == "exact", "the look that is saved holds the choice"
+        path = os.path.join(viewer.folder, "sphere_1.json")
+        with open(path, "w") as file:
+            json.dump({k: v for k, v in look.items() if k != "max-error"}, file)
+        exact = viewer.render("--look", path)
+        assert exact != drawn
+        viewer.shows(tuple(look["resolution"]), exact, "the exact forms once the budget is gone")
+        with open(path, "w") as file:
+            json.dump({**look, "shading": "auto", "material": {"": {"specular": 0}}}, file)
+        phong = viewer.render("--look", path, "--shading", "phong")
+        automatic = viewer.render("--look", path)
+        assert automatic != phong
+        viewer.shows(tuple(look["resolution"]), automatic, "the program chosen")
+        viewer.key("F12")
+        png = os.path.join(viewer.folder, "sphere_1.png")
+        wait_for("the screenshot", lambda: os.path.exists(png))
+        with open(png, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
+            assert a.read() == b.read(), "the screenshot is another file than glint render's"
+
+
 def test_a_slider_changes_the_picture_and_undo_brings_the_first_bytes_back():
     with Viewer(TEAPOT) as viewer:
         first, _ = viewer.picture()

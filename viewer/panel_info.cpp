@@ -176,7 +176,9 @@ void drawCompareTab(PanelContext& context) {
   ImGui::Separator();
   ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
   for (const Parameter& p : lookParameters()) {
-    if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel") continue;
+    if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel" &&
+        p.name != "max-error")
+      continue;
     ImGui::PushID("b");
     widgets::parameter(p, *document.b);
     ImGui::PopID();
