@@ -236,8 +236,8 @@ class Viewer:
 
 # Centres of widgets in the tab Shading of a model with one material, scale 1.
 PANEL_LEFT = 1000
-TWO_SIDED = (PANEL_LEFT + 174, 168)
-ROW = {"ambient": 270, "diffuse": 295, "specular": 320, "exponent": 345, "metalness": 370}
+TWO_SIDED = (PANEL_LEFT + 174, 193)
+ROW = {"ambient": 295, "diffuse": 320, "specular": 345, "exponent": 370, "metalness": 395}
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 

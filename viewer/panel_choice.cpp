@@ -23,8 +23,9 @@ std::string number(double value) {
 }
 
 std::string formsOf(const FormChoice& c) {
-  std::string text = c.specular ? highlightText(c.highlight) : "";
-  if (c.dielectric) text += (text.empty() ? "" : ", ") + std::string(fresnelText(c.fresnel));
+  std::string text = c.specular ? "highlight " + highlightText(c.highlight) : "";
+  if (c.dielectric)
+    text += (text.empty() ? "" : ", ") + ("fresnel " + std::string(fresnelText(c.fresnel)));
   return text.empty() ? "nothing to choose" : text;
 }
 
@@ -37,10 +38,10 @@ void dimmed(const std::string& text) {
 void materialChoice(const FormChoice& c) {
   ImGui::BeginGroup();
   ImGui::TextUnformatted(c.material.empty() ? "(no name)" : c.material.c_str());
-  ImGui::TextColored(formColor, "%s", formsOf(c).c_str());
   const std::string bound = "bound " + number(c.bound);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(bound.c_str()).x);
   ImGui::TextUnformatted(bound.c_str());
+  ImGui::TextColored(formColor, "%s", formsOf(c).c_str());
   if (c.specular || c.dielectric) dimmed(c.reason);
   ImGui::EndGroup();
   std::string parts = "the bound is the sum of";

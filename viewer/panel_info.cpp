@@ -195,6 +195,9 @@ void drawCompareTab(PanelContext& context) {
                        b.is_null() ? "-" : b.dump().c_str());
   }
   if (!any) ImGui::TextUnformatted("nothing: A and B are the same look");
+  if (document.a.animationTime != document.b->animationTime ||
+      document.a.animation != document.b->animation)
+    ImGui::TextWrapped("B is drawn in A's moment of the animation.");
 }
 
 void drawInfoTab(PanelContext& context) {
