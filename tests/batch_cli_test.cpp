@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <poll.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -507,6 +508,73 @@ TEST(Sweep, IsASheetOfThePicturesThatItsStepsGive) {
             3 * across + gap);
 }
 
+// A sphere that moves by 2 along x within a second.
+TEST(Frames, AreMomentsOfTheAnimationBeforeOneCamera) {
+  Folder folder("frames");
+  const std::string model = glint::test::writeGltf(
+      "moving", glint::test::sphere(12, 8),
+      [](Json& json) {
+        json["buffers"].push_back(
+            {{"byteLength", 32},
+             {"uri",
+              "data:application/"
+              "octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA="}});
+        json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 8}});
+        json["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 8}, {"byteLength", 24}});
+        json["accessors"].push_back({{"bufferView", 3},
+                                     {"componentType", 5126},
+                                     {"count", 2},
+                                     {"type", "SCALAR"},
+                                     {"min", {0}},
+                                     {"max", {1}}});
+        json["accessors"].push_back(
+            {{"bufferView", 4}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
+        json["animations"] = {
+            {{"name", "glide"},
+             {"samplers", {{{"input", 3}, {"output", 4}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+      },
+      folder.path());
+  const Ran ran = runGlint(tiny({"render", model, "-o", folder / "{frame}.png", "--frames", "4",
+                                 "--camera-direction", "0,0,-1"}));
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  // The centre of what is drawn moves by one step a frame, to the right.
+  std::vector<double> places;
+  Json camera;
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = folder / (std::to_string(i) + ".png");
+    const glint::Image image = glint::readImage(name);
+    double sum = 0, weight = 0;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) {
+        const double seen = std::abs(image.row(y)[4 * x] - image.values[0]) > 1e-3;
+        sum += x * seen;
+        weight += seen;
+      }
+    ASSERT_GT(weight, 20);
+    places.push_back(sum / weight);
+    // Each says how it was made, and its look makes it again.
+    const Json look = Json::parse(glint::readPictureText(name).at("glint-look"));
+    EXPECT_EQ(look["animation-time"], 0.25 * i);
+    if (i > 0) {
+      EXPECT_EQ(look["camera-position"], camera);
+    }
+    camera = look["camera-position"];
+    EXPECT_EQ(runGlint({"render", model, "-o", folder / "again.png", "--look", name,
+                        "--rendering-backend", "osmesa"})
+                  .status,
+              0);
+    EXPECT_EQ(glint::readImage(folder / "again.png").values, image.values);
+  }
+  for (int i = 1; i < 4; ++i)
+    EXPECT_NEAR(places[std::size_t(i)] - places[std::size_t(i - 1)], places[1] - places[0], 0.6);
+  EXPECT_GT(places[1] - places[0], 1);
+  const Ran still =
+      runGlint(tiny({"render", sphere, "-o", folder / "s{frame}.png", "--frames", "2"}));
+  EXPECT_EQ(still.status, 2);
+  EXPECT_THAT(still.err, HasSubstr("no animation"));
+}
+
 TEST(Sweep, WrongOnesAreRefused) {
   Folder folder("wrong_sweeps");
   const std::pair<const char*, const char*> cases[] = {
@@ -547,6 +615,8 @@ TEST(Batch, OptionsThatExcludeEachOther) {
       {{sphere, "-o", out, "--jobs", "0"}, "--jobs"},
       {{sphere, "-o", out, "--turntable", "0"}, "--turntable"},
       {{sphere, "-o", out, "--turntable", "2"}, "{frame}"},
+      {{sphere, "-o", out, "--frames", "2"}, "{frame}"},
+      {{sphere, "-o", folder / "{frame}.png", "--frames", "2", "--turntable", "3"}, "same number"},
       {{sphere, "-o", folder / "{frame}.png"}, "--turntable"},
       {{sphere, "-o", out, "--reference-threshold", "1"}, "--reference"},
       {{sphere, "-o", "-", "--reference", "a.png"}, "--reference"},
