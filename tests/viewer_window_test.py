@@ -497,7 +497,14 @@ def test_edits_survive_a_crash():
         drag_slider(viewer, "diffuse", 0.4, 0.9)
         viewer.move(20, 20)
         edited = viewer.crop(viewer.settled(), (1000, 776))
-        wait_for("the edits to be kept", kept)
+
+        def all_kept():  # not as they were in the middle of the drag
+            values = []
+            for name in kept():
+                with open(os.path.join(state, name)) as file:
+                    values.append(json.load(file)["look"]["material"]["Glazed ceramic"]["diffuse"])
+            return values and values[0] > 1.7
+        wait_for("the edits to be kept", all_kept)
         viewer.kill()
         viewer.start()  # asks, and stands still
         viewer.key("Return")  # restore
