@@ -36,10 +36,11 @@ void dimmed(const std::string& text) {
 }
 
 void materialChoice(const FormChoice& c) {
+  const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginGroup();
   ImGui::TextUnformatted(c.material.empty() ? "(no name)" : c.material.c_str());
   const std::string bound = "bound " + number(c.bound);
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(bound.c_str()).x);
+  ImGui::SameLine(room - ImGui::CalcTextSize(bound.c_str()).x);
   ImGui::TextUnformatted(bound.c_str());
   ImGui::TextColored(formColor, "%s", formsOf(c).c_str());
   if (c.specular || c.dielectric) dimmed(c.reason);
