@@ -118,12 +118,13 @@ vec3 surfaceColor(LightSum sum, vec3 color) {
   return color * sum.diffuse + shine * sum.specular;
 }
 
-// To the viewer from the point `position` (eye space). At the eye itself: towards +Z.
+// To the viewer from the point `position` (eye space). At the eye itself, and where its square
+// overflows: towards +Z.
 vec3 toViewer(vec3 position) {
 #if CONSTANT_VIEW
   return frame.view.xyz;
 #else
   float square = dot(position, position);
-  return square > 0.0 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);
+  return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);
 #endif
 }

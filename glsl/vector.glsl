@@ -2,10 +2,10 @@
 
 // v / |v| through division and square root, which every driver rounds well; inversesqrt, and so
 // normalize, differ between processors. For lengths from 1e-15 to 1e19; the zero vector, and one
-// whose square under- or overflows, gives 0.
+// whose square under- or overflows or is no number, gives 0.
 vec3 unit(vec3 v) {
   float square = dot(v, v);
-  return square > 0.0 ? v / sqrt(square) : vec3(0.0);
+  return square > 0.0 && square < 3.0e38 ? v / sqrt(square) : vec3(0.0);
 }
 
 // As unit, for any finite length: the very long and the very short are scaled first, by 2^-86 and

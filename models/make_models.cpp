@@ -6,17 +6,14 @@
 #include <system_error>
 
 #include "glb.h"
+#include "materials.h"
 #include "mesh.h"
+#include "scene_models.h"
 
 namespace {
 
+using glint::models::material;
 using nlohmann::json;
-
-/// A glTF material whose Phong parameters stand in extras.glint. The roughness beside them is the
-/// one that DESIGN's conversion takes back to the same exponent: 2/r⁴ - 2 is four times Phong's.
-json material(const char* name, const json& phong, const json& pbr) {
-  return {{"name", name}, {"pbrMetallicRoughness", pbr}, {"extras", {{"glint", phong}}}};
-}
 
 json redPlastic() {
   return material("Red plastic",
@@ -97,6 +94,13 @@ int main(int argc, char** argv) {
     write(folder / "sphere.glb", glb(sphere(72, 36), redPlastic()));
     write(folder / "torus.glb", glb(torus(0.75, 0.25, 96, 32), gold()));
     write(folder / "teapot.glb", glb(teapot(12), glazedCeramic()));
+    write(folder / "torus-knot.glb",
+          glb(torusKnot(0.6, 0.26, 0.14, 192, 16), material("Jade", {0.05, 0.4, 0.2}, 0.6, 60, 0)));
+    write(folder / "preview.glb", preview());
+    write(folder / "chart.glb", chart());
+    write(folder / "bend.glb", bend());
+    write(folder / "morph.glb", morph());
+    write(folder / "lights.glb", lights());
     for (int level = 1; level <= 6; ++level) {
       write(folder / "sphere-series" / ("sphere-" + std::to_string(level) + ".glb"),
             glb(icosphere(level), matteGrey()));

@@ -29,6 +29,11 @@ Mesh torus(double major, double minor, int around, int along);
 /// an axis or in a coordinate plane, where errors of shading could vanish by symmetry.
 Mesh icosphere(int level);
 
+/// A tube of radius `thickness` about the trefoil knot that goes twice around the Y axis and three
+/// times around the small circle of the torus of these radii. `along` and `around` (the tube) are
+/// multiples of 8.
+Mesh torusKnot(double major, double minor, double thickness, int along, int around);
+
 /// The Utah teapot, 1.5 high, standing on y = 0, the spout towards +X; each patch is a grid of
 /// `steps` by `steps` quadrilaterals. Vertices that patches share are one where the normals agree.
 Mesh teapot(int steps);

@@ -23,7 +23,7 @@ struct Guard {
 };
 
 const Guard guards[] = {
-    {"vector.glsl", "return square > 0.0 ? v / sqrt(square) : vec3(0.0);",
+    {"vector.glsl", "return square > 0.0 && square < 3.0e38 ? v / sqrt(square) : vec3(0.0);",
      "return v / sqrt(square);", "A1", "unit of the zero vector"},
     {"vector.glsl", "size > 1.0995116e12 ? 1.2924697e-26 : ", "", "A5", "long vectors are scaled"},
     {"vector.glsl", "size < 9.094947e-13 ? 7.7371252e25 : ", "", "A3", "short vectors are scaled"},
@@ -98,7 +98,7 @@ const Guard guards[] = {
      "P11", "outside a spot's cone"},
     {"sum.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, 0.0, 1e30);", "P11",
      "inside a spot's cone"},
-    {"sum.glsl", "return square > 0.0 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
+    {"sum.glsl", "return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
      "return position / -sqrt(square);", "C13", "the eye on the surface"},
     {"sum.glsl", "addLight(sum, n, v, safeUnit(way), intensity",
      "addLight(sum, n, v, unit(way), intensity", "C12", "point lights near and far"},
@@ -192,11 +192,11 @@ TEST_P(Mutation, IsCaught) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
-                         [](const testing::TestParamInfo<Guard>& info) {
-                           std::string file = info.param.file;
+                         [](const testing::TestParamInfo<Guard>& tested) {
+                           std::string file = tested.param.file;
                            file.resize(file.find('.'));
                            std::erase(file, '_');
-                           return file + std::to_string(info.index) +
-                                  (*info.param.caught ? "_" + std::string(info.param.caught)
+                           return file + std::to_string(tested.index) +
+                                  (*tested.param.caught ? "_" + std::string(tested.param.caught)
                                                       : std::string("_equivalent"));
                          });

@@ -90,9 +90,7 @@ bool App::somethingDue() {
   static Clock::time_point lastWatch;
   if (seconds(now - lastWatch) > 0.4) {
     lastWatch = now;
-    const std::string before = session_.status;
-    watch();
-    due = due || session_.status != before || loading_.valid();
+    due = watch() || due || loading_.valid();
   }
   if (window_.closeRequested()) {
     window_.refuseClose();

@@ -96,7 +96,7 @@ class App {
   void followPose();
   void offerRecovered();
   void restore(const Recovered&);
-  void watch();
+  bool watch();  ///< true if a look was read, or could not be
   void quit();
 
   Window& window_;

@@ -134,7 +134,7 @@ void App::execute(Action command) {
       resetMaterial(d.a, key());
       break;
     case Action::nextProgram:
-      d.a.shading = Shading((int(d.a.shading) + 1) % 5);
+      d.a.shading = Shading((int(d.a.shading) + 1) % (int(Shading::automatic) + 1));
       session_.say("program " + std::string(shadingName(d.a.shading)));
       break;
     case Action::keepAsB:

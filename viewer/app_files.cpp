@@ -115,7 +115,8 @@ void App::restore(const Recovered& found) {
   session_.say("restored the edits; they are not saved yet");
 }
 
-void App::watch() {
+bool App::watch() {
+  bool tried = false;
   if (session_.model && !loading_.valid()) {
     const FileState now = stateOf(session_.model->path);
     // A file that is gone is being replaced; it is read when it is back.
@@ -125,6 +126,7 @@ void App::watch() {
     const FileState now = stateOf(session_.lookPath);
     if (now != lookState_ && now != FileState{}) {
       lookState_ = now;
+      tried = true;
       attempt([&] {
         Look look;
         readLookFile(look, session_.lookPath.string());
@@ -151,6 +153,7 @@ void App::watch() {
       });
     }
   }
+  return tried;
 }
 
 void App::open(const std::string& path) {

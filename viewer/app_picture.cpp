@@ -28,7 +28,7 @@ PaintRequest App::wanted(bool& moving) {
   const Document& document = session_.document;
   PaintRequest want;
   want.a = document.a;
-  want.a.resolution = resolution_;
+  want.a.resolution = want.size = resolution_;
   if (comparesExact(document)) want.a = comparableLook(want.a);
   if (want.a != lastFull_) {
     lastFull_ = want.a;

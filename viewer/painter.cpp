@@ -1,8 +1,10 @@
 #include "painter.h"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "choice.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
 
@@ -13,6 +15,7 @@ struct Painter::Objects {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<GpuScene> scene;
   std::unique_ptr<OverlayDrawer> overlay;
+  Chooser chooser;
   SharedPicture a, b, plain;
   Layer layer;
   Look layerLook;
@@ -53,6 +56,7 @@ void Painter::setModel(std::shared_ptr<const Model> model) {
     o.plain.reset();
     o.layer.reset();
     o.scene.reset();
+    o.chooser.forget();
     o.model = model;
     if (model) o.scene = std::make_unique<GpuScene>(model->scene, model->images);
   });
@@ -76,11 +80,23 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
   PaintResult result;
   result.request = request;
   const auto drawn = [&](SharedPicture& kept, const Look& look) {
-    if (!kept || kept->look != look) {
-      auto picture = drawPicture(*o.renderer, *o.scene, o.model->bounds, look, stop);
-      if (picture) kept = std::make_shared<const DrawnPicture>(std::move(*picture));
+    const auto start = std::chrono::steady_clock::now();
+    const auto choice =
+        o.chooser.choose(o.model->scene, o.model->bounds, look, request.size, request.preview);
+    const std::chrono::duration<double, std::milli> choosing =
+        std::chrono::steady_clock::now() - start;
+    const auto fits = [&] { return kept && kept->asked == look && kept->choice == choice; };
+    if (!fits()) {
+      auto picture =
+          drawPicture(*o.renderer, *o.scene, o.model->bounds, withChoice(look, *choice), stop);
+      if (picture) {
+        picture->asked = look;
+        picture->choice = choice;
+        picture->milliseconds += choosing.count();
+        kept = std::make_shared<const DrawnPicture>(std::move(*picture));
+      }
     }
-    return !stop && kept && kept->look == look ? kept : nullptr;
+    return !stop && fits() ? kept : nullptr;
   };
   try {
     if (!(result.a = drawn(o.a, request.a))) return;
@@ -175,7 +191,11 @@ void Painter::reload(const std::filesystem::path& glsl, const Look& trial, Done 
     try {
       Objects& o = *objects_;
       auto fresh = std::make_unique<Renderer>(GlslSources(glsl));
-      if (o.scene) (void)drawPicture(*fresh, *o.scene, o.model->bounds, trial, stop);
+      if (o.scene) {
+        const Bounds& bounds = o.model->bounds;
+        const Look look = resolveLook(o.model->scene, bounds, trial).look;
+        (void)drawPicture(*fresh, *o.scene, bounds, look, stop);
+      }
       o.renderer = std::move(fresh);
       o.a.reset();
       o.b.reset();

@@ -20,6 +20,7 @@ namespace glint {
 struct PaintRequest {
   Look a;
   bool preview = false;       ///< a is smaller than the window, for speed
+  glm::ivec2 size{1};         ///< of the whole picture: forms are chosen for that one
   std::optional<Look> b;      ///< what A is compared with
   std::optional<Look> plain;  ///< A without anti-aliasing, for the probe
   Overlay overlay = Overlay::none;

@@ -24,17 +24,25 @@ bool actionButton(PanelContext& context, Action command, const char* text, float
   return pressed;
 }
 
+namespace {
+
+void drawParameter(Session& session, const Parameter& p) {
+  try {
+    widgets::parameter(p, session.document.a);
+  } catch (const InputError& error) {
+    session.fail(error.what());
+  }
+}
+
+}  // namespace
+
 void drawSection(PanelContext& context, const std::string& section,
                  std::initializer_list<std::string_view> without) {
   Session& session = context.session;
   for (const Parameter& p : lookParameters()) {
     if (p.section != section) continue;
     if (std::find(without.begin(), without.end(), p.name) != without.end()) continue;
-    try {
-      widgets::parameter(p, session.document.a);
-    } catch (const InputError& error) {
-      session.fail(error.what());
-    }
+    drawParameter(session, p);
   }
 }
 
@@ -164,12 +172,24 @@ void materialButtons(PanelContext& context) {
 
 void drawShadingTab(PanelContext& context) {
   Session& session = context.session;
-  drawSection(context, "Shading", {"material"});
+  Look& look = session.document.a;
+  for (const Parameter& p : lookParameters()) {
+    if (p.section != "Shading" || p.name == "material") continue;
+    if (look.maxError && (p.name == "highlight" || p.name == "fresnel")) {
+      widgets::label(p.name);
+      ImGui::TextDisabled("chosen by max error");
+      continue;
+    }
+    drawParameter(session, p);
+    if (p.name == "max-error") drawChoice(context);
+  }
   ImGui::Separator();
   if (!session.model) return;
   materialList(session);
   materialSliders(session);
+  ImGui::BeginDisabled(look.maxError.has_value());
   materialForms(session);
+  ImGui::EndDisabled();
   materialButtons(context);
   ImGui::Separator();
   drawPlots(context);

@@ -37,6 +37,10 @@ void drawPictureTab(PanelContext&);
 void drawCompareTab(PanelContext&);
 void drawInfoTab(PanelContext&);
 
+/// What was chosen for the picture by max-error and the shading auto, and why; nothing where the
+/// look leaves nothing open.
+void drawChoice(PanelContext&);
+
 /// The plots of the selected material, below its sliders.
 void drawPlots(PanelContext&);
 

@@ -176,7 +176,9 @@ void drawCompareTab(PanelContext& context) {
   ImGui::Separator();
   ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
   for (const Parameter& p : lookParameters()) {
-    if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel") continue;
+    if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel" &&
+        p.name != "max-error")
+      continue;
     ImGui::PushID("b");
     widgets::parameter(p, *document.b);
     ImGui::PopID();
@@ -193,6 +195,9 @@ void drawCompareTab(PanelContext& context) {
                        b.is_null() ? "-" : b.dump().c_str());
   }
   if (!any) ImGui::TextUnformatted("nothing: A and B are the same look");
+  if (document.a.animationTime != document.b->animationTime ||
+      document.a.animation != document.b->animation)
+    ImGui::TextWrapped("B is drawn in A's moment of the animation.");
 }
 
 void drawInfoTab(PanelContext& context) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "choice.h"
 #include "glint/render/variant.h"
 #include "glint/scene/look_text.h"
 #include "materials.h"
@@ -269,7 +270,10 @@ void widthPlots(double exponent) {
 
 void drawPlots(PanelContext& context) {
   const Session& session = context.session;
-  const Look& look = session.document.a;
+  Look look = session.document.a;
+  const DrawnPicture* picture = context.picture;
+  if (leavesOpen(look) && picture && leavesOpen(picture->asked))
+    look = withChoice(look, *picture->choice);
   const Material material = effectiveMaterial(session.model->scene, look, session.material);
   const ShadingParameters& s = material.shading;
   SumInput input;
@@ -284,7 +288,8 @@ void drawPlots(PanelContext& context) {
   const bool fresnelOpen = look.shading == Shading::environment;
   ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
   if (ImGui::CollapsingHeader("Fresnel reflectance"))
-    fresnelPlots(std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior, look.schlickExponent);
+    fresnelPlots(std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior,
+                 look.schlickExponent);
   if (ImGui::CollapsingHeader(style().greek ? "\u03b1'/\u03b1 of equally wide highlights###width"
                                             : "a'/a of equally wide highlights###width"))
     widthPlots(s.exponent);

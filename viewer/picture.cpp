@@ -16,7 +16,7 @@ std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, con
   const auto start = std::chrono::steady_clock::now();
   auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);
   DrawnPicture drawn;
-  drawn.look = look;
+  drawn.asked = drawn.look = look;
   const std::size_t pixels = std::size_t(look.resolution.x) * std::size_t(look.resolution.y);
   drawn.linear = {look.resolution.x, look.resolution.y, {}};
   drawn.linear.values.reserve(4 * pixels);
@@ -51,10 +51,11 @@ std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, con
   return drawn;
 }
 
-void writePicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const Look& look,
+void writePicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const Look& asked,
                   const std::string& model, const std::string& path) {
+  const Look look = resolveLook(scene.scene(), bounds, asked).look;
   PictureOptions options;
-  options.text = pictureText(look, look, {modelHash(model), glStrings(), 8, {}});
+  options.text = pictureText(look, asked, {modelHash(model), glStrings(), 8, {}});
   options.alpha = look.noBackground;
   options.exposureScale = float(std::exp2(look.exposure));
   auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);

@@ -2,18 +2,22 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "glint/image/image.h"
+#include "glint/render/error_budget.h"
 #include "glint/render/renderer.h"
 
 namespace glint {
 
 /// A picture as drawn and as shown.
 struct DrawnPicture {
-  Look look;                        ///< with the resolution drawn
+  Look asked;  ///< may leave forms and program open
+  Look look;   ///< with the forms and resolution drawn
+  std::shared_ptr<const ResolvedLook> choice;
   Image linear;                     ///< before exposure
   std::vector<std::uint8_t> codes;  ///< RGBA, rows from the top: the bytes of glint render's PNG
   DrawList list;
@@ -23,14 +27,14 @@ struct DrawnPicture {
   std::size_t notNumbers = 0;
 };
 
-/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode.
-/// Nothing if `stop` becomes true meanwhile.
+/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode. The
+/// look leaves nothing open. Nothing if `stop` becomes true meanwhile.
 std::optional<DrawnPicture> drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&,
                                         const std::atomic<bool>& stop);
 
-/// Draws a look and writes it band by band, as `glint render` does; `model` is the model's file,
-/// of which the picture tells. Throws InputError.
-void writePicture(Renderer&, GpuScene&, const Bounds&, const Look&, const std::string& model,
+/// Chooses what the look leaves open, draws it and writes it band by band, as `glint render` does;
+/// `model` is the model's file, of which the picture tells. Throws InputError.
+void writePicture(Renderer&, GpuScene&, const Bounds&, const Look& asked, const std::string& model,
                   const std::string& path);
 
 /// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.

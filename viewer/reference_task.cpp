@@ -76,6 +76,7 @@ void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>
 
 Look exactLook(const Look& look) {
   Look exact = comparableLook(look);
+  exact.maxError.reset();
   exact.highlight = Highlight::exact;
   exact.fresnel = Fresnel::exact;
   for (auto& [name, edit] : exact.material) {

@@ -28,7 +28,8 @@ struct ReferencePicture {
   bool done() const { return rows == linear.height && linear.height > 0; }
 };
 
-/// What a look is compared with: the same in the exact forms of lobe and reflectance.
+/// What a look is compared with: the same in the exact forms of lobe and reflectance. The look is
+/// one that is drawn: where its program was chosen, the reference has that one.
 Look exactLook(const Look&);
 
 /// What the window draws while it compares with the reference: the reference has no multisampling,

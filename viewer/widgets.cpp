@@ -46,10 +46,11 @@ bool doubleClicked() {
   return true;
 }
 
-bool slider(const char* id, double& value, const SliderRange& range, double min, double max) {
+bool slider(const char* id, double& value, const SliderRange& range, double min, double max,
+            const char* format) {
   const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
   double v = value;
-  if (!ImGui::SliderScalar(id, ImGuiDataType_Double, &v, &range.min, &range.max, "%.4g", flags))
+  if (!ImGui::SliderScalar(id, ImGuiDataType_Double, &v, &range.min, &range.max, format, flags))
     return false;
   v = std::isfinite(v) ? std::clamp(v, min, max) : value;
   // A slider that is moved within its range keeps a value beyond it until the mouse does.
@@ -185,6 +186,18 @@ std::string joined(const glm::dvec3& v) {
   return numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
 }
 
+// Left of a slider, for a number without which something is off.
+bool tick(const Parameter& p, Look& look) {
+  bool on = !p.save(look).is_null();
+  const bool clicked = ImGui::Checkbox(("##on" + p.name).c_str(), &on);
+  if (clicked && on) p.read(look, "0.01");
+  if (clicked && !on) p.reset(look);
+  tooltip(on ? "off" : "on, within 0.01");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  return clicked;
+}
+
 }  // namespace
 
 bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
@@ -215,16 +228,16 @@ bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
   int power = std::countr_zero(unsigned(form.gamma));
   char text[16];
   std::snprintf(text, sizeof text, "%d", form.gamma);
-  if (ImGui::SliderInt(("##gamma" + name).c_str(), &power, 0, 6, text,
-                       ImGuiSliderFlags_NoInput)) {
+  if (ImGui::SliderInt(("##gamma" + name).c_str(), &power, 0, 6, text, ImGuiSliderFlags_NoInput)) {
     power = std::clamp(power, 0, 6);
     if (1 << power != form.gamma) {
       form.gamma = 1 << power;
       changed = true;
     }
   }
-  tooltip("the power that the form is raised to by squaring: 1, 2, 4, ... 64; larger ones are "
-          "nearer to the exact lobe and cost more");
+  tooltip(
+      "the power that the form is raised to by squaring: 1, 2, 4, ... 64; larger ones are "
+      "nearer to the exact lobe and cost more");
   return changed;
 }
 
@@ -241,8 +254,10 @@ bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& 
   std::string unit;
   switch (p.kind) {
     case ParameterKind::number: {
+      const bool off = now.is_null() && p.name == "max-error";
+      if (p.name == "max-error") changed = tick(p, look);
       double value = now.is_number() ? now.get<double>() : p.unset;
-      if (slider(id.c_str(), value, p.slider, p.min, p.max)) {
+      if (slider(id.c_str(), value, p.slider, p.min, p.max, off ? "off" : "%.4g")) {
         p.read(look, numberText(value));
         changed = true;
       }

@@ -29,7 +29,8 @@ bool doubleClicked();
 
 /// A slider with typed values (Ctrl+click) that may go beyond it, within [min, max]. True if the
 /// value changed.
-bool slider(const char* id, double& value, const SliderRange& range, double min, double max);
+bool slider(const char* id, double& value, const SliderRange& range, double min, double max,
+            const char* format = "%.4g");
 
 /// A colour in linear light, shown and edited as sRGB; components above 1 stay as they are until
 /// they are edited.

@@ -1,0 +1,63 @@
+#include "choice.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "document.h"
+
+namespace glint {
+namespace {
+
+constexpr std::size_t most = 4;  // A and B, each as it was and as it is
+
+// A choice is about light at one sample, before exposure: none of these has a part in it.
+Look withoutRest(Look look) {
+  const Look plain;
+  look.antiAliasing = plain.antiAliasing;
+  look.exposure = plain.exposure;
+  look.backgroundColor = plain.backgroundColor;
+  look.noBackground = plain.noBackground;
+  return look;
+}
+
+}  // namespace
+
+bool leavesOpen(const Look& look) {
+  return look.maxError.has_value() || look.shading == Shading::automatic;
+}
+
+Look withChoice(Look look, const ResolvedLook& chosen) {
+  look.shading = chosen.look.shading;
+  if (!std::exchange(look.maxError, std::nullopt)) return look;
+  look.highlight = chosen.look.highlight;
+  look.fresnel = chosen.look.fresnel;
+  for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
+  for (const auto& [name, edit] : chosen.look.material) {
+    if (edit.highlight) look.material[name].highlight = edit.highlight;
+    if (edit.fresnel) look.material[name].fresnel = edit.fresnel;
+  }
+  return look;
+}
+
+std::shared_ptr<const ResolvedLook> Chooser::choose(const Scene& scene, const Bounds& bounds,
+                                                    Look look, glm::ivec2 size, bool moves) {
+  look.resolution = size;
+  look = withoutRest(std::move(look));
+  auto found = std::ranges::find(kept_, look, &Kept::look);
+  if (found == kept_.end() && moves) {
+    const Look still = withoutCamera(look);
+    found = std::ranges::find_if(kept_, [&](const Kept& k) {
+      return k.look.resolution == size && withoutCamera(k.look) == still;
+    });
+  }
+  if (found == kept_.end()) {
+    kept_.push_front(
+        {look, std::make_shared<const ResolvedLook>(resolveLook(scene, bounds, look))});
+    if (kept_.size() > most) kept_.pop_back();
+  } else {
+    kept_.splice(kept_.begin(), kept_, found);
+  }
+  return kept_.front().choice;
+}
+
+}  // namespace glint
