@@ -49,6 +49,7 @@ struct CommandOptions {
   int timeoutSeconds = 60;
   std::string folder{};    ///< to run in
   bool closedOut = false;  ///< stdout is a pipe that nobody reads
+  bool fullOut = false;    ///< stdout is a full disk
 };
 
 /// Runs the binary and waits for it.
@@ -56,6 +57,7 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
   static int number = 0;
   const std::string base = temporaryFolder() + "/run" + std::to_string(number++);
   const std::string outPath = base + ".out", errPath = base + ".err";
+  const char* const outFile = options.fullOut ? "/dev/full" : outPath.c_str();
   int closed[2] = {-1, -1};
   if (options.closedOut) {
     EXPECT_EQ(pipe(closed), 0);
@@ -66,7 +68,7 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
     setpgid(0, 0);
     const int in = open("/dev/null", O_RDONLY);
     const int out =
-        options.closedOut ? closed[1] : open(outPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        options.closedOut ? closed[1] : open(outFile, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int err = open(errPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(in, 0);
     dup2(out, 1);

@@ -142,7 +142,7 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "--scale", "-1"}, 2, "--scale"},
       {{"a.png", "b.png", "--jobs", "0"}, 2, "--jobs"},
       {{"a.png", "b.png", "--difference", "heat"}, 2, "flip, absolute or side-by-side"},
-      {{"a.png", "b.png", "-o", "a.png"}, 2, "a picture to be compared"},
+      {{"a.png", "b.png", "-o", "a.png"}, 2, "would overwrite what is read"},
       {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending tells no known format"},
       {{"a.png", "b.png", "--json", "-", "--junit", "-"}, 2, "goes to stdout already"},
       {{"a.png", "b.png", "--json", "no/such/folder.json"}, 2, "no/such/folder.json"},

@@ -185,6 +185,83 @@ TEST(Usage, TwoThingsForStdoutAndTwoPicturesOfOneName) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+TEST(Usage, OneOutputDoesNotDestroyAnother) {
+  Folder folder("outputs_of_one_name");
+  const auto render = [&](const std::string& picture, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", sphere, "-o", picture});
+    return runGlint(quick(more));
+  };
+  const std::string picture = folder / "a.png", list = folder / "list";
+  std::ofstream(list) << sphere << "\n";
+  expectRefusal(render("-", {"--save-look", "-"}), "--save-look -: -o goes to stdout already");
+  expectRefusal(render(picture, {"--json", "-", "--save-look", "-"}), "--json goes to stdout");
+  expectRefusal(runGlint(quick({"render", "--from-list", list, "-o", picture, "--save-look", "-"})),
+                "--from-list goes to stdout");
+  expectRefusal(render(picture, {"--json", folder / "./a.png"}), "-o writes that file already");
+  expectRefusal(render(picture, {"--save-look", picture}), "-o writes that file already");
+  expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json goes to");
+  expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite what is read");
+  expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json goes to stdout");
+  EXPECT_THAT(folder.names(), ElementsAre("list"));
+  EXPECT_EQ(render(picture, {"--json", "/dev/null", "--save-look", "/dev/null"}).status, 0);
+}
+
+TEST(Usage, APictureIsNotItsOwnReference) {
+  Folder folder("own_reference");
+  const std::string picture = folder / "a.png";
+  std::ofstream(picture) << "right once";
+  for (const std::string& reference : {picture, folder / "../own_reference/{model}.png"}) {
+    const std::string output = reference == picture ? picture : folder / "{model}.png";
+    expectRefusal(runGlint(quick({"render", sphere, "-o", output, "--reference", reference})),
+                  "compared with itself");
+  }
+  EXPECT_EQ(glint::test::contents(picture), "right once");
+  EXPECT_THAT(folder.names(), ElementsAre("a.png"));
+}
+
+TEST(Usage, WhatWasGivenWithLineBreaksIsToldInOneLine) {
+  Folder folder("line_breaks");
+  const std::string picture = folder / "a.png";
+  expectRefusal(runGlint({"render", sphere, "-o", picture, "--shading", "a\nb"}), "'a?b'");
+  expectRefusal(runGlint(quick({"render", sphere, "-o", picture, "--material", "a\nb:ior=1"})),
+                "'a?b'");
+  expectRefusal(runGlint({"render", sphere, "-o", picture, "--fro\nb"}), "'--fro?b'");
+  expectRefusal(runGlint({"fro\nb"}), "'fro?b'");
+}
+
+// A report that did not arrive is no success.
+TEST(Usage, AFullDiskBehindStandardOutput) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"--version"},
+                                                    {"info", sphere},
+                                                    {"backends"},
+                                                    {"stability", "--list"},
+                                                    {"info", sphere, "--json", "-"}}) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    expectRefusal(runGlint(arguments, {.fullOut = true}), "standard output: ");
+  }
+}
+
+TEST(Usage, ReportsOfFilesWhoseNamesAreNotUtf8) {
+  Folder folder("not_utf8");
+  const std::string model = folder / "a\xff.glb";
+  std::filesystem::copy_file(sphere, model);
+  const Ran ran = runGlint({"info", model, "--json", "-"});
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_TRUE(nlohmann::json::accept(ran.out));
+  EXPECT_EQ(runGlint(quick({"render", sphere, "-o", folder / "a.png", "--hdri-file", "\xff",
+                            "--save-look", folder / "look.json"}))
+                .status,
+            0);
+  EXPECT_TRUE(nlohmann::json::accept(glint::test::contents(folder / "look.json")));
+}
+
+// It measures for a minute: what cannot be written must be told before.
+TEST(Usage, AStudyRefusesItsFilesAtOnce) {
+  for (const char* option : {"--json", "--markdown"})
+    expectRefusal(runGlint({"study", option, "/proc/none/a"}, {.timeoutSeconds = 5}), "/proc/none");
+}
+
 TEST(Usage, LooksThatCannotBeRead) {
   Folder folder("looks");
   const auto with = [&](const std::string& text) {

@@ -37,6 +37,8 @@ class LookSource {
   /// The look they add up to (options over look file over defaults). Writes the file of
   /// --save-look, unless the look has a budget, whose forms a scene decides.
   Look operator()() const;
+  /// The file of --save-look, empty if none.
+  const std::string& saveFile() const;
   /// Whether --save-look waits for the forms to be chosen.
   bool savesResolved(const Look&) const;
   /// Writes it then.

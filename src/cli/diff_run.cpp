@@ -15,6 +15,7 @@
 #include "diff_html.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -73,25 +74,6 @@ std::vector<DiffEntry> pairsOf(const DiffRequest& request) {
     entries.push_back(std::move(entry));
   }
   return entries;
-}
-
-/// An output must not destroy what is compared, and two outputs must not share standard output.
-void checkOutputs(const DiffRequest& request) {
-  int toStdout = 0;
-  for (const auto& [option, path] :
-       {std::pair{"--output", request.settings.output}, std::pair{"--json", request.json},
-        std::pair{"--junit", request.junit}, std::pair{"--html", request.html}}) {
-    if (path.empty()) continue;
-    if (path == "-" && ++toStdout > 1)
-      throw InputError(std::string(option) +
-                       " -: another output goes to stdout already: give one of them a file");
-    for (const std::string& input : {request.a, request.b, request.mask}) {
-      std::error_code ignored;
-      if (!input.empty() && fs::equivalent(input, path, ignored))
-        throw InputError(std::string(option) + " " + printablePath(path) +
-                         ": that is a picture to be compared: give another file");
-    }
-  }
 }
 
 void checkNames(const DiffRequest& request, const std::vector<DiffEntry>& entries) {
@@ -275,7 +257,11 @@ int diffPictures(const DiffRequest& request) {
 }  // namespace
 
 int runDiff(DiffRequest request) {
-  checkOutputs(request);
+  checkOutputs({{"--output", request.settings.output},
+                {"--json", request.json},
+                {"--junit", request.junit},
+                {"--html", request.html}},
+               {request.a, request.b, request.mask});
   std::error_code ignored;
   const bool folderA = fs::is_directory(request.a, ignored);
   const bool folderB = fs::is_directory(request.b, ignored);

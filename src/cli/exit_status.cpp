@@ -8,19 +8,38 @@
 #include "commands.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
 #include "help.h"
+#include "outputs.h"
 
 namespace glint {
+
+namespace {
+
+/// The body's status, or 0 after --help and --version.
+int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  try {
+    app.parse(argc, argv);
+    return body();
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  }
+}
+
+}  // namespace
 
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
                const char* smaller) {
   try {
-    app.parse(argc, argv);
-    return body();
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
+    const int status = parseAndRun(app, argc, argv, body);
+    flushStandardOutput();
+    return status;
   } catch (const CLI::ParseError& error) {
-    std::cerr << "glint: " << usageMessage(app, error, argc, argv) << "\n";
+    const std::string message = usageMessage(app, error, argc, argv);
+    std::cerr << "glint: " << printablePath(message) << "\n";
+    return unusable;
+  } catch (const InputError& error) {  // may quote what was given, line breaks and all
+    std::cerr << "glint: " << printablePath(error.what()) << "\n";
     return unusable;
   } catch (const ContextError& error) {
     std::cerr << "glint: " << error.what() << "\n";

@@ -9,6 +9,7 @@
 #include "glint/render/error_budget.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
+#include "outputs.h"
 #include "report.h"
 
 namespace glint {
@@ -195,6 +196,7 @@ Command addInfo(CLI::App& app) {
   command->add_option("--json", *jsonFile, "write it as JSON; - is stdout")->type_name("FILE");
   auto makeLook = addLookOptions(*command);
   return [=] {
+    checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});
     const Look look = makeLook();
     const Scene scene = loadGltf(*model, poseOf(look));
     checkMaterialNames(scene, look);
@@ -204,8 +206,9 @@ Command addInfo(CLI::App& app) {
     if (look.maxError || !resolved.programReason.empty())
       json["choice"] = choiceJson(resolved, look);
     for (const std::string& warning : scene.warnings) printWarning(*model + ": " + warning);
-    if (*jsonFile != "-") print(json);
-    if (!jsonFile->empty()) writeText(*jsonFile, json.dump(2) + "\n");
+    if (*jsonFile != "-" && makeLook.saveFile() != "-") print(json);
+    if (!jsonFile->empty())
+      writeText(*jsonFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return done;
   };
 }

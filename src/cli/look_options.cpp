@@ -105,6 +105,8 @@ Look LookSource::operator()() const {
   return look;
 }
 
+const std::string& LookSource::saveFile() const { return options_->saveFile; }
+
 bool LookSource::savesResolved(const Look& look) const {
   return !options_->saveFile.empty() && hasBudget(look);
 }
@@ -119,6 +121,8 @@ void writeText(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-void printWarning(const std::string& text) { std::cerr << "glint: warning: " << text << "\n"; }
+void printWarning(const std::string& text) {
+  std::cerr << "glint: warning: " << printablePath(text) << "\n";
+}
 
 }  // namespace glint

@@ -67,7 +67,7 @@ void ModelLoader::readList() {
         if (pictures.empty()) continue;
       } catch (const InputError& refusal) {
         pictures.resize(1);
-        error = refusal.what();
+        error = printablePath(refusal.what());
       }
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
@@ -118,7 +118,7 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     model.images = decodeImages(model.scene, look_);
     model.decodeTime = since(decode);
   } catch (const Error& failure) {
-    model.error = failure.what();
+    model.error = printablePath(failure.what());
   } catch (const std::bad_alloc&) {
     model.error =
         printablePath(entry.model) + ": out of memory: the model is too large for this machine";

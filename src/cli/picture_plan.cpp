@@ -4,6 +4,7 @@
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
 #include "model_loader.h"
+#include "outputs.h"
 
 namespace glint {
 PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
@@ -68,6 +69,9 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
 
 void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures) {
   for (const PlannedPicture& picture : pictures) {
+    if (!picture.reference.empty() && isSameFile(picture.output, picture.reference))
+      throw InputError("--reference " + printablePath(picture.reference) +
+                       ": -o writes that file, it would be compared with itself: give another");
     const std::size_t* other = names_.take(picture.output, entry.number);
     if (options_.terms)
       for (const char* word : {"ambient", "diffuse-0", "specular-0", "normal", "depth"}) {
@@ -83,7 +87,9 @@ void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture
                                   ? "model " + std::to_string(*other) + " of the list"
                                   : printablePath(options_.models[*other]);
     throw InputError("-o " + options_.output + ": " + which + " and " + printablePath(entry.model) +
-                     " would both become " + name + ": put {model} or {n} into the name");
+                     " would both become " + name + ": put " +
+                     (options_.output.find("{model}") == std::string::npos ? "{model} or " : "") +
+                     "{n} into the name");
   }
 }
 

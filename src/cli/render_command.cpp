@@ -9,6 +9,7 @@
 #include "glint/image/error.h"
 #include "glint/scene/parameters.h"
 #include "interrupt.h"
+#include "outputs.h"
 #include "render_pictures.h"
 
 namespace glint {
@@ -35,6 +36,10 @@ std::string signalText(int number, const RenderReport& report, std::optional<std
 int render(const RenderOptions& options, const LookSource& makeLook) {
   const auto started = Clock::now();
   checkRenderOptions(options);
+  const std::string& saveFile = makeLook.saveFile();
+  checkOutputs({{"-o", options.output}, {"--json", options.json}, {"--save-look", saveFile}},
+               options.models);
+  if (options.hasList()) checkOutputs({{"--from-list", "-"}, {"--save-look", saveFile}}, {});
   const bool reference = options.usesReference();
   const Backend backend = reference ? Backend::automatic : backendFromName(options.backend);
   const Interrupt interrupt;

@@ -99,8 +99,6 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError("render: no MODEL: give models, or a list of them with --from-list");
   if (!options.models.empty() && options.hasList())
     throw InputError("render: MODEL and --from-list: give one of them");
-  if (options.output == "-" && options.json == "-")
-    throw InputError("-o - and --json -: both would go to stdout: give one of them a file");
   if (options.output == "-" && options.hasList())
     throw InputError("-o - and --from-list: the list's report goes to stdout: give -o a file name");
   if (options.output == "-" && !options.reference.empty())

@@ -45,8 +45,8 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
   } catch (const InputError& error) {
     const bool missing = !std::filesystem::exists(picture.reference);
     fail(result,
-         missing ? picture.reference + ": no such picture to compare with: take " + picture.output +
-                       " if it is as it should be"
+         missing ? printablePath(picture.reference) + ": no such picture to compare with: take " +
+                       printablePath(picture.output) + " if it is as it should be"
                  : error.what(),
          missing ? noBaseline : unusable);
     return;
@@ -61,8 +61,8 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
     comparison["max"] = found.values.at("max");
     if (!found.same)
       fail(result,
-           picture.output + ": differs from " + picture.reference + ": mean FLIP " +
-               std::to_string(found.values.at("flip")) + ": see glint diff",
+           printablePath(picture.output) + ": differs from " + printablePath(picture.reference) +
+               ": mean FLIP " + std::to_string(found.values.at("flip")) + ": see glint diff",
            differs);
   } catch (const InputError& error) {
     fail(result, error.what());

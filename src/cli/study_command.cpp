@@ -13,6 +13,7 @@
 #include "glint/study/study_page.h"
 #include "glint/study/study_results.h"
 #include "interrupt.h"
+#include "outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -24,6 +25,7 @@ struct StudyArguments {
   int repetitions = 0;
   double timeBudget = 0;
   bool resolutionGiven = false;
+  bool stdoutTaken = false;  ///< by a file of "-"
   StudyFilter filter;
 };
 
@@ -64,12 +66,21 @@ void makeFolder(const std::string& path) {
                      (error ? ": " + error.message() : std::string()) + ": give another");
 }
 
+void commitText(OutputFile& file, const std::string& text) {
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
 int runStudy(const StudyArguments& given, const Look& givenLook) {
   if (given.backend == "reference")
     throw InputError(
         "--rendering-backend reference: a study measures GL against the reference: "
         "give another");
   const Backend backend = backendFromName(given.backend);
+  // Before the work, so that what cannot be written is told at once.
+  std::optional<OutputFile> jsonFile, markdownFile;
+  if (!given.json.empty()) jsonFile.emplace(given.json);
+  if (!given.markdown.empty()) markdownFile.emplace(given.markdown);
   if (!given.output.empty()) makeFolder(given.output);
   StudyOptions options;
   options.keepPictures = !given.output.empty();
@@ -113,12 +124,14 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   head.look = options.look;
   head.rounds = options.rounds;
   head.warmUp = options.warmUp;
-  if (given.json != "-") std::cout << studyTable(head, result);
+  if (!given.stdoutTaken) std::cout << studyTable(head, result);
   const auto json = studyJson(head, result);
-  if (!given.json.empty()) writeText(given.json, json.dump(2) + "\n");
-  if (!given.markdown.empty()) writeText(given.markdown, studyResults(head, result, given.command));
+  const std::string jsonText =
+      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (jsonFile) commitText(*jsonFile, jsonText);
+  if (markdownFile) commitText(*markdownFile, studyResults(head, result, given.command));
   if (!given.output.empty()) {
-    writeText(given.output + "/study.json", json.dump(2) + "\n");
+    writeText(given.output + "/study.json", jsonText);
     writeText(given.output + "/study.csv", studyCsv(result));
     writeText(given.output + "/study.svg", studyPlot(json));
     writeText(given.output + "/study.html", studyPage(json, result, options.look));
@@ -166,6 +179,12 @@ Command addStudy(CLI::App& app) {
       ->type_name("FILE");
   auto look = addLookOptions(*command);
   return [given, look, command] {
+    checkOutputs({{"--json", given->json},
+                  {"--markdown", given->markdown},
+                  {"--save-look", look.saveFile()}},
+                 {given->model});
+    for (const std::string& path : {given->json, given->markdown, look.saveFile()})
+      given->stdoutTaken = given->stdoutTaken || path == "-";
     const Look asked = look();
     const auto only = [&](const char* name) {
       const CLI::Option* option = command->get_option(std::string("--") + name);

@@ -9,8 +9,8 @@
 
 namespace glint {
 
-/// A path as error messages show it: control characters become '?', so that a message stays one
-/// line.
+/// A path, or anything else that was given, as error messages show it: control characters become
+/// '?', so that a message stays one line.
 std::string printablePath(std::string_view path);
 
 /// The bytes of a regular file (symbolic links are followed).

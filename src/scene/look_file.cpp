@@ -92,7 +92,7 @@ std::string saveLook(const Look& look) {
     const Json value = p.save(look);
     if (!value.is_null()) json[p.name] = value;
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace glint

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+/// A file that an option writes: none if the path is empty, stdout if it is "-".
+struct OutputOption {
+  std::string option, path;
+};
+
+/// Whether two paths are one file, or would be.
+bool isSameFile(const std::string& a, const std::string& b);
+
+/// Throws InputError where two options would write one file or both stdout, or where one would
+/// write over a file that is read.
+void checkOutputs(std::initializer_list<OutputOption> outputs,
+                  const std::vector<std::string>& inputs);
+
+/// Throws InputError if what was printed on std::cout did not arrive.
+void flushStandardOutput();
+
+}  // namespace glint
