@@ -51,7 +51,8 @@ struct Sampler {
   Wrap wrapT = Wrap::repeat;
 };
 
-/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads it.
+/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads
+/// it.
 struct EncodedImage {
   std::string name;  ///< for messages: the file, or the place in the model file
   std::vector<std::byte> bytes;
