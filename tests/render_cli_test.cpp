@@ -484,6 +484,29 @@ TEST(Info, SaysWhatIsInAModelAndWhichVariantsItNeeds) {
   EXPECT_TRUE(json["warnings"].empty());
 }
 
+TEST(Info, SaysWhatBecomesOfExtensionsSkinsAndMorphTargets) {
+  const std::string models = GLINT_SOURCE_DIR "/models/";
+  const Ran lights = runGlint({"info", models + "lights.glb"});
+  expectDone(lights);
+  EXPECT_THAT(lights.out, HasSubstr("KHR_lights_punctual: read (with an exposure"));
+  const Ran bend = runGlint({"info", models + "bend.glb"});
+  expectDone(bend);
+  EXPECT_THAT(bend.out, HasSubstr("0: Rod, 4 joints: Joint 0, Joint 1, Joint 2, Joint 3\n"));
+  const Ran morph = runGlint({"info", models + "morph.glb", "--json", "-"});
+  expectDone(morph);
+  const auto json = nlohmann::json::parse(morph.out);
+  EXPECT_EQ(json["morphs"], nlohmann::json::parse(
+                                R"([{"mesh": "Ball", "targets": ["Tall", "Cube"]}])"));
+  EXPECT_TRUE(json["skins"].empty());
+  EXPECT_TRUE(json["extensions"].empty());
+  const auto extensions = nlohmann::json::parse(
+      runGlint({"info", models + "lights.glb", "--json", "-"}).out)["extensions"];
+  ASSERT_EQ(extensions.size(), 1u);
+  EXPECT_EQ(extensions[0]["name"], "KHR_lights_punctual");
+  EXPECT_EQ(extensions[0]["use"], "read");
+  EXPECT_EQ(extensions[0]["required"], false);
+}
+
 TEST(Backends, AreListedInTextAndJson) {
   const Ran text = runGlint({"backends"});
   expectDone(text);

@@ -98,7 +98,8 @@ const Guard guards[] = {
      "P11", "outside a spot's cone"},
     {"sum.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, 0.0, 1e30);", "P11",
      "inside a spot's cone"},
-    {"sum.glsl", "return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
+    {"sum.glsl",
+     "return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
      "return position / -sqrt(square);", "C13", "the eye on the surface"},
     {"sum.glsl", "addLight(sum, n, v, safeUnit(way), intensity",
      "addLight(sum, n, v, unit(way), intensity", "C12", "point lights near and far"},
@@ -198,5 +199,5 @@ INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
                            std::erase(file, '_');
                            return file + std::to_string(tested.index) +
                                   (*tested.param.caught ? "_" + std::string(tested.param.caught)
-                                                      : std::string("_equivalent"));
+                                                        : std::string("_equivalent"));
                          });

@@ -12,8 +12,7 @@
 
 namespace glint {
 
-std::unique_ptr<Model> loadModel(const std::filesystem::path& path,
-                                 const PoseRequest& pose) {
+std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRequest& pose) {
   const auto start = std::chrono::steady_clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;

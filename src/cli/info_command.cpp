@@ -76,6 +76,17 @@ Json infoJson(const Scene& scene, const Look& look) {
   json["animations"] = Json::array();
   for (const FileAnimation& a : scene.animations)
     json["animations"].push_back({{"name", a.name}, {"seconds", a.duration}});
+  json["skins"] = Json::array();
+  for (const FileSkin& s : scene.skins)
+    json["skins"].push_back({{"name", s.name}, {"joints", s.joints}});
+  json["morphs"] = Json::array();
+  for (const FileMorph& m : scene.morphs)
+    json["morphs"].push_back({{"mesh", m.name}, {"targets", m.targets}});
+  json["extensions"] = Json::array();
+  constexpr const char* uses[] = {"read", "approximated", "ignored"};
+  for (const FileExtension& e : scene.extensions)
+    json["extensions"].push_back(
+        {{"name", e.name}, {"use", uses[int(e.use)]}, {"note", e.note}, {"required", e.required}});
   json["variants"] = variantsJson(scene, list, look);
   json["warnings"] = scene.warnings;
   return json;
@@ -100,6 +111,19 @@ void printChoice(const Json& choice) {
               << m["reflectance"] << ", interpolation " << m["interpolation"] << ", rounding "
               << m["rounding"] << ")\n      " << oneLine(m["reason"]) << "\n";
   }
+}
+
+/// A skin or a mesh with how many `things` it has and those that have names.
+void printList(std::size_t index, const std::string& name, const Json& names, const char* thing) {
+  std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : name) << ", " << names.size()
+            << " " << thing << (names.size() == 1 ? "" : "s");
+  bool first = true;
+  for (const Json& n : names) {
+    if (n == "") continue;
+    std::cout << (first ? ": " : ", ") << oneLine(n);
+    first = false;
+  }
+  std::cout << "\n";
 }
 
 void print(const Json& json) {
@@ -131,6 +155,23 @@ void print(const Json& json) {
   for (std::size_t i = 0; i < json["animations"].size(); ++i)
     std::cout << "  " << i << ": " << json["animations"][i]["seconds"] << " s "
               << oneLine(json["animations"][i]["name"]) << "\n";
+  if (!json["skins"].empty()) std::cout << "\nSkins\n";
+  for (std::size_t i = 0; i < json["skins"].size(); ++i) {
+    const Json& skin = json["skins"][i];
+    printList(i, skin["name"], skin["joints"], "joint");
+  }
+  if (!json["morphs"].empty()) std::cout << "\nMorph targets\n";
+  for (std::size_t i = 0; i < json["morphs"].size(); ++i) {
+    const Json& morph = json["morphs"][i];
+    printList(i, morph["mesh"], morph["targets"], "target");
+  }
+  if (!json["extensions"].empty()) std::cout << "\nExtensions of glTF\n";
+  for (const Json& e : json["extensions"]) {
+    std::cout << "  " << oneLine(e["name"]) << ": " << oneLine(e["use"]);
+    if (e["required"]) std::cout << ", required by the file";
+    if (e["note"] != "") std::cout << " (" << oneLine(e["note"]) << ")";
+    std::cout << "\n";
+  }
   if (json.contains("choice")) printChoice(json["choice"]);
   std::cout << "\nShader variants\n";
   for (const Json& v : json["variants"]) {

@@ -42,8 +42,8 @@ std::string defines(const Variant& v) {
   for (const char* output : outputs)
     text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
   text += define("OUTPUT", int(v.output));
-  if (v.unlit) return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0) +
-           define("NORMAL_TEXTURE", 0);
+  if (v.unlit)
+    return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0) + define("NORMAL_TEXTURE", 0);
   const int lights = v.directionalLights + v.pointLights + v.spotLights;
   text += define("LIGHTS", lights);
   text += define("DIRECTIONAL_LIGHTS", v.directionalLights);

@@ -20,7 +20,7 @@ struct Vertices {
   std::vector<glm::dvec3> normals;  ///< unit, eye space; empty unless triangles
   /// Unit, eye space, and handedness; empty unless the mesh has them.
   std::vector<glm::dvec4> tangents;
-  glm::dmat3 eyeFromModel{1.0};     ///< without translation
+  glm::dmat3 eyeFromModel{1.0};  ///< without translation
 };
 
 /// An item of the draw list with all that the reference reads of it.

@@ -58,6 +58,9 @@ struct SceneFile::State {
     start.images = textures.takeImages();
     Budget budget(document.geometryBytes, messages);
     start.animations = listAnimations(document, budget, messages);
+    start.extensions = std::move(document.extensions);
+    start.skins = std::move(document.skins);
+    start.morphs = std::move(document.morphs);
   }
 
   struct Part {

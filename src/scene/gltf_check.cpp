@@ -1,35 +1,17 @@
 #include "glint/scene/gltf_check.h"
 
 #include <algorithm>
-#include <array>
 #include <climits>
-#include <set>
 #include <vector>
 
-#include "glint/image/texture.h"
 #include "glint/scene/gltf_compression.h"
+#include "glint/scene/gltf_extensions.h"
 
 namespace glint::gltf {
 namespace {
 
 /// More bytes than any file holds, and few enough that sums of a few cannot overflow.
 constexpr std::int64_t maxBytes = std::int64_t(1) << 48;
-
-constexpr std::array supportedExtensions = {"KHR_materials_unlit",
-                                            "KHR_materials_ior",
-                                            "KHR_materials_specular",
-                                            "KHR_materials_transmission",
-                                            "KHR_materials_emissive_strength",
-                                            "KHR_mesh_quantization",
-                                            "KHR_lights_punctual",
-                                            "KHR_node_visibility",
-                                            "KHR_texture_transform"};
-
-bool isSupported(const std::string& extension) {
-  if (readsCompression(extension)) return true;
-  if (extension == "EXT_texture_webp") return canDecodeWebp();
-  return std::ranges::find(supportedExtensions, extension) != supportedExtensions.end();
-}
 
 /// "2.0" gives {2, 0}; {-1, 0} for what is not a version.
 std::pair<int, int> versionOf(const std::string& text) {
@@ -57,21 +39,13 @@ void checkAsset(Cursor root, const Messages& messages) {
 }
 
 void checkExtensions(Cursor root, Messages& messages) {
-  const Cursor required = root.member("extensionsRequired");
-  for (std::size_t i = 0; i < required.size(); ++i) {
-    const std::string name = required.item(i).text();
-    if (!isSupported(name)) {
-      messages.fail("requires the extension " + printable(name, 80) +
-                        ", which is not supported by this version",
+  for (const FileExtension& extension : extensionsOf(root)) {
+    if (extension.use != FileExtension::Use::ignored) continue;
+    if (extension.required) {
+      messages.fail("requires the extension " + extension.name + ", which is " + extension.note,
                     "export it without that extension");
     }
-  }
-  const Cursor used = root.member("extensionsUsed");
-  std::set<std::string> told;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const std::string name = used.item(i).text();
-    if (isSupported(name) || !told.insert(name).second) continue;
-    messages.warn("the extension " + printable(name, 80) + " is not supported and is ignored");
+    messages.warn("the extension " + extension.name + " is " + extension.note + " and is ignored");
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "glint/scene/gltf_check.h"
 #include "glint/scene/gltf_compression.h"
+#include "glint/scene/gltf_extensions.h"
 #include "glint/scene/gltf_file.h"
 
 namespace glint::gltf {
@@ -192,6 +193,9 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   if (decompress(document, messages)) checkStructure(document.json, messages);
   document.views = placeViews(root);
   document.nodeExtensions = readNodeExtensions(root);
+  document.extensions = extensionsOf(root);
+  document.skins = skinsOf(root);
+  document.morphs = morphsOf(root);
   std::vector<Bytes> buffers = readGeometry(root, document, messages);
   const std::string geometry = takeGeometry(document.json, buffers);
   tinygltf::TinyGLTF reader;

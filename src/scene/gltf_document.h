@@ -8,6 +8,7 @@
 
 #include "glint/scene/gltf_file.h"
 #include "glint/scene/gltf_json.h"
+#include "glint/scene/scene.h"
 
 namespace glint::gltf {
 
@@ -34,6 +35,9 @@ struct Document {
     bool visible = true;
   };
   std::vector<NodeExtension> nodeExtensions;
+  std::vector<FileExtension> extensions;
+  std::vector<FileSkin> skins;
+  std::vector<FileMorph> morphs;
   std::vector<ByteSource> buffers;
   std::vector<ViewPlace> views;     ///< all buffer views, as they lie in `buffers`
   std::uint64_t geometryBytes = 0;  ///< held in `model`

@@ -9,7 +9,8 @@
 
 namespace glint {
 
-/// `automatic` is a choice by error budget (glint/render/error_budget.h); drawn as it stands, phong.
+/// `automatic` is a choice by error budget (glint/render/error_budget.h); drawn as it stands,
+/// phong.
 enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
 enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
 enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };

@@ -51,7 +51,8 @@ struct Sampler {
   Wrap wrapT = Wrap::repeat;
 };
 
-/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads it.
+/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads
+/// it.
 struct EncodedImage {
   std::string name;  ///< for messages: the file, or the place in the model file
   std::vector<std::byte> bytes;
@@ -138,6 +139,26 @@ struct FileAnimation {
   double duration = 0;  ///< seconds, from 0 to its last key
 };
 
+/// An extension of glTF that the file names, and what is made of it.
+struct FileExtension {
+  enum class Use { read, approximated, ignored };
+  std::string name;
+  Use use = Use::ignored;
+  std::string note;       ///< how far, may be empty; or why not, to follow "which is"
+  bool required = false;  ///< by the file
+};
+
+struct FileSkin {
+  std::string name;                 ///< may be empty
+  std::vector<std::string> joints;  ///< their nodes' names, which may be empty
+};
+
+/// A mesh of the file that has morph targets.
+struct FileMorph {
+  std::string name;                  ///< may be empty
+  std::vector<std::string> targets;  ///< their names, which may be empty
+};
+
 /// All that is drawn, by value. World space: +Y up, right-handed, metres by glTF's word.
 struct Scene {
   std::string name;  ///< file name without folder and ending
@@ -150,6 +171,9 @@ struct Scene {
   /// What the file's lights are multiplied by unless a look says otherwise; see lights.h.
   double lightScale = 1;
   std::vector<FileAnimation> animations;
+  std::vector<FileExtension> extensions;  ///< for `glint info`, as are skins and morphs
+  std::vector<FileSkin> skins;
+  std::vector<FileMorph> morphs;
   std::vector<std::string> warnings;  ///< one line each
 };
 
