@@ -16,8 +16,7 @@ out vec4 fragment;  // linear; straight alpha
 void main() {
   vec4 base = material.color;
 #if VERTEX_COLORS
-  // As interpolated, which beyond all measure may be infinite or no number: see per_vertex.glsl.
-  base *= mix(vec4(0.0), min(vColor, 1e30), greaterThan(vColor, vec4(0.0)));
+  base *= arrived(vColor);
 #endif
 #if COLOR_TEXTURE
   base *= texture(colorTexture, vColorTexcoord);

@@ -28,12 +28,6 @@ void carryLight(vec3 point, vec3 n) {
 #endif
 }
 #else
-// Light is not negative. In a triangle almost without area, or whose corners lie beyond all measure,
-// a driver's interpolation may give anything, infinity and what is no number too.
-vec3 arrived(vec3 light) {
-  return mix(vec3(0.0), min(light, 1e30), greaterThan(light, vec3(0.0)));
-}
-
 vec3 shade(vec4 base) {
   LightSum sum = LightSum(vDiffuse, vec3(0.0));
 #if SPECULAR
@@ -47,6 +41,7 @@ vec3 shade(vec4 base) {
 #endif
   }
 #endif
-  return surfaceColor(LightSum(arrived(sum.diffuse), arrived(sum.specular)), base.rgb);
+  return surfaceColor(LightSum(arrived(vec4(sum.diffuse, 0.0)).rgb, arrived(vec4(sum.specular, 0.0)).rgb),
+                      base.rgb);
 }
 #endif

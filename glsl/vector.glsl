@@ -15,3 +15,10 @@ vec3 safeUnit(vec3 v) {
   float size = max(max(abs(v.x), abs(v.y)), abs(v.z));
   return unit(v * (size > 1.0995116e12 ? 1.2924697e-26 : size < 9.094947e-13 ? 7.7371252e25 : 1.0));
 }
+
+// Light or a colour as it arrives at a pixel. Neither is negative; but in a triangle almost without
+// area, or with corners beyond all measure, a driver's interpolation may give anything, infinity and
+// what is no number too.
+vec4 arrived(vec4 value) {
+  return mix(vec4(0.0), min(value, 1e30), greaterThan(value, vec4(0.0)));
+}

@@ -129,6 +129,8 @@ const Guard guards[] = {
      "which side light comes from"},
     {"vertex.glsl", "n = safeUnit(n);", "", "B1", "normals under uneven scales"},
     {"vertex.glsl", "n = safeUnit(n);", "n = unit(n);", "B6", "scales that are almost 0"},
+    {"vector.glsl", "return mix(vec4(0.0), min(value, 1e30), greaterThan(value, vec4(0.0)));",
+     "return value;", "P15", "light and colours that are no numbers"},
     {"fragment.glsl", "if (base.a < material.emission.a) discard;", "", "P12", "masks"},
     {"fragment.glsl", "if (base.a < material.emission.a) discard;",
      "if (base.a <= material.emission.a) discard;", "P12", "the cutoff itself is there"},

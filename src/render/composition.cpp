@@ -96,11 +96,11 @@ std::string join(const std::string& head, const std::vector<std::string>& files,
 
 ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileNames) {
   const std::string name(v.unlit ? "unlit" : shadingName(v.program));
-  std::vector<std::string> files{"blocks.glsl"};
+  std::vector<std::string> files{"vector.glsl", "blocks.glsl"};
   if (!v.unlit) {
     const bool environment = v.program == Shading::environment;
     const bool perVertex = v.program == Shading::flat || v.program == Shading::gouraud;
-    files.insert(files.begin(), {"vector.glsl", "lobe.glsl"});
+    files.insert(files.begin() + 1, "lobe.glsl");
     if (environment) files.insert(files.end(), {"fresnel.glsl", "environment_map.glsl"});
     files.insert(files.end(), {"sum.glsl", perVertex ? "per_vertex.glsl" : "per_pixel.glsl"});
     std::string file = name + ".glsl";  // Mesa's #line takes no '-' in names

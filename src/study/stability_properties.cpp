@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "glint/render/probe_error.h"
 #include "glint/render/probe_search.h"
@@ -411,6 +412,22 @@ void p14(Bench& bench, Record& record) {
   }
 }
 
+void p15(Bench& bench, Record& record) {
+  // What a driver may interpolate in a triangle almost without area or with corners beyond all
+  // measure, where the light of a vertex and its colour arrive at a pixel.
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> given{
+      std::numeric_limits<float>::quiet_NaN(), -infinity, -1, 0, 0.5f, 1e30f, infinity};
+  const double expected[] = {0, 0, 0, 0, 0.5, 1e30f, 1e30f};
+  Look look = bench.look(Shading::gouraud);
+  look.light = {directional({0, 0, 1})};
+  const Variant variant = PointScene(look, litMaterial(1, 0, 1)).item().variant;
+  const auto got = bench.programs().probe(variant).run(
+      "float arrivedValue(float x) { return arrived(vec4(x)).x; }", {given});
+  for (std::size_t i = 0; i < given.size(); ++i)
+    record.near("interpolated " + numberText(given[i]), got[i], expected[i], 0);
+}
+
 const Case cases[] = {
     {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
      "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
@@ -442,6 +459,10 @@ const Case cases[] = {
     {"P14", "a lamp with range 10 from 1e-20 to 1e15 away",
      "glTF's fall-off, finite, 0 from its range on", "1e-6 of 1/d^2: roundings",
      "1/0 at the lamp, negative light beyond its range", "distances count as at least 1e-6", p14},
+    {"P15", "light and vertex colours that a driver interpolates as NaN, infinite or negative",
+     "0, 0 and at most 1e30", "exact",
+     "found by a search: triangles without area, corners beyond all measure",
+     "what is no number, or negative, counts as 0", p15},
 };
 
 }  // namespace
