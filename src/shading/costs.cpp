@@ -36,6 +36,8 @@ double CostTable::lobe(LobeForm form, int power) const {
       return at(pade, squarings);
     case LobeForm::gaussian:
       return gaussian;
+    case LobeForm::none:
+      return 0;
   }
   return exact;
 }
@@ -54,12 +56,6 @@ double CostTable::reflectance(FresnelForm form, double exponent) const {
       return rational;
   }
   return fresnelExact;
-}
-
-double lobeCost(LobeForm form, int power) { return CostTable().lobe(form, power); }
-
-double fresnelCost(FresnelForm form, double schlickExponent) {
-  return CostTable().reflectance(form, schlickExponent);
 }
 
 }  // namespace glint

@@ -24,6 +24,9 @@ struct CostTable {
   double schlick = 30;          ///< with the exponent 5, a power by squaring
   double schlickExponent = 60;  ///< with another
 
+  /// Of going on to lights of another form, once a pixel: one more loop.
+  double change = 5;
+
   /// Of a lobe. `power` is gamma, or of `integer` the exponent.
   double lobe(LobeForm form, int power) const;
   double reflectance(FresnelForm form, double schlickExponent) const;
@@ -33,8 +36,5 @@ struct CostTable {
 /// The multiplications of a power from 1 to 128 by squaring: one for each bit after the first and
 /// one more for each of those that is set.
 int productsOf(int power);
-
-double lobeCost(LobeForm form, int power);
-double fresnelCost(FresnelForm form, double schlickExponent);
 
 }  // namespace glint
