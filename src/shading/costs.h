@@ -24,8 +24,9 @@ struct CostTable {
   double schlick = 30;          ///< with the exponent 5, a power by squaring
   double schlickExponent = 60;  ///< with another
 
-  /// Of going on to lights of another form, once a pixel: one more loop.
-  double change = 5;
+  /// Of going on to lights of another form: one more loop, whose cost is too small to be measured.
+  /// Above 0, so that a form more has to pay.
+  static constexpr double change = 1;
 
   /// Of a lobe. `power` is gamma, or of `integer` the exponent.
   double lobe(LobeForm form, int power) const;

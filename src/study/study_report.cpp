@@ -251,7 +251,7 @@ std::string studyCsv(const StudyResult& r) {
     for (const VariantError& e : v.errors) {
       const StudyFront* front = frontOf(r, e.against, "rmse");
       const FrontPlace* place = placeOf(front, i);
-      csv += v.variant.name + "," + std::string(shadingName(e.against)) + "," +
+      csv += "\"" + v.variant.name + "\"," + std::string(shadingName(e.against)) + "," +
              formatted("%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", wall.count, wall.minimum,
                        wall.lowerQuartile, wall.median, wall.upperQuartile, query.median,
                        perPixel(r, v.times), v.compile, v.firstFrame) +
@@ -285,8 +285,11 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
         order.emplace_back(e->whole.rmse, i);
     if (order.empty()) continue;
     std::sort(order.begin(), order.end());
+    int width = 32;
+    for (const auto& [rmse, i] : order)
+      width = std::max(width, int(r.variants[i].variant.name.size()));
     table +=
-        formatted("\n%-32s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n",
+        formatted("\n%-*s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n", width,
                   ("against exact " + std::string(shadingName(model))).c_str(), "ms", "quartiles",
                   "ns/px", "max", "p99.9", "rmse", "flip", ">1 lev", "front (rmse)");
     for (const auto& [rmse, i] : order) {
@@ -294,7 +297,7 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
       const VariantError& e = *errorAgainst(v, model);
       const Spread wall = spreadOf(v.times.wall);
       const FrontPlace* place = placeOf(front, i);
-      table += formatted("%-32s ", v.variant.name.c_str());
+      table += formatted("%-*s ", width, v.variant.name.c_str());
       table += wall.count == 0
                    ? formatted("%8s %17s %7s ", "-", "-", "-")
                    : formatted("%8.3f %8.3f-%8.3f %7.2f ", wall.median, wall.lowerQuartile,

@@ -49,16 +49,17 @@ StudyVariant chosenVariant(const Scene& scene, const Bounds& bounds, const Look&
   v.program = resolved.look.shading;
   v.highlight = highlightText(v.look.highlight);
   if (v.program == Shading::environment) v.fresnel = fresnelText(v.look.fresnel);
-  v.name = std::string(shadingName(v.program)) + " (forms by material or light)";
+  const bool byMaterial = std::ranges::any_of(v.look.material, [](const auto& each) {
+    return each.second.highlight || each.second.fresnel;
+  });
+  v.name = std::string(shadingName(v.program)) + (byMaterial ? " by material"
+                                                  : v.fresnel.empty()
+                                                      ? " " + v.highlight
+                                                      : " " + v.fresnel + " " + v.highlight);
   const DrawList own = makeDrawList(scene, bounds, v.look);
-  for (const StudyVariant& other : others) {
-    if (other.program != v.program || !drawnAlike(own, makeDrawList(scene, bounds, other.look)))
-      continue;
-    v.name = other.name;
-    v.highlight = other.highlight;
-    v.fresnel = other.fresnel;
-    break;
-  }
+  for (const StudyVariant& other : others)
+    if (other.program == v.program && drawnAlike(own, makeDrawList(scene, bounds, other.look)))
+      v.name = other.name;
   char budget[32];
   std::snprintf(budget, sizeof budget, "%g", *look.maxError);
   v.name = std::string("max-error ") + budget + ": " + v.name;
