@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -172,6 +173,11 @@ int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
     std::cerr << "glint: ended before all was measured: no table is written\n";
     return 128 + Interrupt::signal();
   }
+  constexpr double muchNoise = 10;
+  if (measured.file.noise > muchNoise)
+    printWarning("--measure-costs: the machine does other work, and costs are off by up to " +
+                 std::to_string(std::lround(measured.file.noise)) +
+                 " hundredths: measure again when it is at rest");
   commitText(file, costFileText(measured.file));
   if (given.costs != "-") std::cout << costText(measured);
   return done;

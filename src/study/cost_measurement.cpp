@@ -5,6 +5,8 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
+#include <numeric>
+#include <random>
 
 #include "glint/study/format.h"
 #include "glint/study/statistics.h"
@@ -15,6 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int lightCount = 64;
+// Frames of some milliseconds: shorter ones measure how threads are woken.
 constexpr glm::ivec2 lobeSize{256, 256}, reflectanceSize{1024, 1024};
 constexpr int warmUp = 2, rounds = 6;  // of each build
 constexpr int mostBuilds = 24;
@@ -160,40 +163,55 @@ bool measureBuild(Trials& trials, const StudyScene& scene, GpuScene& gpu, const 
   return true;
 }
 
-/// Of each trial after the base: 100 (time - base) / unit, build by build.
-std::vector<double> costsOf(const Trials& trials, std::size_t trial,
-                            const std::vector<double>& units, double share) {
-  std::vector<double> costs;
-  for (std::size_t i = 0; i < units.size(); ++i)
-    costs.push_back(100 * share * (trials[trial].milliseconds[i] - trials[0].milliseconds[i]) /
-                    units[i]);
-  return costs;
+/// A time from those of chosen builds: the lower quartile, without the unlucky ones.
+double timeOf(const Trial& trial, const std::vector<std::size_t>& builds) {
+  std::vector<double> times;
+  for (const std::size_t i : builds) times.push_back(trial.milliseconds[i]);
+  return quantile(std::move(times), 0.25);
 }
 
-/// The costs of trials 1 and on without the control. Noise is how far medians may be off: half of
-/// the usual interval, and what the exact form seems to cost above itself. Of both the medians,
-/// since one build on a machine that does other work says nothing.
-std::vector<MeasuredCost> measuredCosts(const Trials& trials, const std::vector<double>& units,
-                                        double share, double& noise) {
+/// The time of an exact lobe for each light and pixel of its picture, in all, ms.
+double unitOf(const Trials& lobes, const std::vector<std::size_t>& builds) {
+  return timeOf(lobes[1], builds) - timeOf(lobes[0], builds);
+}
+
+/// The costs of trials 1 and on without the control. `share`: how many lobes a pixel of the lobes'
+/// picture has for each pixel of this. Noise is how far costs may be off: half of the usual
+/// interval, and what the exact form seems to cost above itself.
+std::vector<MeasuredCost> measuredCosts(const Trials& trials, const Trials& lobes, double share,
+                                        double& noise) {
+  const std::size_t builds = lobes[0].milliseconds.size();
+  std::vector<std::size_t> chosen(builds);
+  std::iota(chosen.begin(), chosen.end(), std::size_t(0));
+  const auto costs = [&] {
+    const double base = timeOf(trials[0], chosen), unit = unitOf(lobes, chosen);
+    std::vector<double> all;
+    for (const Trial& trial : trials)
+      all.push_back(100 * share * (timeOf(trial, chosen) - base) / unit);
+    return all;
+  };
+  const std::vector<double> measured = costs();
+  std::vector<std::vector<double>> drawn(trials.size());
+  std::mt19937 random(1);
+  for (int k = 0; k < 400; ++k) {  // bootstrap: builds are drawn for all forms together
+    for (std::size_t& i : chosen) i = std::size_t(std::uint64_t(random()) * builds >> 32);
+    const auto again = costs();
+    for (std::size_t i = 0; i < trials.size(); ++i) drawn[i].push_back(again[i]);
+  }
   std::vector<MeasuredCost> all;
   std::vector<double> halves;
   for (std::size_t i = 1; i + 1 < trials.size(); ++i) {
-    const auto costs = costsOf(trials, i, units, share);
-    const Interval interval = medianInterval(costs);
-    all.push_back(
-        {trials[i].form, *trials[i].cost, quantile(costs, 0.5), interval.low, interval.high, 0});
-    halves.push_back((interval.high - interval.low) / 2);
+    const double low = quantile(drawn[i], 0.025), high = quantile(drawn[i], 0.975);
+    all.push_back({trials[i].form, *trials[i].cost, measured[i], low, high, 0});
+    halves.push_back((high - low) / 2);
   }
-  auto difference = costsOf(trials, trials.size() - 1, units, share);
-  const auto exact = costsOf(trials, 1, units, share);
-  for (std::size_t i = 0; i < exact.size(); ++i) difference[i] -= exact[i];
-  noise = std::max({1.0, quantile(halves, 0.5), std::abs(quantile(difference, 0.5))});
+  noise = std::max({1.0, quantile(halves, 0.5), std::abs(measured.back() - measured[1])});
   return all;
 }
 
 void fillIn(const Trials& trials, std::vector<MeasuredCost>& costs, double noise) {
   for (std::size_t i = 0; i < costs.size(); ++i)
-    *trials[i + 1].cost = costs[i].inTable = std::max(roundedCost(costs[i].median, noise), 1.0);
+    *trials[i + 1].cost = costs[i].inTable = std::max(roundedCost(costs[i].value, noise), 1.0);
 }
 
 /// The powers of `integer` in between.
@@ -234,27 +252,23 @@ CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
     if (!measureBuild(lobes, scene, gpu, stop)) return result;
     if (!measureBuild(reflectances, scene, gpu, stop)) return result;
   }
-  const auto units = [&] {
-    std::vector<double> all;
-    for (int i = 0; i < result.builds; ++i)
-      all.push_back(lobes[1].milliseconds[std::size_t(i)] - lobes[0].milliseconds[std::size_t(i)]);
-    return all;
-  }();
   const double evaluations = double(lightCount) * lobeSize.x * lobeSize.y;
-  result.exactNanoseconds = quantile(units, 0.5) * 1e6 / evaluations;
+  std::vector<std::size_t> builds(std::size_t(result.builds));
+  std::iota(builds.begin(), builds.end(), std::size_t(0));
+  result.exactNanoseconds = unitOf(lobes, builds) * 1e6 / evaluations;
   if (!(result.exactNanoseconds > 0))
     throw Error("a highlight takes no time that could be measured here: leave --cost-table out");
   const double pixels = double(reflectanceSize.x) * reflectanceSize.y;
   double noise = 0, reflectanceNoise = 0;
-  result.lobes = measuredCosts(lobes, units, 1, noise);
-  result.reflectances = measuredCosts(reflectances, units, evaluations / pixels, reflectanceNoise);
+  result.lobes = measuredCosts(lobes, lobes, 1, noise);
+  result.reflectances = measuredCosts(reflectances, lobes, evaluations / pixels, reflectanceNoise);
   fillIn(lobes, result.lobes, noise);
   interpolate(table);
   // Rounded about the exact reflectance, which is not 100.
-  const double exact = result.reflectances[0].median;
+  const double exact = result.reflectances[0].value;
   for (std::size_t i = 0; i < result.reflectances.size(); ++i) {
     MeasuredCost& cost = result.reflectances[i];
-    const double rounded = exact + roundedCost(100 + cost.median - exact, reflectanceNoise) - 100;
+    const double rounded = exact + roundedCost(100 + cost.value - exact, reflectanceNoise) - 100;
     *reflectances[i + 1].cost = cost.inTable = std::max(rounded, 0.0);
   }
   result.file.noise = noise;
@@ -274,8 +288,8 @@ std::string costText(const CostMeasurement& m) {
     text +=
         formatted("\n%-26s %8s %9s %16s %9s\n", title, "shipped", "measured", "95 %", "in table");
     for (const MeasuredCost& c : *costs)
-      text += formatted("%-26s %8.0f %9.1f %7.1f-%8.1f %9.1f\n", c.form.c_str(), c.shipped,
-                        c.median, c.low, c.high, c.inTable);
+      text += formatted("%-26s %8.0f %9.1f %7.1f-%8.1f %9.1f\n", c.form.c_str(), c.shipped, c.value,
+                        c.low, c.high, c.inTable);
   }
   return text;
 }

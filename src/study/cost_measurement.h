@@ -9,8 +9,8 @@ namespace glint {
 /// A form's cost in hundredths of the exact lobe, for one light at one pixel.
 struct MeasuredCost {
   std::string form;
-  double shipped = 0;        ///< of the table that comes with glint
-  double median = 0;         ///< of the builds of the program
+  double shipped = 0;  ///< of the table that comes with glint
+  double value = 0;
   double low = 0, high = 0;  ///< its 95 % bootstrap interval
   double inTable = 0;        ///< rounded to what can be told apart
 };
@@ -34,8 +34,8 @@ struct CostMeasuring {
 /// picture under 64 directional lights, Phong's program, less the same without a highlight. The
 /// reflectances: the same sheet in a white environment, less that of a metal, which has none of
 /// Fresnel's. All take turns; the programs are built anew several times, since where a driver puts
-/// a program can change how long it takes; of each build the fastest frame counts, and the median
-/// over the builds.
+/// a program can change how long it takes; of each build the fastest frame counts, and the lower
+/// quartile of the builds.
 CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
                              const StudyProgress& progress);
 
