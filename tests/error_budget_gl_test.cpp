@@ -49,6 +49,21 @@ glm::dvec3 at(const Image& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
+// Directional, or a lamp, or a spot whose ramp crosses the sphere.
+Light lightAround(Random& r, bool fallsOff) {
+  Light light = test::directional(r.direction(), r.color());
+  const int kind = r.below(4);
+  if (kind < 2) return light;
+  light.type = kind == 2 ? Light::Type::point : Light::Type::spot;
+  light.position = r.log(2, 50) * light.direction;
+  light.direction = -light.position;
+  light.outerAngle = 10 + 70 * r.unit();
+  light.innerAngle = 0.8 * r.unit() * light.outerAngle;
+  light.fallsOff = fallsOff;
+  if (light.fallsOff) light.intensity *= glm::dot(light.position, light.position);
+  return light;
+}
+
 TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
   const auto context = openContext(GetParam());
   context->makeCurrent();
@@ -71,8 +86,8 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     const Shading truth = i % 4 == 3 ? Shading::phong : look.shading;
     look.maxError = r.log(2e-5, 0.3);
     look.light.emplace();
-    for (int k = r.below(3); k >= 0; --k)
-      look.light->push_back(test::directional(r.direction(), r.color()));
+    const bool fallsOff = r.below(3) == 0;  // all of a file's lights do, none of --light
+    for (int k = r.below(3); k >= 0; --k) look.light->push_back(lightAround(r, fallsOff));
     look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
     look.environment = Environment(r.below(3));
     look.resolution = {32, 32};
@@ -108,7 +123,10 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
         const glm::dvec3 n = glm::normalize(a.normal);
         bool jumps = false;
         for (const reference::Light& light : reference.stage().frame.lights)
-          jumps = jumps || std::abs(glm::dot(n, light.place)) < 2e-6;
+          jumps =
+              jumps || std::abs(glm::dot(n, light.type == reference::Light::Type::directional
+                                                ? light.place
+                                                : glm::normalize(light.place - a.position))) < 2e-6;
         if (jumps) continue;
         const glm::dvec3 difference = glm::abs(at(drawn, x, y) - reference.shade(a).radiance);
         const double error = std::max({difference.x, difference.y, difference.z});

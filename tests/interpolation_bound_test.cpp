@@ -105,7 +105,7 @@ Draw randomDraw(Random& r, Kind kind, Shading program) {
 }
 
 // The largest difference between what the program carries and the sum at the point, over all
-// triangles and both sides of those that show both.
+// triangles, of the side that shows.
 double worstOf(const Draw& d, Shading program, Random& r, int steps) {
   const ReferenceRenderer reference(d.scene, {}, boundsOf(d.scene), d.look, 1);
   const reference::Stage& stage = reference.stage();
@@ -151,8 +151,11 @@ double worstOf(const Draw& d, Shading program, Random& r, int steps) {
     worst = std::max(worst, here);
   };
   for (std::size_t first = 0; first + 2 < indices.size(); first += 3) {
-    hunt(first, 1);
-    if (item.surface.twoSided) hunt(first, -1);
+    const glm::dvec3 a = vertices.eye[indices[first]];
+    const glm::dvec3 face =
+        glm::cross(vertices.eye[indices[first + 1]] - a, vertices.eye[indices[first + 2]] - a);
+    const bool front = glm::dot(face, stage.camera.orthographic ? glm::dvec3(0, 0, 1) : -a) > 0;
+    if (front || item.surface.twoSided) hunt(first, front ? 1 : -1);
   }
   return worst;
 }

@@ -75,6 +75,17 @@ struct Mold {
   double offFace = 0;  // flat: how far the normals of a face are from its own
 };
 
+// Whether a triangle shows its back alone, and so nothing: seen from more than a degree behind its
+// plane, which rounding does not turn.
+bool isTurnedAway(const PlacedMesh& p, const Mold& mold, const Patch& patch, bool mirrored) {
+  const auto& [a, b, c] = patch.corners;
+  const glm::dvec3 across =
+      glm::cross(mold.points[b] - mold.points[a], mold.points[c] - mold.points[a]);
+  const glm::dvec3 toEye = p.camera.orthographic ? p.camera.axes[2] : -mold.points[a];
+  const double facing = (mirrored ? -1 : 1) * glm::dot(across, toEye);
+  return facing < -0.02 * glm::length(across) * glm::length(toEye);
+}
+
 // The corners as the program shades them: those of the mesh, or each face's own.
 Mold moldOf(const PlacedMesh& p, Shading program) {
   Mold mold;
@@ -87,6 +98,10 @@ Mold moldOf(const PlacedMesh& p, Shading program) {
                           p.camera.eye);
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     mold.patches.push_back({{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+  const bool mirrored = glm::determinant(linear) < 0;
+  if (!p.variant.twoSided)
+    std::erase_if(mold.patches,
+                  [&](const Patch& patch) { return isTurnedAway(p, mold, patch, mirrored); });
   if (program == Shading::flat) {
     Mold faces;
     for (const Patch& patch : mold.patches) {
@@ -97,7 +112,7 @@ Mold moldOf(const PlacedMesh& p, Shading program) {
                            mesh.positions[b] == mesh.positions[c] ||
                            mesh.positions[c] == mesh.positions[a];
       if (nothing) continue;
-      const glm::dvec3 normal = (glm::determinant(linear) < 0 ? -1.0 : 1.0) * safeNormalize(across);
+      const glm::dvec3 normal = (mirrored ? -1.0 : 1.0) * safeNormalize(across);
       Patch own;
       for (int j = 0; j < 3; ++j) {
         const std::uint32_t k = patch.corners[std::size_t(j)];

@@ -24,8 +24,8 @@ struct PlacedMesh {
 /// in linear radiance; infinity where no bound is known: with a normal map, which `phong` alone
 /// reads, where a light that weakens with the square of the distance may touch a triangle, and for
 /// `flat` where the normals of a face are not its own. For lights of every kind and exponents from
-/// 0 on. It is the largest over the triangles of the sum over the lights, light by light of what
-/// follows.
+/// 0 on. It is the largest over the triangles that show of the sum over the lights, light by light
+/// of what follows.
 ///
 /// Let a point of a triangle have the weights b_i and f be a function of position P and normal n,
 /// both linear over the triangle, N = n / |n|. Gouraud shading shows sum b_i f_i in place of f.
