@@ -2,10 +2,13 @@
 // that keep within the budget when they are measured, on a sphere seen from several sides, by the
 // reference.
 //
-// How much dearer it may be is derived. The bound of a pair of forms is a sum of parts, one for the
-// highlight of each light and one for the reflectance, and rounding. Each part is at most `form`
-// times the largest error that the form has, that error times what it multiplies is seen on a
-// sphere up to `seen` (below), and the errors measured are at least the largest part. So with P
+// Measured are the forms for all lights together; several forms, the cheaper ones for dimmer
+// lights, which may be chosen too, can only cost less.
+//
+// How much dearer the choice may be is derived. The bound of a pair of forms is a sum of parts, one
+// for the highlight of each light and one for the reflectance, and rounding. Each part is at most
+// `form` times the largest error that the form has, that error times what it multiplies is seen on
+// a sphere up to `seen` (below), and the errors measured are at least the largest part. So with P
 // parts a pair that is measured within (E - rounding) / (P form seen) has a bound within E, and the
 // choice, the cheapest of all with such a bound, cannot cost more.
 
@@ -181,6 +184,7 @@ void setOff(Candidate& c, const Radiances& from, const Radiances& exact) {
 std::vector<Candidate> lobesOf(const Draw& d, const Points& points, const Radiances& exact,
                                bool specular) {
   std::vector<HighlightForm> forms{Highlight::exact};
+  if (specular) forms.emplace_back(Highlight::none);
   const bool blinn = d.look.shading != Shading::phong;
   const Material& m = d.scene.materials[0];
   const double alpha = (blinn ? d.look.blinnFactor : 1) * m.shading.exponent;
@@ -292,7 +296,6 @@ void compare(Shading program, unsigned seed, int usual, double margin) {
   };
   std::printf("cost / cheapest measured of %zu: half %.3f, 90 %% %.3f, most %.3f; exact %d times\n",
               ratios.size(), at(0.5), at(0.9), at(1), dearest);
-  EXPECT_GE(at(0), 1);  // none cheaper than what keeps within the budget when measured
 }
 
 // From which budget on --shading auto takes gouraud, beside what gouraud is measured to be off in a
@@ -302,7 +305,7 @@ void compare(Shading program, unsigned seed, int usual, double margin) {
 TEST(ErrorBudgetIsNotDear, WithAutomaticShading) {
   Random r(65);
   std::vector<double> ratios;
-  for (int i = 0; i < draws(40); ++i) {
+  for (int i = 0; i < draws(25); ++i) {
     Draw d = randomDraw(r, Shading::automatic, true);
     ShadingParameters& m = d.scene.materials[0].shading;
     m.exponent = r.log(2, 40);
@@ -342,9 +345,9 @@ TEST(ErrorBudgetIsNotDear, WithAutomaticShading) {
   EXPECT_LT(ratios[ratios.size() * 9 / 10], 8);
 }
 
-TEST(ErrorBudgetIsNotDear, WithPhong) { compare(Shading::phong, 61, 60, 1); }
-TEST(ErrorBudgetIsNotDear, WithBlinnPhong) { compare(Shading::blinnPhong, 62, 60, 1); }
-TEST(ErrorBudgetIsNotDear, WithStudioAndSky) { compare(Shading::environment, 64, 40, 2.5); }
-TEST(ErrorBudgetIsNotDear, WithAWhiteEnvironment) { compare(Shading::environment, 63, 60, 1); }
+TEST(ErrorBudgetIsNotDear, WithPhong) { compare(Shading::phong, 61, 50, 1); }
+TEST(ErrorBudgetIsNotDear, WithBlinnPhong) { compare(Shading::blinnPhong, 62, 50, 1); }
+TEST(ErrorBudgetIsNotDear, WithStudioAndSky) { compare(Shading::environment, 64, 25, 2.5); }
+TEST(ErrorBudgetIsNotDear, WithAWhiteEnvironment) { compare(Shading::environment, 63, 35, 1); }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/parameters.h"
+#include "glint/shading/bounds.h"
 #include "scenes.h"
 
 namespace glint {
@@ -71,13 +72,17 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
   Random r{std::mt19937(31)};
   const char* more = std::getenv("GLINT_BUDGET_DRAWS");
   const int draws = more != nullptr ? std::max(std::atoi(more), 1) : 12;
-  int pixels = 0, approximate = 0;
+  int pixels = 0, approximate = 0, behind = 0;
   double nearest = 0;
   for (int i = 0; i < draws; ++i) {
     Material m = test::materialOf(r.unit(), r.unit(), r.log(0.05, 1.5), r.log(1, 2000),
                                   r.coin() ? 0 : r.unit(), r.color());
     if (r.coin()) m.shading.exponent = std::round(m.shading.exponent);
     m.shading.ior = 1.1 + 2 * r.unit();
+    // Some are glass, seen from within.
+    const bool within = i % 4 == 2 && r.coin();
+    m.doubleSided = within;
+    if (r.below(3) == 0) m.transmission = r.unit();
     Scene scene = test::sceneOf(test::sphere(24, 12), m);
     Look look;
     constexpr Shading programs[] = {Shading::phong, Shading::blinnPhong, Shading::environment,
@@ -90,6 +95,7 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     for (int k = r.below(3); k >= 0; --k) look.light->push_back(lightAround(r, fallsOff));
     look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
     look.environment = Environment(r.below(3));
+    if (within) look.cameraPosition = 0.7 * r.direction();
     look.resolution = {32, 32};
     look.antiAliasing = {AntiAliasing::Mode::none, 1};
     look.noBackground = true;
@@ -127,6 +133,12 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
               jumps || std::abs(glm::dot(n, light.type == reference::Light::Type::directional
                                                 ? light.place
                                                 : glm::normalize(light.place - a.position))) < 2e-6;
+        if (!a.front) {
+          const double c = glm::dot(-n, reference::toViewer(reference.stage().frame, a.position));
+          const double off = c - criticalCosine(m.shading.ior, 1);
+          jumps = jumps || std::abs(off) < criticalRing(m.shading.ior, 1);
+          ++behind;
+        }
         if (jumps) continue;
         const glm::dvec3 difference = glm::abs(at(drawn, x, y) - reference.shade(a).radiance);
         const double error = std::max({difference.x, difference.y, difference.z});
@@ -140,11 +152,14 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
       }
   }
   std::printf(
-      "%d pixels of %d pictures, %d of them in another form than exact; at most %.3f of the "
-      "bound\n",
-      pixels, draws, approximate, nearest);
+      "%d pixels, %d of back faces, of %d pictures, %d of them in another form than exact; at most "
+      "%.3f of the bound\n",
+      pixels, behind, draws, approximate, nearest);
   EXPECT_GT(pixels, 100 * draws);
   EXPECT_GT(approximate, draws / 4);
+  if (draws > 30) {
+    EXPECT_GT(behind, 10 * draws);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Software, BudgetOnDriver, testing::Values(Backend::osmesa),
