@@ -64,8 +64,10 @@ Draw randomDraw(Random& r, bool automatic) {
   d.look.shading = automatic ? Shading::automatic : programs[r.below(3)];
   d.look.maxError = r.log(1e-5, 0.5);
   d.look.light.emplace();
-  for (int i = r.below(automatic ? 3 : 5); i >= 0; --i) {
-    Light light = test::directional(r.direction(), r.color());
+  const bool many = !automatic && r.below(4) == 0;  // of which some are dim
+  for (int i = r.below(automatic ? 3 : many ? 24 : 5); i >= 0; --i) {
+    const double brightness = many ? r.log(1e-4, 1) : 1.0;
+    Light light = test::directional(r.direction(), brightness * r.color());
     if (r.below(3) == 0) {
       light.type = Light::Type::point;
       light.position = 3.0 * r.direction();
@@ -111,7 +113,7 @@ std::string describe(const Draw& d, const ResolvedLook& r) {
 
 TEST(ErrorBudget, PicturesKeepWithinIt) {
   Random random(21);
-  int chosen = 0;
+  int chosen = 0, byLight = 0;
   for (int i = 0; i < draws(1500); ++i) {
     const Draw d = randomDraw(random, i % 3 == 0);
     const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
@@ -125,7 +127,9 @@ TEST(ErrorBudget, PicturesKeepWithinIt) {
       ASSERT_LE(error, *d.look.maxError + 1e-6) << describe(d, resolved);
     }
     chosen += resolved.look.highlight != HighlightForm(Highlight::exact);
+    byLight += !resolved.look.highlight.dimmer.empty();
   }
+  EXPECT_GT(byLight, draws(1500) / 30);
   EXPECT_GT(chosen, draws(1500) / 4);
 }
 

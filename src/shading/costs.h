@@ -10,8 +10,9 @@ namespace glint {
 // --max-error is the same on every machine; docs/approximations.md says how, and how to repeat it.
 
 double lobeCost(LobeForm form, int gamma);
-/// Of going on to lights of another form, once a pixel: one more loop.
-inline constexpr double lobeChangeCost = 5;
+/// Of going on to lights of another form: one more loop, whose cost is too small to be measured.
+/// Above 0, so that a form more has to pay.
+inline constexpr double lobeChangeCost = 1;
 double fresnelCost(FresnelForm form, double schlickExponent);
 
 }  // namespace glint
