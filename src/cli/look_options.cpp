@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/render/cost_file.h"
 #include "glint/scene/parameters.h"
 
 namespace glint {
@@ -108,6 +109,7 @@ Look LookSource::operator()() const {
     for (const std::string& text : option->results()) p->read(target, text);
   }
   mergeMaterials(look, materials);
+  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
   if (!options_->saveFile.empty() && !hasBudget(look))
     writeText(options_->saveFile, saveLook(look));
   return look;

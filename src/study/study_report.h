@@ -12,7 +12,8 @@ struct StudyHead {
   std::string version, model, backend;
   bool quick = false;
   Look look;
-  int rounds = 0, warmUp = 0;
+  int rounds = 0, warmUp = 0, builds = 0;
+  bool halved = false;  ///< the picture, since a frame takes so long
 };
 
 /// The whole result, without pictures.
