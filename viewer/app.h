@@ -61,6 +61,7 @@ class App {
   void layout();
   void setTitle();
   void tellLog();
+  void advance(double passed);
   bool gestureActive() const;
 
   // app_view.cpp: the picture as a thing to touch
@@ -81,6 +82,7 @@ class App {
   // app_actions.cpp: what keys and buttons do
   void execute(Action);
   void executeCamera(Action);
+  glm::dmat3 cameraAxes() const;
   void setCompare(CompareMode, bool exact);
   void pick(glm::dvec2 pixel);
   /// Runs something; an error goes to the log.

@@ -39,6 +39,10 @@ struct FileState {
 };
 FileState stateOf(const std::filesystem::path&);
 
+/// What the panel plots of a material.
+enum class PlotView { lobe, lobeOverAngle, fresnel, fresnelLeaving, widths };
+inline constexpr int plotCount = 5;
+
 enum class Overlay { none, wireframe, normals, facing, clipped };
 
 /// What the window shows and edits, without GL and widgets.
@@ -49,7 +53,13 @@ struct Session {
   int material = -1;           ///< selected, an index into the scene's; -1 is all of them
   std::optional<int> hovered;  ///< the material under the cursor
   Overlay overlay = Overlay::none;
+  std::size_t light = 0;         ///< selected, of those that the look has
+  bool playing = false;          ///< the animation runs
   std::optional<int> wantedTab;  ///< of the panel, to be shown next
+  PlotView plot = PlotView::lobe;      ///< that keys have chosen last
+  bool plotWanted = false;       ///< it is to be shown next
+  bool plotShown = false;        ///< was, in this frame: keys go on to the next
+  bool findWanted = false;       ///< the text by which materials are found is to be typed next
   std::vector<std::string> log;  ///< errors and warnings, the newest last
   std::string status;            ///< the last thing that was done
   bool statusIsError = false;
