@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "glint/scene/light_text.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/parameters.h"
 #include "glint/viewer/edits.h"
@@ -137,7 +138,11 @@ TEST(LightEdit, TheFilesLightsBecomeOwnAsTheyAre) {
   EXPECT_EQ(shownLights(&scene, look), files);
   Look again;
   readLook(again, saveLook(look), "saved");
-  EXPECT_EQ(again.light, look.light);
+  ASSERT_EQ(again.light->size(), files.size());
+  for (std::size_t i = 0; i < files.size(); ++i)
+    EXPECT_EQ(writeLight((*again.light)[i]), writeLight(files[i]));
+  EXPECT_TRUE((*again.light)[1].fallsOff);
+  EXPECT_EQ((*again.light)[1].range, files[1].range);
 }
 
 TEST(LightEdit, OneTooBrightForAnOptionGetsWhatArrivesAtTheCentre) {

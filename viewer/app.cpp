@@ -165,7 +165,6 @@ void App::run() {
     const auto before = Clock::now();
     advance(seconds(before - lastAdvance));
     lastAdvance = before;
-    followPose();
     updatePicture();
     const double waited = seconds(Clock::now() - before);
     frame(true);

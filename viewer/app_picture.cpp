@@ -95,6 +95,7 @@ void App::receive(PaintResult result) {
     else
       pace_.drewWhole(result.a->milliseconds, result.a->times.compile > 1);
   }
+  if (result.model && result.model != session_.model) session_.takePose(result.model);
   shownResult_ = std::move(result);
   screenStale_ = probeStale_ = true;
 }
@@ -179,7 +180,7 @@ void App::updateProbe() {
     }
     const Image* plain = shownResult_.plain ? &shownResult_.plain->linear : nullptr;
     if (a.look.antiAliasing.mode == AntiAliasing::Mode::none) plain = &a.linear;
-    probe_ = probePixel({model.scene, model.images, model.bounds, *model.picker, a.list}, a.look,
+    probe_ = probePixel({model.scene, *model.images, model.bounds, *model.picker, a.list}, a.look,
                         a.linear, plain, at);
     if (probe_->hit) session_.hovered = probe_->hit->material;
   });

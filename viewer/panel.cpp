@@ -187,7 +187,12 @@ void drawShadingTab(PanelContext& context) {
       continue;
     }
     drawParameter(session, p);
-    if (p.name == "max-error") drawChoice(context);
+    if (p.name != "max-error") continue;
+    drawChoice(context);
+    if (look.shading != Shading::automatic || look.maxError) continue;
+    const std::string key = keyText(infoOf(Action::maxError));
+    ImGui::TextWrapped("auto chooses by the error that is allowed: tick max error (%s)",
+                       key.c_str());
   }
   ImGui::Separator();
   if (!session.model) return;
