@@ -114,6 +114,8 @@ std::string App::comparisonText() const {
     std::string all = text;
     if (errors_.edges > 0)
       all += ", " + std::to_string(errors_.edges) + " pixels at edges left out";
+    else if (exact->edges.empty())
+      all += ", pixels at edges among them";
     if (errors_.notFinite > 0)
       all += ", " + std::to_string(errors_.notFinite) + " pixels not finite";
     if (rows < exact->linear.height)

@@ -69,7 +69,8 @@ void scaleLights(Session& session, double factor) {
   const Scene* scene = session.model ? &session.model->scene : nullptr;
   if (lightsAreTheFiles(scene, look)) {
     const double scale = look.lightScale.value_or(scene->lightScale) * factor;
-    look.lightScale = std::clamp(scale, 1e-30, 1e30);
+    const double place = std::pow(10.0, std::floor(std::log10(scale)) - 3);  // four digits
+    look.lightScale = std::clamp(std::round(scale / place) * place, 1e-30, 1e30);
     return session.say("light scale " + numberText(*look.lightScale));
   }
   std::vector<Light> lights = shownLights(scene, look);
