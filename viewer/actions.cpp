@@ -30,7 +30,7 @@ enum Key : int {
 };
 
 constexpr std::pair<int, const char*> names[] = {
-    {space, "Space"},    {comma, "Comma"},          {period, "Period"},       {enter, "Enter"},
+    {space, "Space"},    {comma, "Comma"},      {period, "Period"},  {enter, "Enter"},
     {tab, "Tab"},        {insert, "Insert"},    {del, "Delete"},     {up, "Up"},
     {leftArrow, "Left"}, {rightArrow, "Right"}, {pageUp, "Page Up"}, {pageDown, "Page Down"},
 };

@@ -34,7 +34,8 @@ void App::load(const fs::path& path) {
   }
   loadingPath_ = path;
   modelState_ = stateOf(path);
-  const PoseRequest pose = poseOf(session_.document.a);
+  const bool another = session_.model && session_.model->path != path;
+  const PoseRequest pose = another ? PoseRequest{} : poseOf(session_.document.a);
   loading_ = std::async(std::launch::async, [path, pose] {
     struct Wake {
       ~Wake() { Window::wake(); }
@@ -45,6 +46,7 @@ void App::load(const fs::path& path) {
 
 void App::finishLoading() {
   attempt([&] {
+    const std::size_t before = session_.log.size();
     session_.take(loading_.get());
     painter_->setModel(session_.model);
     reference_->stop();
@@ -53,7 +55,7 @@ void App::finishLoading() {
     failed_.reset();
     probe_.reset();
     screenStale_ = probeStale_ = true;
-    const std::size_t warnings = session_.model->scene.warnings.size();
+    const std::size_t warnings = session_.log.size() - before;
     session_.say("read " + session_.model->path.string() +
                  (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
   });

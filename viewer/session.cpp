@@ -101,21 +101,26 @@ void Session::take(std::shared_ptr<const Model> loaded) {
   const bool same = model && model->path == loaded->path;
   const bool first = !model;
   model = std::move(loaded);
-  dropMissing(document.a, model->scene);
+  playing = false;
+  if (!same && !first) {  // another model is seen whole, and has a history of its own
+    document.a.cameraPosition.reset();
+    document.a.cameraFocalPoint.reset();
+    document.a.cameraIndex.reset();
+    document.a.clippingRange.reset();
+    document.a.animation.clear();
+    document.a.animationTime.reset();
+    document.a.material.clear();
+    document.b.reset();
+    document.compare = CompareMode::off;
+  }
+  const std::string missing = dropMissing(document.a, model->scene);
+  if (!missing.empty())
+    log.push_back(model->path.string() + " has no " + missing + ": the look goes on without");
   if (document.b) dropMissing(*document.b, model->scene);
   if (!same) {
     writtenMaterials.clear();
     const std::vector<int> drawn = drawnMaterials(model->scene);
     material = drawn.size() == 1 ? drawn.front() : -1;
-    if (!first) {  // another model is seen whole, and has a history of its own
-      document.a.cameraPosition.reset();
-      document.a.cameraFocalPoint.reset();
-      document.a.cameraIndex.reset();
-      document.a.clippingRange.reset();
-      document.b.reset();
-      document.compare = CompareMode::off;
-      document.a.material.clear();
-    }
     history = History(document);
     saved = document.a;
   }
