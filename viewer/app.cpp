@@ -220,6 +220,8 @@ void App::key(const InputEvent& e) {
     if (info.command == Action::help) continue;  // comes as a character, on any keyboard
     if (info.key == e.code && info.control == control && info.shift == shift) {
       if (!e.repeated || info.repeats) execute(info.command);
+      // As under a hand: one step of undo.
+      if (e.repeated && info.repeats) lastScroll_ = Clock::now();
       return;
     }
   }
@@ -277,8 +279,9 @@ void App::helpWindow() {
   ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x / 2, io.DisplaySize.y / 2), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   const float font = ImGui::GetFontSize();
-  ImGui::SetNextWindowSize(ImVec2(std::min(font * 90, io.DisplaySize.x * 0.96f),
-                                  std::min(font * 54, io.DisplaySize.y * 0.96f)));
+  const float width = std::min(font * 90, io.DisplaySize.x * 0.96f);
+  const bool wide = width > font * 75;
+  ImGui::SetNextWindowSize(ImVec2(width, std::min(font * 54, io.DisplaySize.y * 0.96f)));
   ImGui::Begin("Keys and mouse", &helpShown_,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
   const auto line = [&](const std::string& key, std::string_view text) {
@@ -286,7 +289,7 @@ void App::helpWindow() {
     ImGui::SameLine(font * 9);
     ImGui::TextWrapped("%s", std::string(text).c_str());
   };
-  ImGui::Columns(3, "keys", false);
+  ImGui::Columns(wide ? 3 : 2, "keys", false);
   ImGui::TextDisabled("Mouse over the picture");
   line("left drag", "turn the camera about what it looks at");
   line("middle drag", "move the camera sideways (also Shift + left)");
@@ -301,7 +304,8 @@ void App::helpWindow() {
   std::string_view section;
   for (const ActionInfo& info : actions()) {
     if (info.section != section) {
-      if (info.section == "Edit" || info.section == "Camera") ImGui::NextColumn();
+      if (info.section == (wide ? "Edit" : "Shading") || (wide && info.section == "Camera"))
+        ImGui::NextColumn();
       ImGui::Spacing();
       section = info.section;
       ImGui::TextDisabled("%s", std::string(section).c_str());
