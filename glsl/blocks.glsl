@@ -18,7 +18,7 @@ struct Light {
 
 #if LIGHTS > 0
 layout(std140) uniform LightBlock {
-  Light lights[LIGHTS];  // directional ones first, then points, then spots
+  Light lights[LIGHTS];  // directional ones first, then points, then spots; of each the brightest first
 };
 #endif
 
@@ -34,5 +34,6 @@ layout(std140) uniform MaterialBlock {
   vec4 surface;          // metalness, transmission, R0, k of the rational reflectance
   vec4 entering;         // Boundary of front faces
   vec4 leaving;          // Boundary of back faces
-  vec4 lobe;             // xy: constants of the lobe's form
+  vec4 lobe;             // xy: constants of the lobe's form; zw: of the second form in use
+  vec4 dimmerLobe;       // of the third and the fourth
 } material;

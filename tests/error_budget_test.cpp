@@ -11,6 +11,7 @@
 #include <random>
 
 #include "glint/render/reference_renderer.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
@@ -215,6 +216,30 @@ TEST(ErrorBudget, MaterialsThatDifferGetFormsOfTheirOwn) {
   EXPECT_NE(resolved.choices[0].highlight, resolved.choices[1].highlight);
   EXPECT_EQ(resolved.look.material.at("dull").highlight, resolved.choices[0].highlight);
   EXPECT_EQ(resolved.look.material.at("sharp").highlight, resolved.choices[1].highlight);
+}
+
+// A key light and many dim ones: the dim ones' highlights may be wrong by more.
+TEST(ErrorBudget, DimLightsGetCheaperForms) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 60.5));
+  Look look;
+  look.light = {test::directional({0, 1, 1}, glm::dvec3(1e-5)),
+                test::directional({0, 0, 1}, glm::dvec3(1))};
+  for (int i = 0; i < 12; ++i)
+    look.light->push_back(test::directional({1, 0.1 * i, 1}, glm::dvec3(0.002)));
+  look.maxError = 2e-3;
+  const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+  const HighlightForms& forms = resolved.look.highlight;
+  EXPECT_EQ(forms.of(13), HighlightForm(Highlight::none)) << highlightText(forms);
+  EXPECT_NE(forms.of(0), forms.of(1)) << highlightText(forms);
+  EXPECT_LE(resolved.bound, 2e-3);
+  const auto lobe = [&](int light) {
+    const HighlightForm form = forms.of(light);
+    return lobeFormulaBound(LobeForm(int(form.form)), form.gamma, 60.5);
+  };
+  EXPECT_LT(lobe(0), lobe(1));
+  double error = 0.5 * (lobe(0) + 1e-5);
+  for (int light = 1; light < 13; ++light) error += 0.5 * 0.002 * lobe(light);
+  EXPECT_NEAR(resolved.choices.at(0).lobe, error, 1e-12);
 }
 
 TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {

@@ -102,6 +102,16 @@ const std::vector<Good>& goodTexts() {
          l.highlight = {Highlight::pade, 4};
        }},
       {"highlight", "gaussian", [](Look& l) { l.highlight = Highlight::gaussian; }},
+      {"highlight", "none", [](Look& l) { l.highlight = Highlight::none; }},
+      {"highlight", "exact/2,lyon:8",
+       [](Look& l) {
+         l.highlight.dimmer = {{{Highlight::lyon, 8}, 2}};
+       }},
+      {"highlight", "pade:4/1,pow/1,pow/3,none",
+       [](Look& l) {
+         l.highlight = {Highlight::pade, 4};
+         l.highlight.dimmer = {{Highlight::pow, 1}, {Highlight::none, 5}};
+       }},
       {"fresnel", "schlick-exp2", [](Look& l) { l.fresnel = Fresnel::schlickExp2; }},
       {"fresnel", "rational", [](Look& l) { l.fresnel = Fresnel::rational; }},
       {"fresnel", "exact", [](Look&) {}},
@@ -128,6 +138,14 @@ const std::vector<Good>& goodTexts() {
        material("a:b",
                 [](auto& m) {
                   m.highlight = glint::HighlightForm(Highlight::lyon, 8);
+                  m.exponent = 3;
+                })},
+      {"material", "highlight=exact/1,gaussian/7,none,exponent=3",
+       material("",
+                [](auto& m) {
+                  m.highlight = glint::HighlightForms();
+                  m.highlight->add(Highlight::gaussian, 1);
+                  m.highlight->add(Highlight::none, 8);
                   m.exponent = 3;
                 })},
       {"material", "highlight=pow,fresnel=rational",
@@ -243,8 +261,30 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
   static const std::map<std::string, std::vector<std::string>> table{
       {"shading", {"", "Phong", "phon", "automatic", "blinnphong"}},
       {"highlight",
-       {"", "lyon", "lyon:", "lyon:0", "lyon:3", "lyon:128", "lyon:-8", "lyon:8:8", "lyon:8.0",
-        "pade", "gaussian:8", "exact:1", "integer:4", "Exact", "lyontuned:8"}},
+       {"",
+        "lyon",
+        "lyon:",
+        "lyon:0",
+        "lyon:3",
+        "lyon:128",
+        "lyon:-8",
+        "lyon:8:8",
+        "lyon:8.0",
+        "pade",
+        "gaussian:8",
+        "exact:1",
+        "integer:4",
+        "Exact",
+        "lyontuned:8",
+        "exact/2",
+        "exact,lyon:8",
+        "exact/0,pow",
+        "exact/129,pow",
+        "exact/x,pow",
+        "exact/2,pow/3",
+        "/2,pow",
+        "exact/2/3,pow",
+        "exact/1,pow/1,exact/1,pow/1,exact"}},
       {"fresnel", {"", "Rational", "schlick-exp", "rational:2"}},
       {"max-error", {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 "}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
@@ -414,10 +454,17 @@ class RandomLooks {
     if (coin()) e.fresnel = glint::Fresnel(index(5));
     return e;
   }
-  glint::HighlightForm highlight() {
-    const auto form = glint::Highlight(index(8));
+  glint::HighlightForm form() {
+    const auto form = glint::Highlight(index(9));
     const bool hasGamma = form >= glint::Highlight::lyon && form <= glint::Highlight::pade;
     return {form, hasGamma ? 1 << index(7) : 0};
+  }
+  glint::HighlightForms highlight() {
+    glint::HighlightForms forms = form();
+    for (int from = 1 + index(5); coin() && forms.dimmer.size() < forms.mostDimmer;
+         from += 1 + index(30))
+      forms.add(form(), from);
+    return forms;
   }
   Light light() {
     Light l;

@@ -71,6 +71,9 @@ Look threeLights(Shading shading) {
   spot.innerAngle = 5;
   spot.outerAngle = 40;
   look.light = {spot, directional({1, 1, 1}, {0.8, 0.7, 0.6}), point};
+  look.highlight = glint::Highlight::gaussian;  // of the point, which is the brightest
+  look.highlight.add(glint::Highlight::exact, 1);
+  look.highlight.add({glint::Highlight::lyon, 64}, 2);  // of the spot
   return look;
 }
 

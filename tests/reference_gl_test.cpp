@@ -113,8 +113,8 @@ double shadingBound(const Comparison& c, const Look& look) {
   if (look.highlight == Highlight::pow) bound += 8 * 6e-8 * c.alpha;
   // The other forms are at most twice as steep as the exponential (Lyon's with gamma = 1), and a
   // power p by squaring costs 3 p / 2 roundings.
-  if (look.highlight.form >= Highlight::integer)
-    bound += 6e-7 * std::sqrt(c.alpha) + 1.5 * 6e-8 * std::max(look.highlight.gamma, 100);
+  if (look.highlight.brightest.form >= Highlight::integer)
+    bound += 6e-7 * std::sqrt(c.alpha) + 1.5 * 6e-8 * std::max(look.highlight.brightest.gamma, 100);
   // glint/shading/environment_map.h gives 6.5e-6 for single precision on unit directions.
   if (look.shading == Shading::environment) bound += 1e-5;
   return bound;
@@ -556,8 +556,9 @@ TEST_P(AgainstReference, EveryForm) {
   model.bounds = boundsOf(model.scene);
   printHeading();
   for (const std::string& form : highlightTexts()) {
-    const HighlightForm highlight = parseHighlight(form, "form");
-    if (highlight.gamma != 0 && highlight.gamma != 4) continue;
+    const HighlightForms highlight = parseHighlights(form, "form");
+    const int gamma = highlight.brightest.gamma;
+    if (gamma != 0 && gamma != 4) continue;
     for (Shading shading : {Shading::gouraud, Shading::phong, Shading::blinnPhong}) {
       Look look = lookWith(shading, 100);
       look.highlight = highlight;
@@ -566,6 +567,21 @@ TEST_P(AgainstReference, EveryForm) {
       expectAccurate(form, look, c);
     }
   }
+  // By light: from the brightest to the dimmest a point, a directional light, a spot and another.
+  for (const std::string form :
+       {"exact/2,lyon:4", "lyon:1/1,pow/1,pade:4/1,none", "none/1,lyon-cross:2/2,gaussian"})
+    for (int program = 0; program < 5; ++program) {
+      const Shading shading = Shading(program);
+      Look look = lookWith(shading, 100);
+      look.light.emplace();
+      look.highlight = parseHighlights(form, "form");
+      for (const char* light : {"spot:2,2,3:-2,-2,-3:10,40:0.4,0.3,0.3", "point:-2,2,2:0.7,0.9,0.5",
+                                "directional:1,1,1:0.3,0.2,0.2", "directional:0,1,2:0.6,0.5,0.5"})
+        look.light->push_back(parseLight(light));
+      const Comparison c = compare(renderer, model, look);
+      print(form, shading, c, wholeBound(c));
+      expectAccurate(form, look, c);
+    }
   for (const std::string_view form : fresnelTexts())
     for (const bool other : {false, true}) {
       Look look = lookWith(Shading::environment, 100);

@@ -159,6 +159,33 @@ const Case cases[] = {
      [](Variant& v, Shading) {
        v.highlight = {glint::Highlight::lyon, 8};
      }},
+    {"none", [](VariantInputs& in) { in.look.highlight = glint::Highlight::none; },
+     [](Variant& v, Shading s) {
+       v.specular = false;
+       v.pixelPosition = s == Shading::environment;
+     }},
+    {"forms by light: the brightest, whatever its type, first",
+     [](VariantInputs& in) {
+       in.look.light = {lightOf(Light::Type::spot), lightOf(Light::Type::directional),
+                        lightOf(Light::Type::point), lightOf(Light::Type::directional)};
+       for (int i : {0, 1, 2, 3})  // spot 1, directional 4, point 3, directional 2
+         (*in.look.light)[std::size_t(i)].intensity *= i == 0 ? 1.0 : 5.0 - i;
+       in.look.highlight = glint::Highlight::pow;
+       in.look.highlight.add({glint::Highlight::lyon, 8}, 2);
+       in.look.highlight.add(glint::Highlight::none, 3);
+     },
+     [](Variant& v, Shading) {
+       v.directionalLights = 2;
+       v.pointLights = v.spotLights = 1;
+       v.highlight = glint::Highlight::pow;
+       v.dimmer = {{{glint::Highlight::lyon, 8}, 1, 1, 0}, {glint::Highlight::none, 2, 1, 0}};
+     }},
+    {"forms for lights that are not there",
+     [](VariantInputs& in) {
+       in.look.highlight = glint::Highlight::pow;
+       in.look.highlight.add({glint::Highlight::lyon, 8}, 1);
+     },
+     [](Variant& v, Shading) { v.highlight = glint::Highlight::pow; }},
     {"gaussian for this material",
      [](VariantInputs& in) {
        in.look.highlight = glint::Highlight::pow;

@@ -73,6 +73,16 @@ inline std::set<Variant> sampledVariants() {
         in.look.highlight = {Highlight::pade, 64};
       },
       [](VariantInputs& in) { in.look.highlight = Highlight::gaussian; },
+      [](VariantInputs& in) { in.look.highlight = Highlight::none; },
+      [](VariantInputs& in) {
+        in.look.light = {lightOf(Light::Type::point), lightOf(Light::Type::point),
+                         lightOf(Light::Type::spot), lightOf(Light::Type::directional),
+                         lightOf(Light::Type::directional)};
+        in.look.highlight = Highlight::pow;
+        in.look.highlight.add({Highlight::lyon, 4}, 1);
+        in.look.highlight.add(Highlight::none, 2);
+        in.look.highlight.add({Highlight::pade, 2}, 4);
+      },
       [](VariantInputs& in) { in.orthographic = true; },
       [](VariantInputs& in) {
         in.world = scaling({1, 1, 10});

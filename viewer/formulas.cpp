@@ -27,6 +27,7 @@ Form formOf(const std::string& text) {
            : name == "lyon-cross" ? LobeForm::lyonCross
            : name == "pade"       ? LobeForm::pade
            : name == "gaussian"   ? LobeForm::gaussian
+           : name == "none"       ? LobeForm::none
                                   : LobeForm::exact;
   return f;
 }

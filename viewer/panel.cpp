@@ -123,7 +123,7 @@ void materialForms(Session& session) {
   }
   widgets::tooltip("this material's lobe and reflectance by other forms than the look's above");
   if (own) {
-    HighlightForm form = edit.highlight.value_or(look.highlight);
+    HighlightForms form = edit.highlight.value_or(look.highlight);
     if (widgets::highlightForm("its highlight", edit.highlight.has_value(), form,
                                "form of this material's lobe"))
       edit.highlight = form;

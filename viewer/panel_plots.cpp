@@ -298,7 +298,7 @@ void drawPlots(PanelContext& context) {
   input.specular = s.specular;
   input.blinnFactor = look.blinnFactor;
   input.blinn = usesBlinn(look.shading);
-  input.highlight = highlightText(highlightOf(material, look));
+  input.highlight = highlightText(highlightOf(material, look).brightest);
   openWanted(session, lobe);
   if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
                               ImGuiTreeNodeFlags_DefaultOpen))

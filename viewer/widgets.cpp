@@ -200,30 +200,33 @@ bool tick(const Parameter& p, Look& look) {
 
 }  // namespace
 
-bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
+bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
                    const std::string& help) {
+  HighlightForm form = forms.brightest;
   const auto nameOf = [](const HighlightForm& f) {
     const std::string text = highlightText(f);
     return text.substr(0, text.find(':'));
   };
-  const std::string now = nameOf(form);
+  // Forms by light have no name of one form: choosing one replaces them.
+  const bool byLight = !forms.dimmer.empty();
+  const std::string now = byLight ? highlightText(forms) : nameOf(form);
   bool changed = false;
   label(name, edited);
   if (ImGui::BeginCombo(("##" + name).c_str(), now.c_str())) {
     std::string last;
     for (const std::string& text : highlightTexts()) {
-      HighlightForm each = parseHighlight(text, name);
+      HighlightForm each = parseHighlights(text, name).brightest;
       if (nameOf(each) == last) continue;  // the same with another gamma
       last = nameOf(each);
       if (!ImGui::Selectable(last.c_str(), last == now) || last == now) continue;
       if (each.gamma > 0) each.gamma = form.gamma > 0 ? form.gamma : 8;
-      form = each;
+      forms = form = each;
       changed = true;
     }
     ImGui::EndCombo();
   }
   tooltip(help);
-  if (form.gamma <= 0) return changed;
+  if (form.gamma <= 0 || !forms.dimmer.empty()) return changed;
   label(style().greek ? "  \u03b3" : "  gamma", edited);
   int power = std::countr_zero(unsigned(form.gamma));
   char text[16];
@@ -232,6 +235,7 @@ bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
     power = std::clamp(power, 0, 6);
     if (1 << power != form.gamma) {
       form.gamma = 1 << power;
+      forms = form;
       changed = true;
     }
   }

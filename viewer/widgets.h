@@ -45,7 +45,7 @@ bool direction(const char* id, glm::dvec3& direction, const glm::dmat3& axes, fl
 
 /// A form of the lobe: its name, and below it, where it has one, a slider for its gamma. True if it
 /// changed.
-bool highlightForm(const std::string& name, bool edited, HighlightForm& form,
+bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
                    const std::string& help);
 
 /// The widget for one parameter of a look, by its kind. `shown` is what stands where the look

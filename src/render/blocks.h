@@ -38,7 +38,8 @@ struct MaterialBlock {
   glm::vec4 entering{0};
   glm::vec4 leaving{0};
   glm::vec4 lobe{0};
+  glm::vec4 dimmerLobe{0};
 };
-static_assert(sizeof(MaterialBlock) == 112);
+static_assert(sizeof(MaterialBlock) == 128);
 
 }  // namespace glint

@@ -52,11 +52,11 @@ std::string defines(const Variant& v) {
   text += define("LIGHT_FALLOFF", v.lightFalloff);
   text += define("DIFFUSE", v.diffuse);
   text += define("SPECULAR", v.specular);
-  constexpr const char* lobes[] = {"EXACT",      "POW",        "INTEGER", "LYON",
-                                   "LYON_TUNED", "LYON_CROSS", "PADE",    "GAUSSIAN"};
-  for (int i = 0; i < 8; ++i) text += define((std::string("HIGHLIGHT_") + lobes[i]).c_str(), i);
-  text += define("HIGHLIGHT", int(v.highlight.form));
-  text += define("LOBE_POWER", v.highlight.gamma);
+  constexpr const char* lobes[] = {"EXACT",      "POW",  "INTEGER",  "LYON", "LYON_TUNED",
+                                   "LYON_CROSS", "PADE", "GAUSSIAN", "NONE"};
+  int form = 0;
+  for (const char* lobe : lobes) text += define((std::string("HIGHLIGHT_") + lobe).c_str(), form++);
+  text += define("LOBE_FORMS", lights > 0 ? int(v.dimmer.size()) + 1 : 0);
   text += define("BLINN", v.program == Shading::blinnPhong || v.program == Shading::environment);
   text += define("CONSTANT_VIEW", v.constantView);
   text += define("UNEVEN_SCALE", v.unevenScale);
@@ -81,12 +81,57 @@ std::string defines(const Variant& v) {
   return text;
 }
 
-std::string join(const std::string& head, const std::vector<std::string>& files,
+// What lights.glsl is composed with for each form of the highlight.
+std::vector<std::string> lobeDefines(const Variant& v) {
+  std::vector<Variant::Dimmer> forms{{v.highlight, 0, 0, 0}};
+  forms.insert(forms.end(), v.dimmer.begin(), v.dimmer.end());
+  forms.push_back({{}, v.directionalLights, v.pointLights, v.spotLights});
+  constexpr const char* shapes[] = {"material.lobe.xy", "material.lobe.zw",
+                                    "material.dimmerLobe.xy", "material.dimmerLobe.zw"};
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
+    const Variant::Dimmer &from = forms[i], &end = forms[i + 1];
+    std::string text;
+    const auto set = [&](const char* name, const std::string& value) {
+      if (i > 0) text += std::string("#undef ") + name + "\n";
+      text += std::string("#define ") + name + " " + value + "\n";
+    };
+    const auto range = [&](const char* type, int first, int begin, int stop) {
+      set((std::string(type) + "_FROM").c_str(), std::to_string(first + begin));
+      set((std::string(type) + "_END").c_str(), std::to_string(first + stop));
+    };
+    const std::string number = std::to_string(i);
+    const Highlight form = from.form.form;
+    const bool lobe = v.specular && form != Highlight::none;
+    set("ADD_LIGHTS", "addLights" + number);
+    set("ADD_LIGHT", "addLight" + number);
+    set("LOBE_OF", "lobeOf" + number);
+    set("LOBE", std::to_string(int(lobe)));
+    set("HIGHLIGHT", std::to_string(int(form)));
+    set("LOBE_POWER", std::to_string(from.form.gamma));
+    set("LOBE_SHAPE", !lobe                                                ? "vec2(0.0)"
+                      : form == Highlight::exact || form == Highlight::pow ? "material.strength.ww"
+                                                                           : shapes[i]);
+    range("DIRECTIONAL", 0, from.directional, end.directional);
+    range("POINT", v.directionalLights, from.point, end.point);
+    range("SPOT", v.directionalLights + v.pointLights, from.spot, end.spot);
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+// A file and what is defined before it.
+struct Part {
+  std::string file, defines = {};
+};
+
+std::string join(const std::string& head, const std::vector<Part>& parts,
                  const GlslSources& sources, bool fileNames) {
   std::string text = head;
   int number = 0;
-  for (const std::string& file : files) {
-    text += "#line 1 " + (fileNames ? "\"" + file + "\"" : std::to_string(++number)) + "\n";
+  for (const auto& [file, defines] : parts) {
+    text +=
+        defines + "#line 1 " + (fileNames ? "\"" + file + "\"" : std::to_string(++number)) + "\n";
     text += sources.text(file);
   }
   return text;
@@ -96,30 +141,33 @@ std::string join(const std::string& head, const std::vector<std::string>& files,
 
 ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileNames) {
   const std::string name(v.unlit ? "unlit" : shadingName(v.program));
-  std::vector<std::string> files{"vector.glsl", "blocks.glsl"};
+  std::vector<Part> files{{"vector.glsl"}, {"blocks.glsl"}};
   if (!v.unlit) {
-    const bool environment = v.program == Shading::environment;
     const bool perVertex = v.program == Shading::flat || v.program == Shading::gouraud;
-    files.insert(files.begin() + 1, "lobe.glsl");
-    if (environment) files.insert(files.end(), {"fresnel.glsl", "environment_map.glsl"});
-    files.insert(files.end(), {"sum.glsl", perVertex ? "per_vertex.glsl" : "per_pixel.glsl"});
+    if (v.specular) files.insert(files.begin() + 1, {"lobe.glsl"});
+    if (v.program == Shading::environment)
+      files.insert(files.end(), {{"fresnel.glsl"}, {"environment_map.glsl"}});
+    files.push_back({"light_sum.glsl"});
+    if (v.directionalLights + v.pointLights + v.spotLights > 0)
+      for (const std::string& defines : lobeDefines(v)) files.push_back({"lights.glsl", defines});
+    files.insert(files.end(), {{"sum.glsl"}, {perVertex ? "per_vertex.glsl" : "per_pixel.glsl"}});
     std::string file = name + ".glsl";  // Mesa's #line takes no '-' in names
     std::replace(file.begin(), file.end(), '-', '_');
-    files.push_back(file);
+    files.push_back({file});
   }
   const std::string head = header(fileNames);
   const std::string features = defines(v);
-  std::vector<std::string> vertex = files, fragment = files;
-  vertex.emplace_back("vertex.glsl");
-  fragment.emplace_back("fragment.glsl");
+  std::vector<Part> vertex = files, fragment = files;
+  vertex.push_back({"vertex.glsl"});
+  fragment.push_back({"fragment.glsl"});
   return {name, join(head + stageDefines(true) + features, vertex, sources, fileNames),
           join(head + stageDefines(false) + features, fragment, sources, fileNames)};
 }
 
 ComposedProgram composeBackground(Environment environment, const GlslSources& sources,
                                   bool fileNames) {
-  const std::vector<std::string> files{"vector.glsl", "environment_map.glsl", "blocks.glsl",
-                                       "background.glsl"};
+  const std::vector<Part> files{
+      {"vector.glsl"}, {"environment_map.glsl"}, {"blocks.glsl"}, {"background.glsl"}};
   const std::string head = header(fileNames), map = environmentDefines(environment);
   const std::string features = define("LIGHTS", 0) + map;
   return {"background", join(head + stageDefines(true) + features, files, sources, fileNames),

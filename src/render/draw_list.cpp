@@ -36,15 +36,16 @@ int order(Light::Type type) {
   return type == Light::Type::point ? 1 : type == Light::Type::spot ? 2 : 0;
 }
 
-std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
-  std::vector<Light> lights = lightsOf(look);
-  std::erase_if(lights, [](const Light& l) { return l.intensity == glm::dvec3(0.0); });
-  std::stable_sort(lights.begin(), lights.end(),
-                   [](const Light& a, const Light& b) { return order(a.type) < order(b.type); });
+void addLights(DrawList& list, const Look& look) {
+  const Camera& camera = list.camera;
+  const std::vector<Light> lights = lightsOf(look);
+  for (const std::size_t number : shiningLights(lights)) list.lightNumbers.push_back(int(number));
+  std::ranges::stable_sort(list.lightNumbers, {},
+                           [&](int number) { return order(lights[std::size_t(number)].type); });
   const glm::dmat3 rotation = eyeRotation(camera), directions = glm::transpose(camera.axes);
   const bool blinn = usesBlinn(look.shading);
-  std::vector<LightEntry> entries;
-  for (const Light& light : lights) {
+  for (const int number : list.lightNumbers) {
+    const Light& light = lights[std::size_t(number)];
     LightEntry e;
     e.intensity = glm::vec4(glm::vec3(light.intensity), 0);
     if (order(light.type) == 0) {
@@ -69,9 +70,8 @@ std::vector<LightEntry> lightEntries(const Look& look, const Camera& camera) {
       e.axis = glm::vec4(glm::vec3(directions * unit(light.direction)), float(outer));
       e.constant.w = float(1 / (std::cos(light.innerAngle * radians) - outer));
     }
-    entries.push_back(e);
+    list.lights.push_back(e);
   }
-  return entries;
 }
 
 glm::vec4 boundary(const FresnelConstants& c) {
@@ -80,25 +80,26 @@ glm::vec4 boundary(const FresnelConstants& c) {
 }
 
 // What a form of the lobe reads in place of the exponent (glsl/lobe.glsl).
-glm::vec4 lobeConstants(const HighlightForm& form, double exponent) {
+glm::vec2 lobeConstants(const HighlightForm& form, double exponent) {
   const double gamma = form.gamma;
   switch (form.form) {
     case Highlight::exact:
     case Highlight::pow:
     case Highlight::integer:
+    case Highlight::none:
       break;
     case Highlight::lyon:
-      return {exponent / gamma, 0, 0, 0};
+      return {exponent / gamma, 0};
     case Highlight::lyonTuned:
-      return {tunedSlope(exponent, form.gamma), 0, 0, 0};
+      return {tunedSlope(exponent, form.gamma), 0};
     case Highlight::lyonCross:
-      return {0.5 * exponent / gamma, 0, 0, 0};
+      return {0.5 * exponent / gamma, 0};
     case Highlight::pade:
-      return {1 + exponent / gamma, exponent / gamma - 1, 0, 0};
+      return {1 + exponent / gamma, exponent / gamma - 1};
     case Highlight::gaussian:
-      return {(exponent + gaussianShift) / std::numbers::ln2, 0, 0, 0};
+      return {(exponent + gaussianShift) / std::numbers::ln2, 0};
   }
-  return glm::vec4(0);
+  return glm::vec2(0);
 }
 
 MaterialBlock materialBlock(const Material& material, const Variant& variant, const Look& look) {
@@ -108,7 +109,11 @@ MaterialBlock materialBlock(const Material& material, const Variant& variant, co
   block.emission = glm::vec4(glm::vec3(material.emission), float(material.alphaCutoff));
   const double exponent = lobeExponent(material, look);
   block.strength = glm::vec4(s.ambient, s.diffuse, s.specular, exponent);
-  block.lobe = lobeConstants(variant.highlight, exponent);
+  glm::vec2 dimmer[HighlightForms::mostDimmer] = {};
+  for (std::size_t i = 0; i < variant.dimmer.size(); ++i)
+    dimmer[i] = lobeConstants(variant.dimmer[i].form, exponent);
+  block.lobe = glm::vec4(lobeConstants(variant.highlight, exponent), dimmer[0]);
+  block.dimmerLobe = glm::vec4(dimmer[1], dimmer[2]);
   const FresnelSides sides = fresnelSides(s.ior, look.mediumIor);
   const double k =
       variant.fresnel == Fresnel::rational ? rationalMinimax(look.mediumIor, s.ior) : 0.0;
@@ -180,7 +185,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
   DrawList list;
   list.camera = cameraFor(scene, bounds, look);
   list.environment = environmentImageFor(look);
-  list.lights = lightEntries(look, list.camera);
+  addLights(list, look);
   const double turn = -look.environmentRotation * radians, c = std::cos(turn), s = std::sin(turn);
   const glm::dmat3 rotation(c, 0, -s, 0, 1, 0, s, 0, c);
   list.frame.worldFromEye = glm::mat4(glm::mat3(rotation * list.camera.axes));

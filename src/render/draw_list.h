@@ -30,7 +30,8 @@ struct DrawList {
   FrameBlock frame;  ///< but for projection and rays, which depend on the tile
   /// In the order of blocks.glsl. `constant` holds L + V; with Blinn-Phong, H.
   std::vector<LightEntry> lights;
-  std::vector<DrawItem> items;  ///< in drawing order
+  std::vector<int> lightNumbers;  ///< of each of them: its place in lightsOf() the look
+  std::vector<DrawItem> items;    ///< in drawing order
   /// Where the look's environment is a picture and something shows it.
   std::shared_ptr<const EnvironmentImage> environment;
 };

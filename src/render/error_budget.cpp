@@ -6,13 +6,13 @@
 #include <limits>
 #include <map>
 
+#include "form_choice.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
-#include "glint/shading/costs.h"
 #include "glint/shading/safe.h"
 #include "interpolation_bound.h"
 
@@ -24,21 +24,11 @@ constexpr double cosineError = 5e-7;  // of a dot product of rounded unit vector
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-// What the bounds read of a drawn mesh and its material.
-struct Surface {
-  double exponent = 0;
-  double highlight = 0;    // m_s S times the sum of the intensities, the largest channel
-  double environment = 0;  // the radiance that an error of the reflectance is multiplied by
-  double ior = 1;
-  bool back = false;  // seen from within, too
-  double interpolation = 0;
-  double rounding = 0;  // but for the lobe's and the reflectance's
-  bool operator==(const Surface&) const = default;
-};
-
+// What the bounds read of the surfaces of a material's name.
 struct Group {
-  bool specular = false, dielectric = false;
-  std::vector<Surface> surfaces;
+  FormNeeds needs;
+  double interpolation = 0;  // of shading once per face or vertex
+  double rounding = 0;       // but for the lobes' and the reflectances'
 };
 
 // How bright an environment is and how fast it changes with direction. A picture's changes are
@@ -67,8 +57,7 @@ struct Setting {
   Look look;  // with the lights of the file
   Camera camera;
   std::vector<glint::Light> lights;
-  glm::dvec3 active{0.0};  // sum of intensities that can meet at a point
-  int lightCount = 0;
+  LightReach reach;
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
@@ -81,9 +70,8 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
   if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
-  s.lights = lightsOf(s.look);
-  std::erase_if(s.lights, [](const glint::Light& l) { return l.intensity == glm::dvec3(0.0); });
-  s.lightCount = int(s.lights.size());
+  const std::vector<glint::Light> given = lightsOf(s.look);
+  for (const std::size_t i : shiningLights(given)) s.lights.push_back(given[i]);
   std::vector<glm::dvec3> directions, intensities;
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
@@ -91,6 +79,7 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       const glm::dvec3 direction = safeNormalize(light.direction);
       directions.push_back(camera ? s.camera.axes * direction : direction);
       intensities.push_back(light.intensity);
+      s.reach.most.push_back(light.intensity);
       continue;
     }
     // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
@@ -99,7 +88,8 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       const double way = glm::length(light.position - bounds.center) - bounds.radius;
       most = 1 / std::pow(std::max(way, 1e-6), 2);
     }
-    s.active += most * light.intensity;
+    s.reach.most.push_back(most * light.intensity);
+    s.reach.together += s.reach.most.back();
     if (light.type == glint::Light::Type::spot) {
       constexpr double radians = 0.017453292519943295;
       const double range =
@@ -107,14 +97,14 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       s.spotSteepness += most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
     }
   }
-  s.active += activeIntensity(directions, intensities);
+  s.reach.together += activeIntensity(directions, intensities);
   return s;
 }
 
-Surface surfaceFor(const Setting& setting, const Material& material, const Mesh& mesh,
-                   const Variant& v) {
+void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
+                const Variant& v) {
   const ShadingParameters& m = material.shading;
-  Surface s;
+  FormNeeds& needs = group.needs;
   glm::dvec3 C = m.color;
   if (v.vertexColors) {
     glm::vec4 most(0);
@@ -122,95 +112,51 @@ Surface surfaceFor(const Setting& setting, const Material& material, const Mesh&
     C *= glm::dvec3(most);
   }
   const glm::dvec3 S = m.metalness * C + (1.0 - m.metalness);
-  s.exponent = lobeExponent(material, setting.look);
-  const double shine = v.specular ? m.specular * largest(S * setting.active) : 0.0;
-  const double matte = largest(
-      C * (m.ambient * setting.look.ambientLight + (v.diffuse ? m.diffuse : 0.0) * setting.active));
-  s.highlight = shine;
-  s.ior = m.ior;
-  s.back = v.twoSided;
+  const glm::dvec3& light = setting.reach.together;
+  if (v.specular) {
+    needs.specular = true;
+    needs.shine = glm::max(needs.shine, m.specular * S);
+    const double exponent = lobeExponent(material, setting.look);
+    if (std::ranges::find(needs.exponents, exponent) == needs.exponents.end())
+      needs.exponents.push_back(exponent);
+  }
+  const double shine = v.specular ? m.specular * largest(S * light) : 0.0;
+  const double matte =
+      largest(C * (m.ambient * setting.look.ambientLight + (v.diffuse ? m.diffuse : 0.0) * light));
   // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError,
   // and so is what a spot's ramp magnifies.
-  s.rounding = (8.0 + setting.lightCount) * u * (matte + shine) +
-               cosineError * (v.diffuse ? m.diffuse * largest(C * setting.active) : 0.0) +
-               cosineError * setting.spotSteepness *
-                   ((v.diffuse ? m.diffuse * largest(C) : 0.0) +
-                    (v.specular ? m.specular * largest(S) : 0.0)) +
-               2.0 * u * largest(material.emission);
-  if (v.program != Shading::environment) return s;
-
-  // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
-  const auto [radiance, steep] = setting.surroundings;
-  const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
-  if (v.dielectric) s.environment = (1.0 - m.metalness) * radiance * through;
-  // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
-  // cosines.
-  s.rounding +=
-      1e-5 + 2e-6 * steep +
-      (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
-  if (v.refraction) {
-    // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
-    // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the same
-    // root. Equal indices refract everything, at grazing incidence too.
-    const double n = std::max(m.ior / setting.look.mediumIor, setting.look.mediumIor / m.ior);
-    const double slope = n > 1.0 ? 2.0 * (n * n + 1.0) / std::sqrt(n * n - 1.0) : 1e9;
-    const double off = 2e-6 * n + std::min(std::sqrt(4e-6), slope * n * 4e-6);
-    s.rounding += largest(C) * (1e-5 + steep * off);
+  double rounding = (8.0 + double(setting.lights.size())) * u * (matte + shine) +
+                    cosineError * (v.diffuse ? m.diffuse * largest(C * light) : 0.0) +
+                    cosineError * setting.spotSteepness *
+                        ((v.diffuse ? m.diffuse * largest(C) : 0.0) +
+                         (v.specular ? m.specular * largest(S) : 0.0)) +
+                    2.0 * u * largest(material.emission);
+  if (v.program == Shading::environment) {
+    // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
+    const auto [radiance, steep] = setting.surroundings;
+    const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
+    if (v.dielectric) {
+      needs.dielectric = true;
+      const FormNeeds::Mirror mirror{(1.0 - m.metalness) * radiance * through, m.ior, v.twoSided};
+      if (std::ranges::find(needs.mirrors, mirror) == needs.mirrors.end())
+        needs.mirrors.push_back(mirror);
+    }
+    // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
+    // cosines.
+    rounding +=
+        1e-5 + 2e-6 * steep +
+        (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
+    if (v.refraction) {
+      // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
+      // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the
+      // same root. Equal indices refract everything, at grazing incidence too.
+      const double n = std::max(m.ior / setting.look.mediumIor, setting.look.mediumIor / m.ior);
+      const double slope = n > 1.0 ? 2.0 * (n * n + 1.0) / std::sqrt(n * n - 1.0) : 1e9;
+      const double off = 2e-6 * n + std::min(std::sqrt(4e-6), slope * n * 4e-6);
+      rounding += largest(C) * (1e-5 + steep * off);
+    }
   }
-  return s;
-}
-
-LobeForm lobeForm(Highlight form) { return LobeForm(int(form)); }
-FresnelForm fresnelForm(Fresnel form) { return FresnelForm(int(form)); }
-static_assert(int(LobeForm::gaussian) == int(Highlight::gaussian));
-static_assert(int(LobeForm::lyonCross) == int(Highlight::lyonCross));
-static_assert(int(FresnelForm::rational) == int(Fresnel::rational));
-
-// What a form brings about on the surfaces of a group: the worst of its formula and of rounding.
-double lobeErrors(const Group& group, const HighlightForm& form, bool blinn, double& rounding) {
-  double worst = 0;
-  rounding = 0;
-  for (const Surface& s : group.surfaces) {
-    const LobeForm lobe = lobeForm(form.form);
-    worst = std::max(worst, s.highlight * lobeFormulaBound(lobe, form.gamma, s.exponent));
-    rounding =
-        std::max(rounding, s.highlight * lobeRoundingBound(lobe, form.gamma, s.exponent, blinn));
-  }
-  return worst;
-}
-
-double reflectanceErrors(const Group& group, Fresnel fresnel, const Look& look, double& rounding) {
-  double worst = 0;
-  rounding = 0;
-  for (const Surface& s : group.surfaces) {
-    const FresnelForm form = fresnelForm(fresnel);
-    const double n1 = look.mediumIor, n2 = s.ior;
-    worst =
-        std::max(worst, s.environment * fresnelFormulaBound(form, n1, n2, look.schlickExponent));
-    double r = fresnelRoundingBound(form, n1, n2, look.schlickExponent);
-    if (s.back) r = std::max(r, fresnelRoundingBound(form, n2, n1, look.schlickExponent));
-    rounding = std::max(rounding, s.environment * r);
-  }
-  return worst;
-}
-
-std::vector<HighlightForm> lobeCandidates(const Group& group) {
-  std::vector<HighlightForm> forms{Highlight::exact};
-  if (!group.specular) return forms;
-  double least = 1e9;
-  bool whole = true;
-  for (const Surface& s : group.surfaces) {
-    least = std::min(least, s.exponent);
-    whole = whole && isIntegerPower(s.exponent);
-  }
-  forms.emplace_back(Highlight::pow);
-  if (!(least > 0)) return forms;
-  if (whole) forms.emplace_back(Highlight::integer);
-  for (const Highlight form :
-       {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross, Highlight::pade})
-    for (int gamma = 1; gamma <= 64; gamma *= 2) forms.emplace_back(form, gamma);
-  forms.emplace_back(Highlight::gaussian);
-  return forms;
+  group.rounding = std::max(group.rounding, rounding);
 }
 
 std::string number(double value) {
@@ -219,90 +165,34 @@ std::string number(double value) {
   return text;
 }
 
-FormChoice chooseForms(const std::string& name, const Group& group, const Setting& setting,
-                       double budget) {
-  const Look& look = setting.look;
+FormChoice choiceFor(const std::string& name, Group& group, const Setting& setting, double budget) {
+  FormNeeds& needs = group.needs;
+  needs.rest = group.interpolation + group.rounding;
+  const ChosenForms forms =
+      cheapestForms(needs, setting.reach, setting.look, setting.blinn, budget);
   FormChoice choice;
   choice.material = name;
-  choice.specular = group.specular;
-  choice.dielectric = group.dielectric;
-  double common = 0;
-  for (const Surface& s : group.surfaces) {
-    common = std::max(common, s.rounding);
-    choice.interpolation = std::max(choice.interpolation, s.interpolation);
-  }
-  struct Lobe {
-    HighlightForm form;
-    double error, rounding, cost;
-  };
-  struct Reflectance {
-    Fresnel form;
-    double error, rounding, cost;
-  };
-  std::vector<Lobe> lobes;
-  for (const HighlightForm& form : lobeCandidates(group)) {
-    Lobe l{form, 0, 0, 0};
-    if (group.specular) {
-      l.error = lobeErrors(group, form, setting.blinn, l.rounding);
-      for (const Surface& s : group.surfaces) {
-        const int power = form.form == Highlight::integer ? int(s.exponent) : form.gamma;
-        l.cost = std::max(l.cost, setting.lightCount * lobeCost(lobeForm(form.form), power));
-      }
-    }
-    lobes.push_back(l);
-  }
-  std::vector<Reflectance> reflectances;
-  for (const Fresnel form :
-       {Fresnel::exact, Fresnel::schlick, Fresnel::schlickExp2, Fresnel::rational}) {
-    Reflectance r{form, 0, 0, 0};
-    if (group.dielectric) {
-      r.error = reflectanceErrors(group, form, look, r.rounding);
-      r.cost = fresnelCost(fresnelForm(form), look.schlickExponent);
-    } else if (form != Fresnel::exact) {
-      break;
-    }
-    reflectances.push_back(r);
-  }
-  // The exact forms come first: what costs as much does not replace them.
-  int within = 0;
-  const Lobe* bestLobe = &lobes.front();
-  const Reflectance* bestReflectance = &reflectances.front();
-  const auto boundOf = [&](const Lobe& l, const Reflectance& r) {
-    return l.error + l.rounding + r.error + r.rounding + choice.interpolation + common;
-  };
-  double bestCost = bestLobe->cost + bestReflectance->cost;
-  choice.exactCost = bestCost;
-  double bestBound = boundOf(*bestLobe, *bestReflectance);
-  for (const Lobe& l : lobes)
-    for (const Reflectance& r : reflectances) {
-      const double bound = boundOf(l, r), cost = l.cost + r.cost;
-      if (!(bound <= budget)) continue;
-      ++within;
-      if (cost > bestCost || (cost == bestCost && bound >= bestBound)) continue;
-      bestLobe = &l;
-      bestReflectance = &r;
-      bestCost = cost;
-      bestBound = bound;
-    }
-  choice.highlight = bestLobe->form;
-  choice.fresnel = bestReflectance->form;
-  choice.lobe = bestLobe->error;
-  choice.reflectance = bestReflectance->error;
-  choice.rounding = bestLobe->rounding + bestReflectance->rounding + common;
-  choice.bound = bestBound;
-  choice.cost = bestCost;
-  const std::size_t tried = lobes.size() * reflectances.size();
-  if (within == 0)
+  choice.specular = needs.specular;
+  choice.dielectric = needs.dielectric;
+  choice.highlight = forms.highlight;
+  choice.fresnel = forms.fresnel;
+  choice.lobe = forms.lobe;
+  choice.reflectance = forms.reflectance;
+  choice.interpolation = group.interpolation;
+  choice.rounding = forms.rounding + group.rounding;
+  choice.bound = needs.rest + forms.error();
+  choice.cost = forms.cost;
+  choice.exactCost = forms.exactCost;
+  if (!forms.within)
     choice.reason =
         "no form is within " + number(budget) + ": exact, which is within " + number(choice.bound);
-  else if (!group.specular && !group.dielectric)
+  else if (!needs.specular && !needs.dielectric)
     choice.reason = "neither highlight nor reflectance: nothing to choose";
-  else if (bestCost == choice.exactCost)
+  else if (forms.cost == forms.exactCost)
     choice.reason = "nothing that costs less than exact is within " + number(budget);
   else
-    choice.reason = "the least cost of " + std::to_string(within) + " of " + std::to_string(tried) +
-                    " within " + number(budget) + ": " + number(100 * bestCost / choice.exactCost) +
-                    " % of exact";
+    choice.reason = "the least cost within " + number(budget) + ": " +
+                    number(100 * forms.cost / forms.exactCost) + " % of exact";
   return choice;
 }
 
@@ -317,16 +207,13 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
     const Variant v =
         variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
     if (v.unlit) continue;
-    Surface surface = surfaceFor(setting, material, mesh, v);
-    if (program != setting.look.shading)
-      surface.interpolation = interpolationBound(
-          {scene, mesh, instance.world, material, setting.look, setting.camera, setting.lights, v},
-          program);
     Group& group = groups[material.name];
-    group.specular = group.specular || v.specular;
-    group.dielectric = group.dielectric || v.dielectric;
-    if (std::find(group.surfaces.begin(), group.surfaces.end(), surface) == group.surfaces.end())
-      group.surfaces.push_back(surface);
+    addSurface(group, setting, material, mesh, v);
+    if (program == setting.look.shading) continue;
+    group.interpolation = std::max(
+        group.interpolation, interpolationBound({scene, mesh, instance.world, material,
+                                                 setting.look, setting.camera, setting.lights, v},
+                                                program));
   }
   return groups;
 }
@@ -351,11 +238,15 @@ void spread(Look& look, const std::vector<FormChoice>& choices, bool FormChoice:
     if (c.*applies) look.material[c.material].*own = c.*form;
 }
 
-void setForms(Look& look, const std::vector<FormChoice>& choices) {
+// The exact forms everywhere.
+void clearForms(Look& look) {
   for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
   look.highlight = Highlight::exact;
   look.fresnel = Fresnel::exact;
+}
+
+void setForms(Look& look, const std::vector<FormChoice>& choices) {
   spread(look, choices, &FormChoice::specular, &FormChoice::highlight, &Look::highlight,
          &MaterialEdit::highlight);
   spread(look, choices, &FormChoice::dielectric, &FormChoice::fresnel, &Look::fresnel,
@@ -366,8 +257,8 @@ ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading progr
   ResolvedLook resolved;
   resolved.look = setting.given;
   resolved.look.shading = program;
-  for (const auto& [name, group] : groupsOf(scene, setting, program)) {
-    resolved.choices.push_back(chooseForms(name, group, setting, budget));
+  for (auto& [name, group] : groupsOf(scene, setting, program)) {
+    resolved.choices.push_back(choiceFor(name, group, setting, budget));
     resolved.bound = std::max(resolved.bound, resolved.choices.back().bound);
   }
   setForms(resolved.look, resolved.choices);
@@ -433,6 +324,7 @@ ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& l
   const double budget = *look.maxError;
   Look plain = resolved.look;
   plain.maxError.reset();
+  clearForms(plain);
   const Setting setting = settingFor(scene, bounds, plain);
   const ResolvedLook perPixel = chosenFor(scene, setting, plain.shading, budget);
   resolved = perPixel;

@@ -12,9 +12,9 @@ namespace glint {
 /// What --max-error chose for the materials of one name, and why.
 struct FormChoice {
   std::string material;
-  bool specular = false;    ///< they have a highlight, and `highlight` says by which form
-  bool dielectric = false;  ///< they reflect an environment, and `fresnel` says by which form
-  HighlightForm highlight;  ///< as --highlight takes it
+  bool specular = false;     ///< they have a highlight, and `highlight` says by which form
+  bool dielectric = false;   ///< they reflect an environment, and `fresnel` says by which form
+  HighlightForms highlight;  ///< as --highlight takes it
   Fresnel fresnel = Fresnel::exact;
   double lobe = 0;         ///< error of the lobe's formula times m_s S sum of I, linear radiance
   double reflectance = 0;  ///< error of the reflectance's formula times the environment's radiance
@@ -34,7 +34,8 @@ struct ResolvedLook {
   std::string programReason;        ///< of --shading auto; otherwise empty
 };
 
-/// Replaces the look's budget by the cheapest forms whose proven bounds keep within it, and
+/// Replaces the look's budget by the cheapest forms whose proven bounds keep within it, for each
+/// material and, of the lobe, for brighter and dimmer lights (HighlightForms), and
 /// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
 /// enough to it. The forms that the look asks for give way to those chosen. Where no form is within
 /// the budget the exact one is taken, and `bound` is above the budget. A pure function of its

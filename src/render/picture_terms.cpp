@@ -13,36 +13,58 @@ using Kind = PictureTerm::Kind;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// How many lights of each type the list has: those of any variant that reads lights at all.
-struct LightCounts {
-  explicit LightCounts(const DrawList& list) {
-    for (const DrawItem& item : list.items) {
-      directional = std::max(directional, item.variant.directionalLights);
-      points = std::max(points, item.variant.pointLights);
-      spots = std::max(spots, item.variant.spotLights);
+// Of a draw list's lights, where one stands: in the list, and among its type.
+struct LightPlace {
+  LightPlace(const DrawList& list, const PictureTerm& term) {
+    if (term.kind != Kind::diffuse && term.kind != Kind::specular) return;
+    const auto found = std::ranges::find(list.lightNumbers, term.light);
+    index = int(found - list.lightNumbers.begin());
+    for (const DrawItem& item : list.items) {  // those of any variant that reads lights at all
+      const Variant& v = item.variant;
+      if (v.directionalLights + v.pointLights + v.spotLights == 0) continue;
+      const int point = index - v.directionalLights, spot = point - v.pointLights;
+      type = point < 0 ? 0 : spot < 0 ? 1 : 2;
+      among = point < 0 ? index : spot < 0 ? point : spot;
     }
   }
-  int directional = 0, points = 0, spots = 0;
+  int index = 0, type = 0, among = 0;
 };
 
 void removeLights(Variant& v) {
   v.directionalLights = v.pointLights = v.spotLights = 0;
   v.diffuse = v.specular = false;
+  v.highlight = Highlight::exact;
+  v.dimmer.clear();
 }
 
-void keepOneLight(Variant& v, const LightCounts& counts, const PictureTerm& term) {
+void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {
+  Variant& v = item.variant;
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   const bool diffuse = v.diffuse && term.kind == Kind::diffuse;
-  const bool specular = v.specular && term.kind == Kind::specular;
+  bool specular = v.specular && term.kind == Kind::specular;
+  const MaterialBlock& block = item.materialBlock;
+  HighlightForm form = v.highlight;
+  glm::vec2 shape(block.lobe);
+  const glm::vec2 shapes[] = {{block.lobe.z, block.lobe.w},
+                              {block.dimmerLobe.x, block.dimmerLobe.y},
+                              {block.dimmerLobe.z, block.dimmerLobe.w}};
+  for (std::size_t i = 0; i < v.dimmer.size(); ++i) {
+    const Variant::Dimmer& each = v.dimmer[i];
+    const int from = place.type == 0 ? each.directional : place.type == 1 ? each.point : each.spot;
+    if (place.among >= from) form = each.form, shape = shapes[i];
+  }
   removeLights(v);
   if (!lit) return;
-  const int first = term.light - counts.directional;
-  (first < 0 ? v.directionalLights : first < counts.points ? v.pointLights : v.spotLights) = 1;
+  specular = specular && form.form != Highlight::none;
+  (place.type == 0 ? v.directionalLights : place.type == 1 ? v.pointLights : v.spotLights) = 1;
   v.diffuse = diffuse;
   v.specular = specular;
+  if (!specular) return;
+  v.highlight = form;
+  item.materialBlock.lobe = glm::vec4(shape, 0, 0);
 }
 
-void keepLight(DrawItem& item, const LightCounts& counts, const PictureTerm& term) {
+void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {
   Variant& v = item.variant;
   if (v.unlit) {
     if (term.kind != Kind::emission)
@@ -51,7 +73,7 @@ void keepLight(DrawItem& item, const LightCounts& counts, const PictureTerm& ter
   }
   const bool oneLight = term.kind == Kind::diffuse || term.kind == Kind::specular;
   if (oneLight)
-    keepOneLight(v, counts, term);
+    keepOneLight(item, place, term);
   else
     removeLights(v);
   if (term.kind != Kind::emission) v.emission = v.emissionTexture = false;
@@ -79,16 +101,16 @@ void keepGeometry(DrawItem& item, const PictureTerm& term) {
 }
 
 DrawList termList(DrawList list, const PictureTerm& term) {
-  const LightCounts counts(list);
+  const LightPlace place(list, term);
   if (!term.isLight()) {
     std::erase_if(list.items, [](const DrawItem& item) { return item.blended; });
     for (DrawItem& item : list.items) keepGeometry(item, term);
     return list;
   }
-  for (DrawItem& item : list.items) keepLight(item, counts, term);
+  for (DrawItem& item : list.items) keepLight(item, place, term);
   if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec4(0);
   if (term.kind == Kind::diffuse || term.kind == Kind::specular)
-    list.lights = {list.lights.at(std::size_t(term.light))};
+    list.lights = {list.lights.at(std::size_t(place.index))};
   else
     list.lights.clear();
   return list;
@@ -120,10 +142,12 @@ void toDistance(Image& depths, const Camera& camera, bool reversed) {
 
 std::vector<PictureTerm> termsOf(const DrawList& list, const Look& look) {
   std::vector<PictureTerm> terms{{Kind::ambient, 0, "ambient"}};
-  for (std::size_t i = 0; i < list.lights.size(); ++i) {
-    const std::string number = "-" + std::to_string(i);
-    terms.push_back({Kind::diffuse, int(i), "diffuse" + number});
-    terms.push_back({Kind::specular, int(i), "specular" + number});
+  std::vector<int> lights = list.lightNumbers;
+  std::ranges::sort(lights);
+  for (const int light : lights) {
+    const std::string number = "-" + std::to_string(light);
+    terms.push_back({Kind::diffuse, light, "diffuse" + number});
+    terms.push_back({Kind::specular, light, "specular" + number});
   }
   if (look.shading == Shading::environment) {
     terms.push_back({Kind::reflection, 0, "reflection"});
@@ -184,15 +208,9 @@ Image drawReferenceTerm(const Scene& scene, const DecodedImages& images, const B
 }
 
 void ReferenceRenderer::keep(const PictureTerm& term) {
-  // In the order of the draw list: by type, without those that send nothing.
-  auto& lights = stage_.frame.lights;
-  std::erase_if(lights, [](const auto& l) { return l.intensity == glm::dvec3(0.0); });
-  std::stable_sort(lights.begin(), lights.end(),
-                   [](const auto& a, const auto& b) { return a.type < b.type; });
-  if (term.kind == Kind::diffuse || term.kind == Kind::specular)
-    lights = {lights.at(std::size_t(term.light))};
-  else
-    lights.clear();
+  const bool one = term.kind == Kind::diffuse || term.kind == Kind::specular;
+  std::erase_if(stage_.frame.lights,
+                [&](const auto& light) { return !one || light.number != term.light; });
   if (term.kind != Kind::ambient) stage_.frame.ambientLight = glm::dvec3(0.0);
   for (reference::Item& item : stage_.items) {
     if (term.kind != Kind::emission) {

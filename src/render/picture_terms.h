@@ -26,15 +26,15 @@ struct PictureTerm {
     depth,       ///< distance along the view, world units; infinite where there is nothing opaque
   };
   Kind kind = Kind::ambient;
-  int light = 0;     ///< of diffuse and specular: index into DrawList::lights
+  int light = 0;     ///< of diffuse and specular: its place in lightsOf() the look
   std::string name;  ///< "ambient", "diffuse-0", ...
 
   bool isLight() const { return kind != Kind::normal && kind != Kind::depth; }
 };
 
 /// The terms of a picture: reflection and refraction of the program environment alone, the
-/// background unless it is transparent. Lights have the numbers of their places in the draw list:
-/// directional ones first, then points, then spots, each kind in the order given.
+/// background unless it is transparent. Lights that shine have the numbers of their places among
+/// those given, from 0.
 std::vector<PictureTerm> termsOf(const DrawList&, const Look&);
 
 /// The look that a term is drawn with: terms of light over nothing; normal and depth are those at

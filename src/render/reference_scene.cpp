@@ -18,9 +18,13 @@ std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
   const glm::dmat3 turn = glm::transpose(camera.axes);
   std::vector<Light> lights;
   // Lengths are in units of camera.unit, and so is what falls with their square.
-  for (const glint::Light& from : lightsOf(look)) {
-    if (from.intensity == glm::dvec3(0.0)) continue;
+  const std::vector<glint::Light> given = lightsOf(look);
+  const std::vector<std::size_t> shining = shiningLights(given);
+  for (std::size_t rank = 0; rank < shining.size(); ++rank) {
+    const glint::Light& from = given[shining[rank]];
     Light light;
+    light.number = int(shining[rank]);
+    light.rank = int(rank);
     light.intensity = from.intensity;
     if (from.fallsOff) {
       light.fallsOff = true;
@@ -46,6 +50,7 @@ std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
     }
     lights.push_back(light);
   }
+  std::ranges::sort(lights, {}, &Light::number);
   return lights;
 }
 
@@ -124,6 +129,8 @@ LobeForm lobeForm(Highlight form) {
       return LobeForm::pade;
     case Highlight::gaussian:
       return LobeForm::gaussian;
+    case Highlight::none:
+      return LobeForm::none;
   }
   return LobeForm::exact;
 }
@@ -149,9 +156,13 @@ Surface surfaceFor(const Material& material, const Variant& variant, const Look&
   s.program = Program(int(programOf(look)));
   s.unlit = variant.unlit;
   s.twoSided = material.doubleSided || look.twoSided;
-  const HighlightForm highlight = material.highlight.value_or(look.highlight);
-  s.lobe = lobeForm(highlight.form);
-  s.gamma = std::max(highlight.gamma, 1);
+  const HighlightForms highlight = material.highlight.value_or(look.highlight);
+  const auto lobe = [](const HighlightForm& form, int from) {
+    return Surface::Lobe{lobeForm(form.form), std::max(form.gamma, 1), from};
+  };
+  s.lobes = {lobe(highlight.brightest, 0)};
+  for (const HighlightForms::Dimmer& each : highlight.dimmer)
+    s.lobes.push_back(lobe(each.form, each.from));
   s.fresnel = fresnelForm(material.fresnel.value_or(look.fresnel));
   s.ambient = material.shading.ambient;
   s.diffuse = material.shading.diffuse;

@@ -92,12 +92,12 @@ Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& posi
   p.specular = surface.specular;
   p.exponent = surface.exponent;
   p.blinnFactor = surface.blinnFactor;
-  p.highlight = surface.lobe;
-  p.gamma = surface.gamma;
   const glm::dvec3 V = toViewer(frame, position);
   const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
   LightTerms sum = ambientLight(p, frame.ambientLight);
   for (const Light& light : frame.lights) {
+    for (const Surface::Lobe& lobe : surface.lobes)
+      if (light.rank >= lobe.from) p.highlight = lobe.form, p.gamma = lobe.gamma;
     if (light.type == Light::Type::directional) {
       sum += oneLight(p, normal, light.place, V, light.intensity);
       continue;

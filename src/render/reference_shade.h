@@ -22,6 +22,8 @@ struct Light {
   bool fallsOff = false;  ///< `intensity` is that at distance 1, and there is none beyond `range`
   double range = 0.0;     ///< 0: no such end
   glm::dvec3 intensity{1.0};
+  int number = 0;  ///< its place in lightsOf() the look
+  int rank = 0;    ///< its place in shiningLights()
 };
 
 /// What a picture's pixels have in common.
@@ -43,8 +45,13 @@ struct Surface {
   Program program = Program::phong;
   bool unlit = false;
   bool twoSided = false;  ///< back faces turn the normal
-  LobeForm lobe = LobeForm::exact;
-  int gamma = 8;  ///< of the forms that have one
+  /// The forms of the lobe, each for the lights from a rank on.
+  struct Lobe {
+    LobeForm form = LobeForm::exact;
+    int gamma = 8;  ///< of the forms that have one
+    int from = 0;
+  };
+  std::vector<Lobe> lobes{Lobe{}};
   FresnelForm fresnel = FresnelForm::exact;
   double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0;
   double blinnFactor = 4, schlickExponent = 5;

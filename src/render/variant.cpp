@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "glint/scene/look_text.h"
 #include "glint/shading/lobe.h"
@@ -20,17 +21,29 @@ bool readsTexture(const Mesh& mesh, const std::optional<Texture>& texture) {
          !mesh.texcoords[std::size_t(texture->texcoord)].empty();
 }
 
-// Of a variant: the text of the form, with the exponent of an integer power.
-std::string lobeText(const HighlightForm& form) {
-  return highlightText(form) +
-         (form.form == Highlight::integer ? ":" + std::to_string(form.gamma) : "");
+// Of a variant: the text of the forms, with the exponent of an integer power.
+std::string lobeText(const Variant& v) {
+  const auto one = [](const HighlightForm& form) {
+    return highlightText(form) +
+           (form.form == Highlight::integer ? ":" + std::to_string(form.gamma) : "");
+  };
+  std::string text = one(v.highlight);
+  int before = 0;
+  for (const Variant::Dimmer& each : v.dimmer) {
+    const int from = each.directional + each.point + each.spot;
+    text += "/" + std::to_string(from - before) + "," + one(each.form);
+    before = from;
+  }
+  return text;
 }
 
 std::string formReason(const Variant& v, const Material& material, const Look& look) {
-  const HighlightForm asked = material.highlight.value_or(look.highlight);
+  const HighlightForms asked = material.highlight.value_or(look.highlight);
   const std::string by = material.highlight ? "the material's highlight is " : "--highlight is ";
   const std::string text = by + highlightText(asked);
-  if (asked.form == v.highlight.form) return text;
+  if (v.dimmer.empty() && !asked.dimmer.empty() && asked.brightest.form == v.highlight.form)
+    return text + ", and no light is left for another form";
+  if (asked.brightest.form == v.highlight.form) return text;
   return lobeExponent(material, look) > 0
              ? text + ", but the exponent is not a whole number from 1 to 128"
              : text + ", but the exponent is 0";
@@ -65,6 +78,18 @@ std::vector<Light> lightsOf(const Look& look) {
   return {light};
 }
 
+std::vector<std::size_t> shiningLights(const std::vector<Light>& lights) {
+  const auto brightness = [&](std::size_t i) {
+    const glm::dvec3& I = lights[i].intensity;
+    return std::max({I.r, I.g, I.b});
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].intensity != glm::dvec3(0.0)) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater(), brightness);
+  return order;
+}
+
 Shading programOf(const Look& look) {
   return look.shading == Shading::automatic ? Shading::phong : look.shading;
 }
@@ -78,14 +103,19 @@ double lobeExponent(const Material& material, const Look& look) {
   return usesBlinn(look.shading) ? look.blinnFactor * alpha : alpha;
 }
 
-HighlightForm highlightOf(const Material& material, const Look& look) {
-  const HighlightForm asked = material.highlight.value_or(look.highlight);
+HighlightForms highlightOf(const Material& material, const Look& look) {
   const double exponent = lobeExponent(material, look);
-  if (asked.form == Highlight::pow) return asked;
-  if (!(exponent > 0)) return Highlight::exact;
-  if (asked.form != Highlight::integer) return asked;
-  if (!isIntegerPower(exponent)) return Highlight::exact;
-  return {Highlight::integer, int(exponent)};
+  const auto drawn = [&](const HighlightForm& asked) -> HighlightForm {
+    if (asked.form == Highlight::pow || asked.form == Highlight::none) return asked;
+    if (!(exponent > 0)) return Highlight::exact;
+    if (asked.form != Highlight::integer) return asked;
+    if (!isIntegerPower(exponent)) return Highlight::exact;
+    return {Highlight::integer, int(exponent)};
+  };
+  const HighlightForms asked = material.highlight.value_or(look.highlight);
+  HighlightForms forms = drawn(asked.brightest);
+  for (const HighlightForms::Dimmer& each : asked.dimmer) forms.add(drawn(each.form), each.from);
+  return forms;
 }
 
 Fresnel fresnelOf(const Material& material, const Look& look) {
@@ -113,8 +143,18 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   const bool pixels = perPixel(programOf(look));
   const ShadingParameters& s = material.shading;
   const bool wantsLight = s.diffuse > 0 || s.specular > 0;
-  for (const Light& light : lightsOf(look)) {
-    if (!wantsLight || light.intensity == glm::dvec3(0.0)) continue;
+  const HighlightForms forms = highlightOf(material, look);
+  const std::vector<Light> lights = lightsOf(look);
+  std::vector<std::size_t> shining;
+  if (wantsLight) shining = shiningLights(lights);
+  bool highlights = false;
+  v.highlight = forms.brightest;
+  for (std::size_t i = 0; i < shining.size(); ++i) {
+    const Light& light = lights[shining[i]];
+    const HighlightForm form = forms.of(int(i));
+    if (i > 0 && form != forms.of(int(i) - 1))
+      v.dimmer.push_back({form, v.directionalLights, v.pointLights, v.spotLights});
+    highlights = highlights || form.form != Highlight::none;
     switch (light.type) {
       case Light::Type::directional:
       case Light::Type::camera:
@@ -131,8 +171,8 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   }
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   v.diffuse = lit && s.diffuse > 0;
-  v.specular = lit && s.specular > 0;
-  if (v.specular) v.highlight = highlightOf(material, look);
+  v.specular = highlights && s.specular > 0;
+  if (!v.specular) v.highlight = Highlight::exact, v.dimmer.clear();
   const bool environment = look.shading == Shading::environment;
   v.constantView = orthographic || look.viewer == Viewer::infinite;
   v.unevenScale = !isSimilarity(glm::dmat3(world));
@@ -194,8 +234,11 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
     add("light-falloff", v.lightFalloff, "the file's lights weaken with distance",
         "--light is constant");
   add("diffuse", v.diffuse, "diffuse > 0", lights ? "diffuse is 0" : none);
-  add("specular", v.specular, "specular > 0", lights ? "specular is 0" : none);
-  if (v.specular) add("specular:" + lobeText(v.highlight), true, formReason(v, material, look), {});
+  add("specular", v.specular, "specular > 0",
+      !lights          ? none
+      : s.specular > 0 ? "highlight none"
+                       : "specular is 0");
+  if (v.specular) add("specular:" + lobeText(v), true, formReason(v, material, look), {});
   add("constant-view", v.constantView,
       orthographic ? "the camera is orthographic: V, L + V and H once per draw"
                    : "--viewer infinite: V, L + V and H once per draw",
@@ -252,7 +295,7 @@ std::vector<std::string> featureNames(const Variant& v) {
   count(v.spotLights, "spot-lights");
   add(v.lightFalloff, "light-falloff");
   add(v.diffuse, "diffuse");
-  add(v.specular, ("specular:" + lobeText(v.highlight)).c_str());
+  add(v.specular, ("specular:" + lobeText(v)).c_str());
   add(v.constantView && !v.unlit, "constant-view");
   add(v.unevenScale, "renormalized-vertex-normals");
   add(v.pixelPosition, "pixel-position");

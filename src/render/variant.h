@@ -37,6 +37,13 @@ struct Variant {
   bool specular = false;      ///< some light and m_s > 0
   /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
   HighlightForm highlight;
+  /// Lights that have another form, the same as ever from a light of each type on.
+  struct Dimmer {
+    HighlightForm form;
+    int directional = 0, point = 0, spot = 0;  ///< the first of them, counted by type
+    auto operator<=>(const Dimmer&) const = default;
+  };
+  std::vector<Dimmer> dimmer;    ///< at most HighlightForms::mostDimmer
   bool constantView = false;     ///< one direction to the viewer: H, V and L + V once per draw
   bool unevenScale = false;      ///< normals need renormalising per vertex
   bool pixelPosition = false;    ///< per-pixel programs read the interpolated position
@@ -78,10 +85,10 @@ bool usesBlinn(Shading);
 /// The exponent of the material's lobe under this look: Phong's, or Blinn-Phong's.
 double lobeExponent(const Material&, const Look&);
 
-/// The form that draws a material's highlight: the one asked for, except that `integer` becomes
-/// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` does
-/// where the exponent is 0. Of `integer`, gamma is the exponent.
-HighlightForm highlightOf(const Material&, const Look&);
+/// The forms that draw a material's highlight: those asked for, except that `integer` becomes
+/// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
+/// `none` does where the exponent is 0. Of `integer`, gamma is the exponent.
+HighlightForms highlightOf(const Material&, const Look&);
 
 /// The form of a material's reflectance.
 Fresnel fresnelOf(const Material&, const Look&);
@@ -100,6 +107,10 @@ std::vector<std::string> featureNames(const Variant&);
 /// The lights of a look: those given, or the default one, or none. Those of a file are in the look
 /// that withFileLights() gives; every function here takes that one.
 std::vector<Light> lightsOf(const Look&);
+
+/// The lights that shine, as indices of `lights`: the brightest first, by the largest channel of
+/// the intensity; equally bright ones as they are given.
+std::vector<std::size_t> shiningLights(const std::vector<Light>& lights);
 
 /// Whether a 3x3 transform is a rotation (with or without mirror) and one scale, to 1e-6.
 bool isSimilarity(const glm::dmat3&);

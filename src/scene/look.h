@@ -12,7 +12,7 @@ namespace glint {
 /// `automatic` is a choice by error budget (glint/render/error_budget.h); drawn as it stands,
 /// phong.
 enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
-enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian };
+enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian, none };
 enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
 /// `image` is what `hdriFile` names; it cannot be chosen by name.
@@ -24,6 +24,34 @@ struct HighlightForm {
   int gamma = 0;  ///< of lyon, lyonTuned, lyonCross and pade: a power of two, [1, 64]; otherwise 0
   constexpr HighlightForm(Highlight f = Highlight::exact, int g = 0) : form(f), gamma(g) {}
   auto operator<=>(const HighlightForm&) const = default;
+};
+
+/// By which forms the lights of a picture draw their highlights: the brightest by `brightest`,
+/// those that are dimmer perhaps by forms that are less exact and cost less. Lights are counted in
+/// the order of shiningLights().
+struct HighlightForms {
+  struct Dimmer {
+    HighlightForm form;
+    int from = 0;  ///< the first light, from 0, that has this form; rises from one to the next
+    auto operator<=>(const Dimmer&) const = default;
+  };
+  static constexpr std::size_t mostDimmer = 3;
+  HighlightForm brightest;
+  std::vector<Dimmer> dimmer;  ///< at most mostDimmer
+  HighlightForms(HighlightForm form = {}) : brightest(form) {}
+  HighlightForms(Highlight form, int gamma = 0) : brightest(form, gamma) {}
+  /// The form of the light at a place in the order.
+  HighlightForm of(int light) const {
+    HighlightForm form = brightest;
+    for (const Dimmer& each : dimmer)
+      if (light >= each.from) form = each.form;
+    return form;
+  }
+  /// From the light `from` on, which may not be before those given so far: this form.
+  void add(HighlightForm form, int from) {
+    if (of(from) != form) dimmer.push_back({form, from});
+  }
+  bool operator==(const HighlightForms&) const = default;
 };
 
 /// Lights that a picture may have; a uniform block of GL's least size holds them.
@@ -57,7 +85,7 @@ struct AntiAliasing {
 struct MaterialEdit {
   std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
   std::optional<glm::dvec3> color;  ///< linear
-  std::optional<HighlightForm> highlight = {};
+  std::optional<HighlightForms> highlight = {};
   std::optional<Fresnel> fresnel = {};
   bool operator==(const MaterialEdit&) const = default;
 };
@@ -66,7 +94,7 @@ struct MaterialEdit {
 /// parameters.h says of each its name, unit, range, default and help.
 struct Look {
   Shading shading = Shading::phong;
-  HighlightForm highlight;
+  HighlightForms highlight;
   Fresnel fresnel = Fresnel::exact;
   /// What error the forms may cost in linear radiance; read by resolveLook alone.
   std::optional<double> maxError;

@@ -42,8 +42,8 @@ std::string rangeText(double min, double max) {
 }
 
 constexpr std::array<std::string_view, 4> lightNames{"directional", "point", "spot", "camera"};
-constexpr std::array<std::string_view, 8> highlightNames{
-    "exact", "pow", "integer", "lyon", "lyon-tuned", "lyon-cross", "pade", "gaussian"};
+constexpr std::array<std::string_view, 9> highlightNames{
+    "exact", "pow", "integer", "lyon", "lyon-tuned", "lyon-cross", "pade", "gaussian", "none"};
 constexpr std::array<std::string_view, 5> fresnelNames{"exact", "textbook", "schlick",
                                                        "schlick-exp2", "rational"};
 
@@ -143,25 +143,56 @@ std::string antiAliasingText(const AntiAliasing& a) {
   return (a.mode == AntiAliasing::Mode::msaa ? "msaa:" : "ssaa:") + std::to_string(a.count);
 }
 
-HighlightForm parseHighlight(const std::string& text, const std::string& what) {
-  const auto parts = split(text, ':');
+namespace {
+
+HighlightForm parseHighlight(const std::string& name, const std::string& what,
+                             const std::string& whole) {
+  const auto parts = split(name, ':');
   const auto found = std::find(highlightNames.begin(), highlightNames.end(), parts[0]);
   if (found != highlightNames.end()) {
     HighlightForm form(Highlight(found - highlightNames.begin()));
     if (!hasGamma(form.form) && parts.size() == 1) return form;
-    const bool whole = parts.size() == 2 && readAll(parts[1], form.gamma);
-    if (hasGamma(form.form) && whole && form.gamma >= 1 && form.gamma <= 64 &&
+    const bool number = parts.size() == 2 && readAll(parts[1], form.gamma);
+    if (hasGamma(form.form) && number && form.gamma >= 1 && form.gamma <= 64 &&
         (form.gamma & (form.gamma - 1)) == 0)
       return form;
     if (hasGamma(form.form))
-      refuse(what, text,
+      refuse(what, whole,
              parts[0] + ":G with G one of 1, 2, 4, 8, 16, 32, 64, such as " + parts[0] + ":8");
   }
   std::string expected;
   for (std::size_t i = 0; i < highlightNames.size(); ++i)
     expected += (i == 0 ? "one of " : ", ") + std::string(highlightNames[i]) +
                 (hasGamma(Highlight(i)) ? ":G" : "");
-  refuse(what, text, expected);
+  refuse(what, whole, expected);
+}
+
+}  // namespace
+
+HighlightForms parseHighlights(const std::string& text, const std::string& what) {
+  constexpr const char* list =
+      "forms for so many lights each, the brightest first, and at the end one for all others, such "
+      "as exact/2,lyon:8 (at most four forms)";
+  const auto parts = split(text, ',');
+  if (parts.size() > HighlightForms::mostDimmer + 1) refuse(what, text, list);
+  HighlightForms forms;
+  int lights = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto halves = split(parts[i], '/');
+    const HighlightForm form = parseHighlight(halves[0], what, text);
+    if (i == 0)
+      forms.brightest = form;
+    else
+      forms.add(form, lights);
+    const bool last = i + 1 == parts.size();
+    int count = 0;
+    if (last ? halves.size() != 1
+             : halves.size() != 2 || !readAll(halves[1], count) || count < 1 ||
+                   count > int(maxLights))
+      refuse(what, text, list);
+    lights += count;
+  }
+  return forms;
 }
 
 std::string highlightText(const HighlightForm& form) {
@@ -170,11 +201,21 @@ std::string highlightText(const HighlightForm& form) {
   return text;
 }
 
+std::string highlightText(const HighlightForms& forms) {
+  std::string text = highlightText(forms.brightest);
+  int from = 0;
+  for (const HighlightForms::Dimmer& each : forms.dimmer) {
+    text += "/" + std::to_string(each.from - from) + "," + highlightText(each.form);
+    from = each.from;
+  }
+  return text;
+}
+
 std::vector<std::string> highlightTexts() {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < highlightNames.size(); ++i)
     for (int gamma = 1; gamma <= (hasGamma(Highlight(i)) ? 64 : 1); gamma *= 2)
-      texts.push_back(highlightText({Highlight(i), gamma}));
+      texts.push_back(highlightText(HighlightForm(Highlight(i), gamma)));
   return texts;
 }
 
@@ -241,7 +282,7 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
     return;
   }
   if (key == "highlight") {
-    edit.highlight = parseHighlight(text, what);
+    edit.highlight = parseHighlights(text, what);
     return;
   }
   if (key == "fresnel") {

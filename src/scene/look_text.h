@@ -24,9 +24,12 @@ glm::ivec2 parseResolution(const std::string& text);
 AntiAliasing parseAntiAliasing(const std::string& text);
 std::string antiAliasingText(const AntiAliasing&);
 /// "exact", "lyon:8": the form's name and, where it has one, its gamma.
-HighlightForm parseHighlight(const std::string& text, const std::string& what);
 std::string highlightText(const HighlightForm&);
-/// Every text that parseHighlight takes, in the order of the forms.
+/// Forms for so many lights each, the brightest first, and one for all that are left:
+/// "exact/2,lyon:8".
+HighlightForms parseHighlights(const std::string& text, const std::string& what);
+std::string highlightText(const HighlightForms&);
+/// The texts of all single forms, in their order.
 std::vector<std::string> highlightTexts();
 Fresnel parseFresnel(const std::string& text, const std::string& what);
 std::string_view fresnelText(Fresnel);

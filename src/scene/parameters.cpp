@@ -179,13 +179,14 @@ Parameter lightScale() {
 
 Parameter highlight() {
   Parameter p = custom(
-      "highlight", "FORM",
+      "highlight", "FORM[/N,FORM...]",
       "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
       "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
       "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
-      "powers G = 1, 2, 4, ... 64 by squaring; gaussian",
+      "powers G = 1, 2, 4, ... 64 by squaring; gaussian; none; exact/2,lyon:8 draws those of the "
+      "two brightest lights by the first form",
       [](Look& look, const std::string& text) {
-        look.highlight = parseHighlight(text, "--highlight");
+        look.highlight = parseHighlights(text, "--highlight");
       },
       [](const Look& look) { return Json(highlightText(look.highlight)); });
   finish(p, ParameterKind::choice, &Look::highlight);

@@ -99,7 +99,7 @@ struct Material {
   bool doubleSided = false;
   bool unlit = false;  ///< shows colour alone
   /// The forms that a look gives this material in place of its own.
-  std::optional<HighlightForm> highlight;
+  std::optional<HighlightForms> highlight;
   std::optional<Fresnel> fresnel;
 };
 

@@ -165,7 +165,8 @@ constexpr int deepest = 48;
 }  // namespace
 
 double lobeFormulaBound(LobeForm form, int gamma, double alpha) {
-  if (!(alpha > 0.0)) return 0.0;  // every form is 1 there, or drawn as the exact one
+  if (!(alpha > 0.0) && form != LobeForm::none)
+    return 0.0;  // every form is 1 there, or drawn as the exact one
   switch (form) {
     case LobeForm::exact:
     case LobeForm::pow:
@@ -182,6 +183,8 @@ double lobeFormulaBound(LobeForm form, int gamma, double alpha) {
       return largestDifference({alpha, alpha / gamma, gamma, LobeForm::pade});
     case LobeForm::gaussian:
       return largestDifference({alpha, alpha + gaussianShift, 1, LobeForm::gaussian});
+    case LobeForm::none:
+      return 1.0;
   }
   return 1.0;
 }
@@ -205,6 +208,7 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
 }
 
 double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
+  if (form == LobeForm::none) return 0.0;
   const double off = blinn ? 8.0 * vectorError : vectorError;
   // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
   // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
@@ -218,6 +222,7 @@ double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
   double own = 1e-6;
   switch (form) {
     case LobeForm::exact:
+    case LobeForm::none:
       break;
     case LobeForm::pow:
       // The cosine of rounded vectors by 1e-6, log2 by 2^-21 log 2: alpha times both.

@@ -15,7 +15,7 @@ namespace glint {
 // for the reflectances every cell of a subdivision of [0, 1] is bounded by monotonicity.
 
 /// The largest |form - exact| of the lobe over lambda in [0, 2]. For alpha in [0, 1e6], gamma a
-/// power of two in [1, 64]. 0 for exact, pow and integer.
+/// power of two in [1, 64]. 0 for exact, pow and integer, 1 for none.
 double lobeFormulaBound(LobeForm form, int gamma, double alpha);
 
 /// The largest |form - exact| of the reflectance over all angles, for either direction through the

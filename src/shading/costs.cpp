@@ -25,6 +25,8 @@ double lobeCost(LobeForm form, int gamma) {
       return 51 + steps;
     case LobeForm::gaussian:
       return 54;
+    case LobeForm::none:
+      return 0;
   }
   return 100;
 }

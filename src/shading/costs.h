@@ -10,6 +10,8 @@ namespace glint {
 // --max-error is the same on every machine; docs/approximations.md says how, and how to repeat it.
 
 double lobeCost(LobeForm form, int gamma);
+/// Of going on to lights of another form, once a pixel: one more loop.
+inline constexpr double lobeChangeCost = 5;
 double fresnelCost(FresnelForm form, double schlickExponent);
 
 }  // namespace glint

@@ -127,6 +127,8 @@ double lobe(LobeForm form, int gamma, double lambda, double alpha) {
       return pade(lambda, alpha, gamma);
     case LobeForm::gaussian:
       return gaussian(lambda, alpha);
+    case LobeForm::none:
+      break;
   }
   return 0.0;
 }

@@ -1,0 +1,86 @@
+// Adds the lights that have one form of the highlight: composed once for each form in use, under names
+// of its own (ADD_LIGHTS, ADD_LIGHT, LOBE_OF), for the lights from ..._FROM to before ..._END. What a
+// form reads of the material, LOBE_SHAPE, is loaded before the loops.
+
+#if LOBE && HIGHLIGHT != HIGHLIGHT_POW
+// pow alone takes the cosine itself.
+float LOBE_OF(float lambda, vec2 shape) {
+#if HIGHLIGHT == HIGHLIGHT_INTEGER
+  return lobeInteger(lambda, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_LYON || HIGHLIGHT == HIGHLIGHT_LYON_TUNED
+  return lobeLyon(lambda, shape.x, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_LYON_CROSS
+  return lobeLyonCross(lambda, shape.x, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_PADE
+  return lobePade(lambda, shape.x, shape.y, LOBE_POWER);
+#elif HIGHLIGHT == HIGHLIGHT_GAUSSIAN
+  return lobeGaussian(lambda, shape.x);
+#else
+  return lobeExact(lambda, shape.x);
+#endif
+}
+#endif
+
+// Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
+// and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
+// (Blinn-Phong) where those are constant, and is not read otherwise.
+void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 constant,
+               bool isConstant, vec2 shape) {
+  float cosLight = dot(n, l);
+  if (!(cosLight > 0.0)) return;
+#if DIFFUSE
+  sum.diffuse += intensity * cosLight;
+#endif
+#if LOBE
+  vec3 between = isConstant ? constant : l + v;
+#if BLINN
+  // Where L = -V the half vector is undefined and the light grazes: no highlight.
+  float square = dot(between, between);
+  if (!(square > 1e-12)) return;
+  vec3 h = isConstant ? between : between / sqrt(square);
+#if HIGHLIGHT == HIGHLIGHT_POW
+  float lobe = lobePow(dot(n, h), shape.x);
+#else
+  float lobe = LOBE_OF(blinnLambda(n, h), shape);
+#endif
+#else
+#if HIGHLIGHT == HIGHLIGHT_POW
+  float lobe = lobePow(dot(2.0 * cosLight * n - l, v), shape.x);
+#else
+  float lobe = LOBE_OF(phongLambda(n, between, cosLight), shape);
+#endif
+#endif
+  sum.specular += intensity * lobe;
+#endif
+}
+
+void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
+  vec2 shape = LOBE_SHAPE;
+#if DIRECTIONAL_END > DIRECTIONAL_FROM
+  for (int i = DIRECTIONAL_FROM; i < DIRECTIONAL_END; ++i)
+    ADD_LIGHT(sum, n, v, lights[i].position.xyz, lights[i].intensity.rgb, lights[i].constant.xyz,
+              bool(CONSTANT_VIEW), shape);
+#endif
+#if POINT_END > POINT_FROM
+  for (int i = POINT_FROM; i < POINT_END; ++i)
+  {
+    vec3 way = lights[i].position.xyz - position, intensity = lights[i].intensity.rgb;
+#if LIGHT_FALLOFF
+    intensity *= lightFalloff(way, lights[i].position.w);
+#endif
+    ADD_LIGHT(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape);
+  }
+#endif
+#if SPOT_END > SPOT_FROM
+  for (int i = SPOT_FROM; i < SPOT_END; ++i) {
+    vec3 way = lights[i].position.xyz - position, l = safeUnit(way);
+    // glTF's cone: full inside the inner angle, the square of a ramp in the cosine to the outer one.
+    float cone = clamp((dot(-l, lights[i].axis.xyz) - lights[i].axis.w) * lights[i].constant.w, 0.0, 1.0);
+    vec3 intensity = lights[i].intensity.rgb * (cone * cone);
+#if LIGHT_FALLOFF
+    intensity *= lightFalloff(way, lights[i].position.w);
+#endif
+    ADD_LIGHT(sum, n, v, l, intensity, vec3(0.0), false, shape);
+  }
+#endif
+}
