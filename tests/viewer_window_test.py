@@ -54,7 +54,7 @@ class Viewer:
     screen = (1400, 840)
     panel = 372  # pixels at scale 1; rows of the tab Shading below, as in viewer/panel.cpp
 
-    def __init__(self, model, *options, screen=None):
+    def __init__(self, model, *options, screen=None, dpi=None):
         self.folder = tempfile.mkdtemp(prefix="glint-window-")
         self.model = os.path.join(self.folder, os.path.basename(model))
         shutil.copyfile(model, self.model)
@@ -79,6 +79,8 @@ class Viewer:
                                 XDG_CONFIG_HOME=os.path.join(self.folder, "config"),
                                 XDG_STATE_HOME=os.path.join(self.folder, "state"))
         self.x = x11.Server(display)
+        if dpi:
+            self.x.set_dpi(dpi)
         self.process = None
         try:
             self.start()
@@ -739,6 +741,18 @@ def test_other_sizes_and_scales():
     for screen, options in (((900, 700), ()), ((1400, 840), ("--scale", "2"))):
         with Viewer(TEAPOT, *options, screen=screen) as viewer:
             viewer.picture()
+
+
+def test_a_fine_screen_is_seen_to_be_one():
+    """At 192 dots an inch text and panel are twice as large, a pixel of the picture is a pixel."""
+    with Viewer(TEAPOT, screen=(1900, 1000), dpi=192) as viewer:
+        _, look = viewer.picture()
+        assert abs(look["resolution"][0] - (1900 - 2 * viewer.panel)) <= 2, look["resolution"]
+        # The slider of the diffuse part stands twice as far from the panel's corner.
+        left, y = 1900 - 2 * (1372 - SLIDER[0]), 2 * ROW["diffuse"]
+        viewer.drag(left + 120, y, left + 240, y)
+        changed, look = viewer.picture()
+        assert list(look["material"]["Glazed ceramic"]) == ["diffuse"], look
 
 
 def test_rests_when_nothing_changes():

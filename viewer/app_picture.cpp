@@ -144,7 +144,8 @@ void App::composeScreen() {
   if (exact && document.compare == CompareMode::difference && reference && rows > 0)
     pixels = errorMap(a.linear, reference->linear, rows);
   else
-    pixels = compose(pictureA, pictureB.codes ? &pictureB : nullptr, document, a.look.noBackground);
+    pixels = compose(pictureA, pictureB.codes ? &pictureB : nullptr, document,
+                     a.look.noBackground || (shownResult_.b && shownResult_.b->look.noBackground));
   if (pictureB.codes && !exact) difference_ = compareNumbers(pictureA, pictureB);
   if (session_.overlay == Overlay::clipped) {
     const std::size_t marked = markClipped(pixels, a.linear, a.look.exposure);

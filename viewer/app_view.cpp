@@ -164,7 +164,7 @@ void App::drawOverPicture() {
     }
     write(10 * s, size.y - ImGui::GetTextLineHeight() - 8 * s, text);
   }
-  if (exact && document.compare == CompareMode::difference) {
+  if (exact && document.compare == CompareMode::difference && shownResult_.a) {
     const float left = 10 * s, width = 180 * s, top = 8 * s, height = 10 * s;
     draw->AddRectFilled(
         ImVec2(left - 6 * s, top - 4 * s),
