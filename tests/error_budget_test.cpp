@@ -72,7 +72,7 @@ Draw randomDraw(Random& r, bool automatic) {
   for (int i = r.below(automatic ? 3 : many ? 24 : 5); i >= 0; --i) {
     const double brightness = many ? r.log(1e-4, 1) : 1.0;
     Light light = test::directional(r.direction(), brightness * r.color());
-    if (!automatic && r.below(3) == 0) {
+    if (r.below(3) == 0) {
       light.type = Light::Type::point;
       light.position = 3.0 * r.direction();
       light.direction = glm::dvec3(0.0);
@@ -283,12 +283,32 @@ TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 20));
   Look look;
   look.shading = Shading::automatic;
+  look.cameraDirection = glm::dvec3(0, 0, -1);
+  look.light = {test::directional({0, 0, 1})};
   look.viewer = Viewer::infinite;
   look.maxError = 1e-3;
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
   look.viewer = Viewer::local;  // the highlight moves over the face
-  EXPECT_NE(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
   look.maxError.reset();
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
+}
+
+// Faces under a lamp that is far away: nearly constant.
+TEST(ErrorBudget, LampsAreNoHindrance) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0, 20));
+  Look look;
+  look.shading = Shading::automatic;
+  look.maxError = 0.02;
+  Light lamp;
+  lamp.type = Light::Type::point;
+  lamp.position = {50, 0, 200};
+  look.light = {lamp};
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  look.maxError = 1e-3;
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::gouraud);
+  lamp.position = {0.5, 0, 1};
+  look.light = {lamp};
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
 }
 

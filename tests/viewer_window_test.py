@@ -54,7 +54,7 @@ class Viewer:
     screen = (1400, 840)
     panel = 372  # pixels at scale 1; rows of the tab Shading below, as in viewer/panel.cpp
 
-    def __init__(self, model, *options, screen=None):
+    def __init__(self, model, *options, screen=None, dpi=None):
         self.folder = tempfile.mkdtemp(prefix="glint-window-")
         self.model = os.path.join(self.folder, os.path.basename(model))
         shutil.copyfile(model, self.model)
@@ -79,6 +79,8 @@ class Viewer:
                                 XDG_CONFIG_HOME=os.path.join(self.folder, "config"),
                                 XDG_STATE_HOME=os.path.join(self.folder, "state"))
         self.x = x11.Server(display)
+        if dpi:
+            self.x.set_dpi(dpi)
         self.process = None
         try:
             self.start()
@@ -607,6 +609,116 @@ def test_the_probe_tells_what_the_reference_has():
                 assert abs(ulp - (p - q) / place) < 1e-6 * (1 + abs(ulp)), values
 
 
+# Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
+TIME = 195           # tab Picture, of a model that is animated
+INTENSITY = 204      # tab Lights, three lights of which a directional one is selected
+
+
+def test_animation_time_by_slider_and_keys():
+    with Viewer(BEND) as viewer:
+        first, look = viewer.picture()
+        assert "animation-time" not in look
+        viewer.key("F5")  # the tab Picture
+        viewer.settled()
+        viewer.drag(SLIDER[0] + 8, TIME, SLIDER[0] + 90, TIME)
+        bent, look = viewer.picture()
+        assert 1.5 < look["animation-time"] < 2.5 and bent != first, look
+        viewer.key("Right", "Right", "Right")
+        later, look = viewer.picture()
+        assert later != bent
+        viewer.key("b")  # B keeps its moment
+        kept = look["animation-time"]
+        viewer.key("Left", "Left", "Left", "Left", "Left", "Left")
+        a = viewer.render("--look", viewer.save_look()[1])
+        size, half = tuple(look["resolution"]), look["resolution"][0] // 2
+
+        def split():
+            shown = viewer.crop(viewer.capture(), size)
+            return columns(shown, size, 0, half - 3) == columns(a, size, 0, half - 3) and \
+                columns(shown, size, half + 3, size[0]) == columns(later, size, half + 3, size[0])
+        wait_for("A's moment at the left and B's at the right", split)
+        viewer.key("shift+b")  # exchanged: A is at B's moment
+        viewer.key("shift+a")
+        back, look = viewer.picture()
+        assert look["animation-time"] == kept and back == later
+        viewer.key(*["ctrl+z"] * 13)
+        again, look = viewer.picture()
+        assert "animation-time" not in look and again == first
+
+
+def test_an_animation_plays():
+    with Viewer(BEND) as viewer:
+        first, look = viewer.picture()
+        viewer.key("space")
+        seen = set()
+
+        def moved():
+            seen.add(viewer.x.capture(300, 100, 400, 500))
+            return len(seen) > 5
+        wait_for("pictures that move", moved)
+        viewer.key("space")
+        viewer.picture()
+        viewer.key("ctrl+z")  # one step
+        assert viewer.picture()[0] == first
+
+
+def test_the_files_lights_become_own_ones_with_their_fall_off():
+    with Viewer(LIGHTS) as viewer:
+        first, look = viewer.picture()
+        assert "light" not in look
+        viewer.key("F3")  # the tab Lights
+        viewer.settled()
+        viewer.drag(SLIDER[0] + 10, INTENSITY, SLIDER[0] + 50, INTENSITY)
+        brighter, look = viewer.picture()
+        assert brighter != first
+        kinds = [text.split(":")[0] for text in look["light"]]
+        assert kinds == ["directional", "point", "spot"], look["light"]
+        assert ":falloff," in look["light"][1] and look["light"][2].endswith(":falloff")
+        # But for what was edited, the picture is that of the file's lights.
+        info = subprocess.run([GLINT, "info", viewer.model], capture_output=True, text=True).stdout
+        scale = float(info.split("multiplied by ")[1].split(")")[0])
+        sun = look["light"][0].rsplit(":", 1)[0] + ":" + ",".join([repr(0.3 * scale)] * 3)
+        path = os.path.join(viewer.folder, "same.json")
+        with open(path, "w") as file:
+            json.dump({**look, "light": [sun, *look["light"][1:]]}, file)
+        assert viewer.render("--look", path) == first
+        viewer.key("g", "Delete")  # the point
+        two, look = viewer.picture()
+        assert len(look["light"]) == 2 and two != brighter
+        viewer.key("shift+Delete")
+        again, look = viewer.picture()
+        assert "light" not in look and again == first
+        viewer.key("l")
+        brighter, look = viewer.picture()
+        assert brighter != first and "light-scale" in look and "light" not in look
+
+
+def test_presets_and_plots_have_keys():
+    with Viewer(TEAPOT) as viewer:
+        first, look = viewer.picture()
+        viewer.key("m")
+        one, look = viewer.picture()
+        assert one != first and look["material"]["Glazed ceramic"]["metalness"] == 1, look
+        viewer.key("m")
+        two, _ = viewer.picture()
+        assert two not in (first, one)
+        viewer.key("shift+m")
+        assert viewer.picture()[0] == one
+        viewer.key("ctrl+r")
+        assert viewer.picture()[0] == first
+        plots = []
+        for _ in range(5):
+            viewer.key("F8")
+            viewer.move(20, 20)
+            viewer.settled()
+            plots.append(viewer.x.capture(PANEL_LEFT, 0, viewer.panel, viewer.screen[1]))
+        assert len(set(plots)) == 5, "plots look the same"
+        viewer.key("F8")
+        viewer.settled()
+        assert viewer.x.capture(PANEL_LEFT, 0, viewer.panel, viewer.screen[1]) == plots[0]
+        assert viewer.picture()[0] == first
+
+
 def test_pictures_of_other_sizes_without_background():
     with Viewer(TEAPOT, "--no-background") as viewer:
         _, path = viewer.save_look()
@@ -629,6 +741,18 @@ def test_other_sizes_and_scales():
     for screen, options in (((900, 700), ()), ((1400, 840), ("--scale", "2"))):
         with Viewer(TEAPOT, *options, screen=screen) as viewer:
             viewer.picture()
+
+
+def test_a_fine_screen_is_seen_to_be_one():
+    """At 192 dots an inch text and panel are twice as large, a pixel of the picture is a pixel."""
+    with Viewer(TEAPOT, screen=(1900, 1000), dpi=192) as viewer:
+        _, look = viewer.picture()
+        assert abs(look["resolution"][0] - (1900 - 2 * viewer.panel)) <= 2, look["resolution"]
+        # The slider of the diffuse part stands twice as far from the panel's corner.
+        left, y = 1900 - 2 * (1372 - SLIDER[0]), 2 * ROW["diffuse"]
+        viewer.drag(left + 120, y, left + 240, y)
+        changed, look = viewer.picture()
+        assert list(look["material"]["Glazed ceramic"]) == ["diffuse"], look
 
 
 def test_rests_when_nothing_changes():
@@ -675,5 +799,7 @@ if __name__ == "__main__":
     GLINT, VIEWER, MODELS = (os.path.abspath(path) for path in sys.argv[1:4])
     TEAPOT = os.path.join(MODELS, "teapot.glb")
     SPHERE = os.path.join(MODELS, "sphere.glb")
+    BEND = os.path.join(MODELS, "bend.glb")
+    LIGHTS = os.path.join(MODELS, "lights.glb")
     GLSL = os.path.join(os.path.dirname(MODELS), "glsl")
     sys.exit(main())

@@ -44,8 +44,8 @@ struct ResolvedLook {
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
 /// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the
-/// outline; and points at which the model itself jumps, where N.L, or what is left to refract,
-/// rounds to the other side of 0.
+/// outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
+/// what is left to refract does or nearly does (criticalRing of glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
 
 /// The largest sum of intensities of lights that can light one point at once, per channel:

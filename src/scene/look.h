@@ -57,8 +57,7 @@ struct HighlightForms {
 /// Lights that a picture may have; a uniform block of GL's least size holds them.
 inline constexpr std::size_t maxLights = 128;
 
-/// A light as `--light` gives it, or a model file. Intensities are linear; only a file's points and
-/// spots fall off with distance.
+/// A light as `--light` gives it, or a model file. Intensities are linear.
 struct Light {
   enum class Type { directional, point, spot, camera };
   Type type = Type::directional;

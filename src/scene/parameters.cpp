@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "glint/image/error.h"
+#include "glint/scene/light_text.h"
 #include "look_text.h"
 
 namespace glint {
@@ -134,10 +135,12 @@ Parameter lights() {
   Parameter p = custom(
       "light", "TYPE:...",
       "a light; repeatable; replaces the default one. directional:x,y,z[:r,g,b] (x,y,z points TO "
-      "the light), point:x,y,z[:r,g,b] (constant intensity), spot:x,y,z:dx,dy,dz:inner,outer"
-      "[:r,g,b] (shines along d; degrees), camera[:r,g,b] (shines along the view)",
+      "the light), point:x,y,z[:r,g,b], spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines "
+      "along d; degrees), camera[:r,g,b] (shines along the view); point and spot are constant over "
+      "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
+      "at RANGE",
       [](Look& look, const std::string& text) {
-        const Light light = parseLight(text);
+        const Light light = readLight(text);
         if (!look.light) look.light.emplace();
         if (look.light->size() == maxLights)
           throw InputError("--light: more than " + std::to_string(maxLights) +
@@ -147,7 +150,7 @@ Parameter lights() {
       [](const Look& look) {
         if (!look.light) return Json();
         Json list = Json::array();
-        for (const Light& light : *look.light) list.push_back(lightText(light));
+        for (const Light& light : *look.light) list.push_back(writeLight(light));
         return list;
       });
   p.repeatable = true;
