@@ -32,6 +32,10 @@ struct StudyArguments {
 };
 
 constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
+/// Where a frame of exact phong takes more ms than this, half the width and height have to do, and
+/// fewer rounds: what frames are full of then is shading.
+constexpr double quickLongFrame = 15, fullLongFrame = 50;
+constexpr int longRounds = 36;
 constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< at least
 
 /// A study measures single samples, with what the look does not say by itself.
@@ -105,10 +109,14 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   const Stop stop = [&] {
     return Interrupt::signal() != 0 || (given.timeBudget > 0 && Clock::now() > end);
   };
-  const bool halved = !given.quick && !given.resolutionGiven &&
-                      options.look.resolution == Look{}.resolution &&
+  const double longFrame = given.quick ? quickLongFrame : fullLongFrame;
+  const bool halved = !given.resolutionGiven &&
+                      options.look.resolution == studyLook(given, Look{}).resolution &&
                       exactFrame(prepared, options.look) > longFrame;
-  if (halved) options.look.resolution /= 2;
+  if (halved) {
+    options.look.resolution /= 2;
+    if (given.repetitions == 0) options.rounds = std::min(options.rounds, longRounds);
+  }
   StudyResult result;
   {
     Progress progress("glint study");
@@ -126,7 +134,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   head.rounds = options.rounds;
   head.warmUp = options.warmUp;
   head.builds = options.builds;
-  head.halved = halved;
+  head.longFrame = halved ? longFrame : 0;
   if (!given.stdoutTaken) std::cout << studyTable(head, result);
   const auto json = studyJson(head, result);
   const std::string jsonText =

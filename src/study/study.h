@@ -115,10 +115,6 @@ double metricOf(const VariantError& error, const std::string& metric);
 /// The error of a variant against a model, null if it approximates another.
 const VariantError* errorAgainst(const VariantResult& variant, Shading model);
 
-/// Milliseconds of a frame beyond which a study in full takes too long, and half the width and
-/// height are enough: what its frames are full of then is shading.
-inline constexpr double longFrame = 50;
-
 /// Milliseconds of a frame in the exact form of phong, in the current context.
 double exactFrame(const StudyScene& scene, const Look& look);
 

@@ -132,11 +132,11 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
       "themselves, blinn-phong with phong too.",
       "shading: form and rounding, from what the driver interpolated; interpolation: what that "
       "differs from the exact (of flat and gouraud: light interpolated in place of normals)."};
-  if (head.halved)
+  if (head.longFrame > 0)
     all.push_back(formatted(
-        "Half the usual width and height, since a frame of exact phong takes more than %g "
-        "ms in full.",
-        longFrame));
+        "Half the usual width and height, since a frame of exact phong takes more than %g ms "
+        "there.",
+        head.longFrame));
   if (r.mask.sampledColors)
     all.emplace_back(
         "The driver's own samples of the textures count as given: their filtering is "
@@ -261,7 +261,7 @@ std::string studyCsv(const StudyResult& r) {
                        v.interpolation.rmse) +
              (!place           ? ","
               : place->onFront ? "yes,"
-                               : "no," + dominator(r, *front, *place)) +
+                               : "no,\"" + dominator(r, *front, *place) + "\"") +
              "\n";
     }
   }

@@ -13,7 +13,8 @@ struct StudyHead {
   bool quick = false;
   Look look;
   int rounds = 0, warmUp = 0, builds = 0;
-  bool halved = false;  ///< the picture, since a frame takes so long
+  /// Not 0: the picture has half the usual width and height, since a frame takes more ms than that.
+  double longFrame = 0;
 };
 
 /// The whole result, without pictures.
