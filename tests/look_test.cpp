@@ -364,6 +364,7 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"animation-time", {"", "-1", "x", "nan", "1e10"}},
       {"animation", {""}},
       {"hdri-file", {""}},
+      {"cost-table", {""}},
       {"light-scale", {"", "-1", "x", "inf"}},
       {"clipping-range",
        {"", "1", "0,1", "-1,1", "2,1", "1,1", "1,nan", "nan,1", "1,inf", "1,2,3"}},
