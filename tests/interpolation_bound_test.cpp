@@ -49,6 +49,19 @@ struct Draw {
   Look look;
 };
 
+// The same triangle by a transform that scales unevenly and may mirror.
+void placeUnevenly(Scene& scene, Random& r) {
+  const auto scale = [&] { return (r.coin() ? -1 : 1) * (0.5 + r.unit()); };
+  const glm::dmat4 world = test::rotation(r.unit()) * test::scaling({scale(), scale(), scale()});
+  const glm::dmat3 linear(world);
+  Mesh& mesh = scene.meshes.front();
+  for (glm::vec3& x : mesh.positions) x = glm::vec3(glm::inverse(linear) * glm::dvec3(x));
+  for (glm::vec3& n : mesh.normals)
+    n = glm::vec3(glm::normalize(glm::transpose(linear) * glm::dvec3(n)));
+  if (glm::determinant(linear) < 0) std::swap(mesh.indices[1], mesh.indices[2]);
+  scene.instances.front().world = world;
+}
+
 enum class Kind { directional, point, falloff, spot, any };
 
 // A triangle of about unit size seen from somewhere, its normals near the face's or not, under
@@ -103,6 +116,7 @@ Draw randomDraw(Random& r, Kind kind, Shading program) {
     }
     d.look.light->push_back(light);
   }
+  if (r.below(3) == 0) placeUnevenly(d.scene, r);
   return d;
 }
 
@@ -114,13 +128,13 @@ Draw nudged(const Draw& from, double step, Random& r) {
   const auto grow = [&](double& x, double most) {
     x = std::min(x * std::exp(step * r.normal()), most);
   };
-  const bool flat = mesh.normals[0] == mesh.normals[1] && mesh.normals[0] == mesh.normals[2];
+  const bool flat = glm::length(mesh.normals[0] - mesh.normals[1]) < 1e-6f &&
+                    glm::length(mesh.normals[0] - mesh.normals[2]) < 1e-6f;
   for (glm::vec3& x : mesh.positions) x = move(x);
-  if (flat)
-    mesh.normals.assign(3, glm::normalize(glm::cross(mesh.positions[1] - mesh.positions[0],
-                                                     mesh.positions[2] - mesh.positions[0])));
-  else
-    for (glm::vec3& n : mesh.normals) n = glm::normalize(move(n));
+  const glm::vec3 corner = mesh.positions[mesh.indices[0]];
+  const glm::vec3 face = glm::cross(mesh.positions[mesh.indices[1]] - corner,
+                                    mesh.positions[mesh.indices[2]] - corner);
+  for (glm::vec3& n : mesh.normals) n = glm::normalize(flat ? face : move(n));
   grow(d.scene.materials.front().shading.exponent, 1e4);
   if (d.look.cameraPosition) {
     const glm::dvec3 at(mesh.positions[0]), way = *d.look.cameraPosition - at;
@@ -188,7 +202,8 @@ double worstOf(const Draw& d, Shading program, Random& r, int steps) {
     const glm::dvec3 a = vertices.eye[indices[first]];
     const glm::dvec3 face =
         glm::cross(vertices.eye[indices[first + 1]] - a, vertices.eye[indices[first + 2]] - a);
-    const bool front = glm::dot(face, stage.camera.orthographic ? glm::dvec3(0, 0, 1) : -a) > 0;
+    const double facing = glm::dot(face, stage.camera.orthographic ? glm::dvec3(0, 0, 1) : -a);
+    const bool front = item.mirrored ? facing < 0 : facing > 0;
     if (front || item.surface.twoSided) hunt(first, front ? 1 : -1);
   }
   return worst;
@@ -198,10 +213,10 @@ double boundOf(const Draw& d, Shading program) {
   const Material& material = d.scene.materials.front();
   const Mesh& mesh = d.scene.meshes.front();
   const Camera camera = cameraFor(d.scene, boundsOf(d.scene), d.look);
-  const Variant v = variantFor(mesh, material, glm::dmat4(1), d.look, camera.orthographic);
+  const glm::dmat4& world = d.scene.instances[0].world;
+  const Variant v = variantFor(mesh, material, world, d.look, camera.orthographic);
   const std::vector<Light> lights = lightsOf(d.look);
-  return interpolationBound(
-      {d.scene, mesh, d.scene.instances[0].world, material, d.look, camera, lights, v}, program);
+  return interpolationBound({d.scene, mesh, world, material, d.look, camera, lights, v}, program);
 }
 
 // How many times the bound is what was found.
