@@ -389,6 +389,33 @@ TEST(InterpolationBound, OfPlainCases) {
   EXPECT_GT(boundOf(d, Shading::gouraud), 3 * inside);
 }
 
+// Corners that a lamp just grazes, with normals that lean away from it in between: there the gate
+// closes on the highlight that all three have.
+TEST(InterpolationBound, CountsGatesThatCloseBetweenTheCorners) {
+  Mesh mesh;
+  for (int j = 0; j < 3; ++j) {
+    const double angle = 120 * j * test::degrees;
+    mesh.positions.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle), 0);
+    const glm::dvec3 toLight =
+        glm::normalize(glm::dvec3(0, 0, 1) - glm::dvec3(mesh.positions[std::size_t(j)]));
+    glm::dvec3 n(1, 0, 0.03 * (j == 0 ? 1 : -1));
+    n -= (glm::dot(n, toLight) - 1e-5) * toLight;
+    mesh.normals.emplace_back(glm::normalize(n));
+  }
+  mesh.indices = {0, 1, 2};
+  Material m = test::materialOf(0, 0, 1, 2);
+  m.doubleSided = true;
+  Draw d{test::sceneOf(mesh, m), test::parallelLook({0, 0, -1})};
+  Light lamp;
+  lamp.type = Light::Type::point;
+  lamp.position = {0, 0, 1};
+  d.look.light = {lamp};
+  Random r(48);
+  const double worst = worstOf(d, Shading::gouraud, r, 18);
+  EXPECT_GT(worst, 0.8);
+  EXPECT_LE(worst, boundOf(d, Shading::gouraud));
+}
+
 // Only phong reads a normal map.
 TEST(InterpolationBound, IsInfiniteWithNormalMaps) {
   Mesh mesh = test::quad();
