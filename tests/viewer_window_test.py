@@ -344,6 +344,19 @@ def test_a_click_picks_the_material():
         assert list(viewer.picture()[1]["material"]) == ["Glazed ceramic"]
 
 
+def test_a_material_is_found_by_name():
+    with Viewer(os.path.join(MODELS, "chart.glb")) as viewer:
+        viewer.picture()
+        for name in ("e320-m1", "e5-m0.5"):
+            viewer.key("ctrl+f")
+            viewer.settled()
+            viewer.xdotool("type", "--delay", "20", name)
+            viewer.key("Return", "m")
+            look = viewer.picture()[1]
+            assert list(look["material"]) == [name], look["material"]
+            viewer.key("ctrl+z")
+
+
 def test_saved_into_the_model_and_opened_again():
     with Viewer(TEAPOT) as viewer:
         with open(viewer.model, "rb") as file:
