@@ -294,6 +294,24 @@ TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
 }
 
+// A lamp that weakens counts with what it brings to the point nearest to it: all of the highlight's
+// error where there is none.
+TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0, 0.5, 20));
+  Look look;
+  look.maxError = 1e6;
+  Light lamp;
+  lamp.type = Light::Type::point;
+  lamp.fallsOff = true;
+  for (double distance : {3.0, 10.0}) {
+    lamp.position = {0, 0, distance};
+    look.light = {lamp};
+    const double nearest = distance - 2 * std::sqrt(2.0);
+    EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe,
+                0.5 / (nearest * nearest), 1e-5);
+  }
+}
+
 // Faces under a lamp that is far away: nearly constant.
 TEST(ErrorBudget, LampsAreNoHindrance) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0, 20));

@@ -184,6 +184,17 @@ const std::vector<Good>& goodTexts() {
        [](Look& l) {
          l.light = {light(Light::Type::point, {-1, 2, 0.5}, {}, glm::dvec3(0))};
        }},
+      {"light", "point:-1,2,3:0.5,0,2:falloff",
+       [](Look& l) {
+         l.light = {light(Light::Type::point, {-1, 2, 3}, {}, {0.5, 0, 2})};
+         l.light->front().fallsOff = true;
+       }},
+      {"light", "spot:0,3,0:0,-1,0:0,90:falloff,2.5",
+       [](Look& l) {
+         l.light = {light(Light::Type::spot, {0, 3, 0}, {0, -1, 0}, glm::dvec3(1), 0, 90)};
+         l.light->front().fallsOff = true;
+         l.light->front().range = 2.5;
+       }},
       {"light", "spot:0,3,0:0,-1,0:10,20:1,1,0",
        [](Look& l) {
          l.light = {light(Light::Type::spot, {0, 3, 0}, {0, -1, 0}, {1, 1, 0}, 10, 20)};
@@ -334,6 +345,14 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
         "directional:inf,0,0",
         "point",
         "point:1,2,3:-1,0,0",
+        "point:1,2,3:falloff:1,1,1",
+        "point:1,2,3:falloff,-1",
+        "point:1,2,3:falloff,nan",
+        "point:1,2,3:falloff,",
+        "point:1,2,3:fallof",
+        "point:1,2,3:falloff2",
+        "directional:1,2,3:falloff",
+        "camera:falloff",
         "spot:0,0,0:0,0,0:1,2",
         "spot:0,0,0:0,1,0",
         "spot:0,0,0:0,1,0:20,10",

@@ -15,7 +15,7 @@ import statistics
 import sys
 import time
 
-import viewer_window_test as window
+import viewer_driver as window
 
 
 def until_changed(viewer, region, before, patience=20):

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-import viewer_window_test as window
+import viewer_driver as window
 
 KEYS = [*"abcdefgjklmnprstuvwxyz", *("shift+" + c for c in "abjlmpwxy"), "1", "3", "5", "7", "9",
         "F2", "F3", "F4", "F5", "F6", "F7", "F8", "shift+F8", "F9", "Return", "Tab", "space", "Left",

@@ -54,15 +54,32 @@ void materialList(Session& session) {
   static std::string filter;
   const Scene& scene = session.model->scene;
   const std::vector<int> drawn = drawnMaterials(scene);
-  const bool find = std::exchange(session.findWanted, false);
-  if (drawn.size() > 8 || find || !filter.empty()) {
-    if (find) ImGui::SetKeyboardFocusHere();
+  static bool finding = false;
+  const bool begins = std::exchange(session.findWanted, false);
+  finding = finding || begins;
+  if (drawn.size() > 8 || finding || !filter.empty()) {
+    if (begins) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##find", "find a material by name", &filter);
+    if (ImGui::InputTextWithHint("##find", "find a material by name", &filter,
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+      const auto first = std::ranges::find_if(drawn, [&](int index) {
+        return materialLabel(scene, index).find(filter) != std::string::npos;
+      });
+      if (first != drawn.end()) {
+        session.material = *first;
+        session.say("selected " + materialLabel(scene, *first));
+      } else {
+        session.say("no material has '" + filter + "' in its name");
+      }
+      filter.clear();
+    }
+    if (ImGui::IsItemDeactivated()) finding = false;
   }
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float lines = float(std::clamp<std::size_t>(drawn.size() + 1, 2, 6));
   if (!ImGui::BeginListBox("##materials", ImVec2(-1, line * lines + 4 * style().scale))) return;
+  static int shown =
+      -1;  // the one selected when the list was drawn last: another one is scrolled to
   const auto entry = [&](int index) {
     const std::string name = materialLabel(scene, index);
     if (!filter.empty() && index >= 0 && name.find(filter) == std::string::npos) return;
@@ -71,10 +88,12 @@ void materialList(Session& session) {
     if (session.hovered == index)
       ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 214, 120, 255));
     if (ImGui::Selectable(text.c_str(), session.material == index)) session.material = index;
+    if (session.material == index && index != shown) ImGui::SetScrollHereY();
     if (session.hovered == index) ImGui::PopStyleColor();
   };
   entry(-1);
   for (const int index : drawn) entry(index);
+  shown = session.material;
   ImGui::EndListBox();
 }
 

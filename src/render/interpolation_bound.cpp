@@ -202,7 +202,7 @@ std::optional<Reach> reachOf(const Light& light, const Patch& patch, const Corne
   }
   if (light.type != Light::Type::spot) return reach;
   const double bend = bentDirection * squared(reach.turn);
-  low -= bend / 6;
+  // The least is that of a corner: what is linear over what is convex, where it is positive.
   high = std::min(high + bend / 6, 1.0);
   const double outer = std::cos(light.outerAngle * radians);
   const double inner = std::cos(light.innerAngle * radians), range = inner - outer;
@@ -218,7 +218,8 @@ std::optional<Reach> reachOf(const Light& light, const Patch& patch, const Corne
   if (program == Shading::gouraud) reach.step = reach.cap * std::min(beyond, missing);
   reach.cap *= squared(std::min(to, 1.0));
   if (full) return reach;
-  const Along ramp{to, reach.turn / range, bend / range};
+  const double aside = std::sqrt(1 - squared(std::max(low, 0.0)));  // sine of the largest angle
+  const Along ramp{to, reach.turn * aside / range, bend / range};
   reach.share = reach.share * (ramp * ramp);
   return reach;
 }

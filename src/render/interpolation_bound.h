@@ -54,9 +54,10 @@ struct PlacedMesh {
 ///    closed ones get what open corners have.
 /// 6. A light's own change multiplies as (fg)'' = f''g + 2f'g' + fg'': 1/d^2 has the derivatives
 ///    2E/d^3 and 6E^2/d^4, its window -d^2/range^4 in all 2dE/range^4 and 2E^2/range^4, a spot's
-///    ramp those of -L.axis over the range of cosines, squared. Where it ends, with a kink, it
-///    counts up to there, and what it is too large or too small by beyond adds. Where a range ends
-///    on the triangle, all that the light brings there counts.
+///    ramp those of -L.axis (l times the sine of its angle, |L''|) over the range of cosines,
+///    squared. Where it ends, with a kink, it counts up to there, and what it is too large or too
+///    small by beyond adds. Where a range ends on the triangle, all that the light brings there
+///    counts.
 /// 7. flat shows f of the centroid, at most 2/3 of an edge away: 2/3 of f', and all of the
 ///    highlight where the gate closes. With directional lights and viewer nothing changes.
 double interpolationBound(const PlacedMesh&, Shading program);
