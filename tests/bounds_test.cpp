@@ -131,13 +131,22 @@ TEST(Bounds, OfRoundingCoverEveryCosine) {
       const double n1 = denser ? n : 1, n2 = denser ? 1 : n, steep = criticalCosine(n1, n2);
       const double bound = fresnelRoundingBound(FresnelForm::exact, n1, n2);
       for (int j = 0; j < 300; ++j) {
-        const double c = steep + (1 - steep) * std::pow(10, -7 * unit(random)) - 1e-7;
-        for (double off : {5e-7, -5e-7})
+        const double c = steep + criticalRing(n1, n2) +
+                         (1 - steep) * (std::pow(10, -8 * unit(random)) - (denser ? 0 : 1e-8));
+        if (c > 1) continue;
+        const double u = 0x1p-24;
+        for (double off : {5 * u * (1 + c), -5 * u * (1 + c)})
           ASSERT_LE(std::abs(fresnelExact(c + off, n1, n2) - fresnelExact(c, n1, n2)), bound)
               << n1 << " to " << n2 << " at " << c;
       }
     }
   }
+  // Out of glass, what the ring leaves out would be ten times as much.
+  EXPECT_EQ(criticalRing(1, 1.5), 0.0);
+  EXPECT_EQ(criticalRing(1.5, 1), 1e-5);
+  EXPECT_LT(fresnelRoundingBound(FresnelForm::exact, 1.5, 1), 1e-3);
+  EXPECT_GT(1 - fresnelExact(criticalCosine(1.5, 1) + 5e-7, 1.5, 1), 5e-3);
+  EXPECT_LT(fresnelRoundingBound(FresnelForm::exact, 1, 1.5), 5e-6);
 }
 
 TEST(Bounds, OfEnvironments) {
@@ -150,24 +159,28 @@ TEST(Bounds, OfEnvironments) {
       const glm::dvec3 e = environmentRadiance(map, d);
       return std::max({e.x, e.y, e.z});
     };
-    glm::dvec3 best(0, 1, 0);
+    glm::dvec3 best(0, 1, 0), bestSlope(0, 1, 0);
     for (int i = 0; i < 100000; ++i) {
-      // Half of them ever nearer to the brightest.
+      // A third of them ever nearer to the brightest, a third to the steepest.
       const glm::dvec3 any(normal(random), normal(random), normal(random));
-      const glm::dvec3 d = glm::normalize(i % 2 ? any : best + std::pow(0.5, i / 5000.0) * any);
+      const glm::dvec3 middle = i % 3 == 0 ? glm::dvec3(0) : i % 3 == 1 ? best : bestSlope;
+      const double around = i % 3 == 0 ? 1 : std::pow(0.5, i / 5000.0);
+      const glm::dvec3 d = glm::normalize(middle + around * any);
       const double value = brightest(d);
       if (value > most) most = value, best = d;
       const glm::dvec3 near =
           glm::normalize(d + 1e-6 * glm::dvec3(normal(random), normal(random), normal(random)));
       const glm::dvec3 change = environmentRadiance(map, near) - environmentRadiance(map, d);
       const double way = glm::length(near - d);
-      if (way > 1e-7)
-        steepest = std::max(
-            steepest, std::max({std::abs(change.x), std::abs(change.y), std::abs(change.z)}) / way);
+      if (!(way > 1e-7)) continue;
+      const double slope =
+          std::max({std::abs(change.x), std::abs(change.y), std::abs(change.z)}) / way;
+      if (slope > steepest) steepest = slope, bestSlope = d;
     }
     EXPECT_LE(most, largestRadiance(map));
     EXPECT_GE(1.1 * most, largestRadiance(map));
     EXPECT_LE(steepest, steepestRadiance(map));
+    EXPECT_GE(1.1 * steepest, steepestRadiance(map));
   }
 }
 

@@ -14,6 +14,7 @@
 #include "glint/render/reference_renderer.h"
 #include "glint/render/renderer.h"
 #include "glint/scene/parameters.h"
+#include "glint/shading/bounds.h"
 #include "scenes.h"
 
 namespace glint {
@@ -49,6 +50,21 @@ glm::dvec3 at(const Image& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
+// Directional, or a lamp, or a spot whose ramp crosses the sphere.
+Light lightAround(Random& r, bool fallsOff) {
+  Light light = test::directional(r.direction(), r.color());
+  const int kind = r.below(4);
+  if (kind < 2) return light;
+  light.type = kind == 2 ? Light::Type::point : Light::Type::spot;
+  light.position = r.log(2, 50) * light.direction;
+  light.direction = -light.position;
+  light.outerAngle = 10 + 70 * r.unit();
+  light.innerAngle = 0.8 * r.unit() * light.outerAngle;
+  light.fallsOff = fallsOff;
+  if (light.fallsOff) light.intensity *= glm::dot(light.position, light.position);
+  return light;
+}
+
 TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
   const auto context = openContext(GetParam());
   context->makeCurrent();
@@ -56,13 +72,17 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
   Random r{std::mt19937(31)};
   const char* more = std::getenv("GLINT_BUDGET_DRAWS");
   const int draws = more != nullptr ? std::max(std::atoi(more), 1) : 12;
-  int pixels = 0, approximate = 0;
+  int pixels = 0, approximate = 0, behind = 0;
   double nearest = 0;
   for (int i = 0; i < draws; ++i) {
     Material m = test::materialOf(r.unit(), r.unit(), r.log(0.05, 1.5), r.log(1, 2000),
                                   r.coin() ? 0 : r.unit(), r.color());
     if (r.coin()) m.shading.exponent = std::round(m.shading.exponent);
     m.shading.ior = 1.1 + 2 * r.unit();
+    // Some are glass, seen from within.
+    const bool within = i % 4 == 2 && r.coin();
+    m.doubleSided = within;
+    if (r.below(3) == 0) m.transmission = r.unit();
     Scene scene = test::sceneOf(test::sphere(24, 12), m);
     Look look;
     constexpr Shading programs[] = {Shading::phong, Shading::blinnPhong, Shading::environment,
@@ -70,11 +90,20 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     look.shading = programs[i % 4];
     const Shading truth = i % 4 == 3 ? Shading::phong : look.shading;
     look.maxError = r.log(2e-5, 0.3);
+    if (i % 6 == 5) {  // rounding alone, also without a highlight
+      look.maxError = 0;
+      if (r.coin()) scene.materials[0].shading.specular = 0;
+    }
     look.light.emplace();
-    for (int k = r.below(3); k >= 0; --k)
-      look.light->push_back(test::directional(r.direction(), r.color()));
+    const bool many = i % 4 != 3 && r.coin();  // of which some are dim
+    const bool fallsOff = r.below(3) == 0;     // all of a file's lights do, none of --light
+    for (int k = r.below(many ? 24 : 3); k >= 0; --k) {
+      look.light->push_back(lightAround(r, fallsOff));
+      if (many) look.light->back().intensity *= r.log(1e-4, 1);
+    }
     look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
     look.environment = Environment(r.below(3));
+    if (within) look.cameraPosition = 0.7 * r.direction();
     look.resolution = {32, 32};
     look.antiAliasing = {AntiAliasing::Mode::none, 1};
     look.noBackground = true;
@@ -108,7 +137,16 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
         const glm::dvec3 n = glm::normalize(a.normal);
         bool jumps = false;
         for (const reference::Light& light : reference.stage().frame.lights)
-          jumps = jumps || std::abs(glm::dot(n, light.place)) < 2e-6;
+          jumps =
+              jumps || std::abs(glm::dot(n, light.type == reference::Light::Type::directional
+                                                ? light.place
+                                                : glm::normalize(light.place - a.position))) < 2e-6;
+        if (!a.front) {
+          const double c = glm::dot(-n, reference::toViewer(reference.stage().frame, a.position));
+          const double off = c - criticalCosine(m.shading.ior, 1);
+          jumps = jumps || std::abs(off) < criticalRing(m.shading.ior, 1);
+          ++behind;
+        }
         if (jumps) continue;
         const glm::dvec3 difference = glm::abs(at(drawn, x, y) - reference.shade(a).radiance);
         const double error = std::max({difference.x, difference.y, difference.z});
@@ -122,11 +160,14 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
       }
   }
   std::printf(
-      "%d pixels of %d pictures, %d of them in another form than exact; at most %.3f of the "
-      "bound\n",
-      pixels, draws, approximate, nearest);
+      "%d pixels, %d of back faces, of %d pictures, %d of them in another form than exact; at most "
+      "%.3f of the bound\n",
+      pixels, behind, draws, approximate, nearest);
   EXPECT_GT(pixels, 100 * draws);
   EXPECT_GT(approximate, draws / 4);
+  if (draws > 30) {
+    EXPECT_GT(behind, 10 * draws);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Software, BudgetOnDriver, testing::Values(Backend::osmesa),

@@ -8,13 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 
+#include "glint/image/error.h"
+#include "glint/render/cost_file.h"
 #include "glint/render/reference_renderer.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
 using namespace glint;
@@ -64,9 +68,11 @@ Draw randomDraw(Random& r, bool automatic) {
   d.look.shading = automatic ? Shading::automatic : programs[r.below(3)];
   d.look.maxError = r.log(1e-5, 0.5);
   d.look.light.emplace();
-  for (int i = r.below(automatic ? 3 : 5); i >= 0; --i) {
-    Light light = test::directional(r.direction(), r.color());
-    if (!automatic && r.below(3) == 0) {
+  const bool many = !automatic && r.below(4) == 0;  // of which some are dim
+  for (int i = r.below(automatic ? 3 : many ? 24 : 5); i >= 0; --i) {
+    const double brightness = many ? r.log(1e-4, 1) : 1.0;
+    Light light = test::directional(r.direction(), brightness * r.color());
+    if (r.below(3) == 0) {
       light.type = Light::Type::point;
       light.position = 3.0 * r.direction();
       light.direction = glm::dvec3(0.0);
@@ -111,7 +117,7 @@ std::string describe(const Draw& d, const ResolvedLook& r) {
 
 TEST(ErrorBudget, PicturesKeepWithinIt) {
   Random random(21);
-  int chosen = 0;
+  int chosen = 0, byLight = 0;
   for (int i = 0; i < draws(1500); ++i) {
     const Draw d = randomDraw(random, i % 3 == 0);
     const ResolvedLook resolved = resolveLook(d.scene, boundsOf(d.scene), d.look);
@@ -125,7 +131,9 @@ TEST(ErrorBudget, PicturesKeepWithinIt) {
       ASSERT_LE(error, *d.look.maxError + 1e-6) << describe(d, resolved);
     }
     chosen += resolved.look.highlight != HighlightForm(Highlight::exact);
+    byLight += !resolved.look.highlight.dimmer.empty();
   }
+  EXPECT_GT(byLight, draws(1500) / 30);
   EXPECT_GT(chosen, draws(1500) / 4);
 }
 
@@ -144,7 +152,7 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
     for (const Light& each : *d.look.light) light += each.intensity;
     const glm::dvec3 S = m.metalness * m.color + (1 - m.metalness);
     const double scale = m.specular * std::max({S.x * light.x, S.y * light.y, S.z * light.z});
-    double least = lobeCost(LobeForm::exact, 1);
+    double least = CostTable().exact;
     for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
                           LobeForm::gaussian})
       for (int gamma = 1; gamma <= 64; gamma *= 2) {
@@ -154,11 +162,40 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
             const double exact = x < 1 ? std::exp(m.exponent * std::log1p(-x)) : 0.0;
             worst = std::max(worst, std::abs(lobe(form, gamma, x, m.exponent) - exact));
           }
-        if (scale * worst < 0.6 * *d.look.maxError) least = std::min(least, lobeCost(form, gamma));
+        if (scale * worst < 0.6 * *d.look.maxError)
+          least = std::min(least, CostTable().lobe(form, gamma));
       }
     EXPECT_LE(resolved.choices[0].cost, least * double(d.look.light->size()) + 1e-9)
         << describe(d, resolved);
   }
+}
+
+// Under a table in which another form is the cheapest, that one is taken; the table goes with the
+// budget.
+TEST(ErrorBudget, GoesByTheTableOfCostsThatTheLookNames) {
+  Random random(26);
+  Draw d = randomDraw(random, false);
+  d.scene.materials[0].shading = {};
+  d.scene.materials[0].shading.specular = 0.5;
+  d.scene.materials[0].shading.exponent = 300;
+  d.look = {};
+  d.look.maxError = 0.01;
+  const auto chosen = [&] { return resolveLook(d.scene, boundsOf(d.scene), d.look); };
+  const HighlightForms shipped = chosen().choices.at(0).highlight;
+  EXPECT_NE(shipped, HighlightForms(Highlight::gaussian));
+  CostFile file;
+  file.costs.gaussian = 1;
+  d.look.costTable = test::temporaryFolder() + "/gaussian.json";
+  std::ofstream(d.look.costTable) << costFileText(file);
+  const ResolvedLook resolved = chosen();
+  EXPECT_EQ(resolved.choices.at(0).highlight, HighlightForms(Highlight::gaussian));
+  EXPECT_LE(resolved.bound, 0.01);
+  EXPECT_EQ(resolved.choices.at(0).cost, 1);
+  EXPECT_EQ(resolved.look.costTable, "");
+  d.look.costTable = "/no/such.json";
+  EXPECT_THROW(chosen(), InputError);
+  d.look.maxError.reset();  // nothing to choose
+  EXPECT_EQ(chosen().look.costTable, "/no/such.json");
 }
 
 TEST(ErrorBudget, BelowTheExactFormsOwnBoundItIsExact) {
@@ -246,12 +283,50 @@ TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 20));
   Look look;
   look.shading = Shading::automatic;
+  look.cameraDirection = glm::dvec3(0, 0, -1);
+  look.light = {test::directional({0, 0, 1})};
   look.viewer = Viewer::infinite;
   look.maxError = 1e-3;
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
   look.viewer = Viewer::local;  // the highlight moves over the face
-  EXPECT_NE(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
   look.maxError.reset();
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
+}
+
+// A lamp that weakens counts with what it brings to the point nearest to it: all of the highlight's
+// error where there is none.
+TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0, 0.5, 20));
+  Look look;
+  look.maxError = 1e6;
+  Light lamp;
+  lamp.type = Light::Type::point;
+  lamp.fallsOff = true;
+  for (double distance : {3.0, 10.0}) {
+    lamp.position = {0, 0, distance};
+    look.light = {lamp};
+    const double nearest = distance - 2 * std::sqrt(2.0);
+    EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe,
+                0.5 / (nearest * nearest), 1e-5);
+  }
+}
+
+// Faces under a lamp that is far away: nearly constant.
+TEST(ErrorBudget, LampsAreNoHindrance) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0, 20));
+  Look look;
+  look.shading = Shading::automatic;
+  look.maxError = 0.02;
+  Light lamp;
+  lamp.type = Light::Type::point;
+  lamp.position = {50, 0, 200};
+  look.light = {lamp};
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::flat);
+  look.maxError = 1e-3;
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::gouraud);
+  lamp.position = {0.5, 0, 1};
+  look.light = {lamp};
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
 }
 

@@ -233,6 +233,7 @@ const std::vector<Good>& goodTexts() {
       {"animation-time", "1.5", [](Look& l) { l.animationTime = 1.5; }},
       {"animation", "Walk, 2", [](Look& l) { l.animation = "Walk, 2"; }},
       {"hdri-file", "a b.hdr", [](Look& l) { l.hdriFile = "a b.hdr"; }},
+      {"cost-table", "my costs.json", [](Look& l) { l.costTable = "my costs.json"; }},
       {"light-scale", "0.01", [](Look& l) { l.lightScale = 0.01; }},
       {"light-scale", "auto", [](Look& l) { l.lightScale.reset(); }},
       {"clipping-range", "0.1,1e7", [](Look& l) { l.clippingRange = glm::dvec2(0.1, 1e7); }},
@@ -382,6 +383,7 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"animation-time", {"", "-1", "x", "nan", "1e10"}},
       {"animation", {""}},
       {"hdri-file", {""}},
+      {"cost-table", {""}},
       {"light-scale", {"", "-1", "x", "inf"}},
       {"clipping-range",
        {"", "1", "0,1", "-1,1", "2,1", "1,1", "1,nan", "nan,1", "1,inf", "1,2,3"}},
@@ -435,6 +437,7 @@ class RandomLooks {
     if (coin()) l.animationTime = number(0, 1e9);
     if (coin()) l.animation = "take 2";
     if (coin()) l.hdriFile = "room.exr";
+    if (coin()) l.costTable = "costs.json";
     if (coin()) l.lightScale = number(0, 1e30);
     if (coin()) l.clippingRange = glm::dvec2(number(1e-3, 1), number(2, 1e30));
     l.resolution = {1 + index(65535), 1 + index(65535)};

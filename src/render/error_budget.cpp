@@ -7,6 +7,7 @@
 #include <map>
 
 #include "form_choice.h"
+#include "glint/render/cost_file.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
@@ -61,11 +62,14 @@ struct Setting {
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
+  CostTable costs;
 };
 
 Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   Setting s;
   s.given = look;
+  s.costs = costTableFor(look);
+  s.given.costTable.clear();  // with the budget, which is gone already: the choice is made
   s.look = withFileLights(scene, look);
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
@@ -101,6 +105,24 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   return s;
 }
 
+// How far rounding turns the refracted direction, times the share 1 - F that is refracted: what
+// lies along the surface by 2e-6 n, n the larger index over the smaller, and the root of x = 1 -
+// |along|^2, whose square is off by 2e-6, by min(sqrt(2e-6), 2e-6 / sqrt(x)). Into the denser
+// medium x is at least 1 - 1/n^2. Out of it, x is 0 at the critical angle, but there 1 - F is at
+// most the slope of the reflectance times sqrt(x), save for a metal's share. Equal indices refract
+// everything, at grazing incidence too.
+double refractionError(const ShadingParameters& m, const Look& look, bool twoSided) {
+  const double n = std::max(m.ior / look.mediumIor, look.mediumIor / m.ior), square = 2e-6;
+  const double root = std::sqrt(square), rest = 1 - 1 / (n * n);
+  double worst = std::min(root, square / std::sqrt(std::max(rest, 1e-12)));
+  if (twoSided || m.ior < look.mediumIor) {
+    const double exact = n > 1 ? 2 * (n * n + 1) / std::sqrt(n * n - 1) : 1e9;
+    const double slope = std::max({exact, look.schlickExponent, 7.0});  // of any form
+    worst = std::max(worst, std::min(root, slope * square + m.metalness * root));
+  }
+  return 2e-6 * n + worst;
+}
+
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
                 const Variant& v) {
   const ShadingParameters& m = material.shading;
@@ -115,7 +137,9 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
   const glm::dvec3& light = setting.reach.together;
   if (v.specular) {
     needs.specular = true;
-    needs.shine = glm::max(needs.shine, m.specular * S);
+    // What lets light through shows that much less of the sum.
+    const double shown = v.program == Shading::environment ? 1 - material.transmission : 1.0;
+    needs.shine = glm::max(needs.shine, shown * m.specular * S);
     const double exponent = lobeExponent(material, setting.look);
     if (std::ranges::find(needs.exponents, exponent) == needs.exponents.end())
       needs.exponents.push_back(exponent);
@@ -146,15 +170,8 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     rounding +=
         1e-5 + 2e-6 * steep +
         (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
-    if (v.refraction) {
-      // sqrt(1 - |along|^2) is off by a square root next to the critical angle and at grazing
-      // incidence, where all the less is refracted: (1 - F) is at most the slope of R times the
-      // same root. Equal indices refract everything, at grazing incidence too.
-      const double n = std::max(m.ior / setting.look.mediumIor, setting.look.mediumIor / m.ior);
-      const double slope = n > 1.0 ? 2.0 * (n * n + 1.0) / std::sqrt(n * n - 1.0) : 1e9;
-      const double off = 2e-6 * n + std::min(std::sqrt(4e-6), slope * n * 4e-6);
-      rounding += largest(C) * (1e-5 + steep * off);
-    }
+    if (v.refraction)
+      rounding += largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided));
   }
   group.rounding = std::max(group.rounding, rounding);
 }
@@ -169,7 +186,7 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
   FormNeeds& needs = group.needs;
   needs.rest = group.interpolation + group.rounding;
   const ChosenForms forms =
-      cheapestForms(needs, setting.reach, setting.look, setting.blinn, budget);
+      cheapestForms(needs, setting.reach, setting.look, setting.costs, setting.blinn, budget);
   FormChoice choice;
   choice.material = name;
   choice.specular = needs.specular;
@@ -344,7 +361,8 @@ ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& l
     if (!(other.bound <= budget) || other.choices.empty()) continue;
     other.programReason =
         program == Shading::flat
-            ? "flat: the normal of every face is constant, and so is all that it is lit by"
+            ? "flat: every face has one normal, and the light on it is within " + number(budget) +
+                  " of phong's"
             : "gouraud: between vertices the light is within " + number(budget) + " of phong's";
     return other;
   }

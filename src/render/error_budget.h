@@ -39,12 +39,13 @@ struct ResolvedLook {
 /// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
 /// enough to it. The forms that the look asks for give way to those chosen. Where no form is within
 /// the budget the exact one is taken, and `bound` is above the budget. A pure function of its
-/// arguments; about a millisecond, and with `auto` a look at every triangle.
+/// arguments and of the files that the look names (InputError if they cannot be read); about a
+/// millisecond, and with `auto` a look at every triangle.
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
 /// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the
-/// outline; and points at which the model itself jumps, where N.L, or what is left to refract,
-/// rounds to the other side of 0.
+/// outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
+/// what is left to refract does or nearly does (criticalRing of glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
 
 /// The largest sum of intensities of lights that can light one point at once, per channel:

@@ -98,6 +98,7 @@ struct Look {
   Fresnel fresnel = Fresnel::exact;
   /// What error the forms may cost in linear radiance; read by resolveLook alone.
   std::optional<double> maxError;
+  std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;
   std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material

@@ -227,6 +227,16 @@ Parameter resetting(Parameter p, Value Look::*member) {
   return p;
 }
 
+Parameter costTable() {
+  Parameter p = custom(
+      "cost-table", "FILE",
+      "what forms cost on a machine's driver, as glint study --measure-costs writes it: what "
+      "--max-error goes by in place of the table that comes with glint",
+      [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
+      [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
+  return resetting(std::move(p), &Look::costTable);
+}
+
 constexpr std::array<std::string_view, 6> shadingNames{"flat",        "gouraud",     "phong",
                                                        "blinn-phong", "environment", "auto"};
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
@@ -255,6 +265,7 @@ std::vector<Parameter> makeTable() {
                      "takes the cheapest forms of lobe and reflectance whose proven bound for this "
                      "scene is within E, in linear light; where none is, the exact ones"),
               1e-5, 1, true),
+       costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),

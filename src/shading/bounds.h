@@ -37,11 +37,17 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
 /// whatever the form. Then the form itself rounds: a power p by squaring by 3/2 p + 4 roundings.
 double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn);
 
-/// What rounding adds to a reflectance whose cosine is off by 5e-7, that of a dot product of
-/// rounded unit vectors: the exact R moves most next to grazing incidence, or next to the critical
-/// angle, where it has infinite slope; the formula's own evaluation is off by 1e-6 (the rational
-/// form by 1.5e-6; the textbook's by what it cancels).
+/// What rounding adds to a reflectance whose cosine c is off by 5 u (1 + c), that of a dot product
+/// of rounded unit vectors: the exact R moves most next to grazing incidence, or from criticalRing
+/// on next to the critical angle; the formula's own evaluation is off by 1e-6 (the rational form by
+/// 1.5e-6; the textbook's by what it cancels).
 double fresnelRoundingBound(FresnelForm form, double n1, double n2, double exponent = 5.0);
+
+/// The cosines next to the critical one of which fresnelRoundingBound does not speak, as it does
+/// not of total reflection that rounds to none: R has infinite slope there, and the rounding of the
+/// cosine alone moves it by up to 0.01. 1e-5 on either side, or 1/100 of all beyond the critical
+/// cosine; 0 from the thinner side. Of all directions to a back face one in 100,000 lies there.
+double criticalRing(double n1, double n2);
 
 /// An upper bound of the radiance of a built-in environment in any channel and direction, and of
 /// how fast it changes with the direction (per radian).
