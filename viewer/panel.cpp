@@ -200,6 +200,7 @@ void drawShadingTab(PanelContext& context) {
   Look& look = session.document.a;
   for (const Parameter& p : lookParameters()) {
     if (p.section != "Shading" || p.name == "material") continue;
+    if (p.name == "cost-table" && !look.maxError && look.costTable.empty()) continue;
     if (look.maxError && (p.name == "highlight" || p.name == "fresnel")) {
       widgets::label(p.name);
       ImGui::TextDisabled("chosen by max error");
