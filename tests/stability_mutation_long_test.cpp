@@ -107,6 +107,7 @@ const Guard guards[] = {
     {"light_sum.glsl", "max(dot(way, way), 1e-12)", "dot(way, way)", "P14", "a lamp at the place"},
     {"light_sum.glsl", "return clamp(1.0 - ratio * ratio, 0.0, 1.0) / square;",
      "return (1.0 - ratio * ratio) / square;", "P14", "a lamp beyond its range"},
+    {"sum.glsl", "addLights1(sum, position, n, v);", "", "P16", "lights of the second form"},
     {"per_pixel.glsl", "vec3 n = unit(surfaceNormal());", "vec3 n = surfaceNormal();", "I3",
      "interpolated normals are made unit"},
     {"per_pixel.glsl", "if (!(dot(n, n) > 1e-6)) n = face;", "", "I1", "normals that cancel"},

@@ -258,6 +258,34 @@ void p15(Bench& bench, Record& record) {
     record.near("interpolated " + numberText(given[i]), got[i], expected[i], 0);
 }
 
+void p16(Bench& bench, Record& record) {
+  const Scene scene = sceneOf(sphere(24, 12), litMaterial(0.5, 0.5, 9));
+  Light point = directional({}, glm::dvec3(0.5));
+  point.type = Light::Type::point;
+  point.position = {-2, 1, 3};
+  const std::vector<Light> lights{directional({1, 1, 2}, glm::dvec3(0.25)), point,
+                                  directional({-1, 0, 2}, glm::dvec3(1)),
+                                  directional({0, -1, 2}, glm::dvec3(0.125))};
+  const char* const forms[] = {"pade:8", "lyon:4", "exact", "none"};  // as their lights stand
+  for (const Shading shading : everyShading) {
+    Look look = parallel(bench.look(shading), {0, 0, 1}, 32);
+    Image sum;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      look.light = {lights[i]};
+      setParameter(look, "highlight", forms[i]);
+      const Image alone = bench.draw(scene, look);
+      if (i == 0) sum = alone;
+      for (std::size_t k = 0; i > 0 && k < sum.values.size(); ++k)
+        if (k % 4 != 3) sum.values[k] += alone.values[k];
+    }
+    look.light = lights;
+    setParameter(look, "highlight", "exact/1,lyon:4/1,pade:8/1,none");
+    // Values of up to 2 in sums of up to eight terms.
+    record.alike(std::string(shadingName(shading)) + ": four lights with a form each",
+                 bench.draw(scene, look), sum, 16 * 2 * rounding);
+  }
+}
+
 const Case cases[] = {
     {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
      "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
@@ -293,6 +321,9 @@ const Case cases[] = {
      "0, 0 and at most 1e30", "exact",
      "found by a search: triangles without area, corners beyond all measure",
      "what is no number, or negative, counts as 0", p15},
+    {"P16", "four lights, each with a form of the highlight of its own",
+     "the sum of their pictures", "16 roundings of values of up to 2",
+     "a light left out, drawn twice or by another's form", "the brightest has the first form", p16},
 };
 
 }  // namespace
