@@ -222,6 +222,24 @@ TEST(ErrorBudget, MaterialsThatDifferGetFormsOfTheirOwn) {
   EXPECT_EQ(resolved.look.material.at("sharp").highlight, resolved.choices[1].highlight);
 }
 
+// The worst of all materials of a name counts, whichever comes last.
+TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
+  for (const bool swapped : {false, true}) {
+    Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, swapped ? 0.1 : 0.7, 20));
+    scene.materials.push_back(test::materialOf(1, 1, swapped ? 0.7 : 0.1, 20));
+    for (Material& m : scene.materials) m.name = "both";
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = 1;
+    scene.instances.push_back({1, glm::dmat4(1.0)});
+    Look look;
+    look.light = {test::directional({0, 0, 1})};
+    look.maxError = 1e6;
+    const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+    ASSERT_EQ(resolved.choices.size(), 1u);
+    EXPECT_NEAR(resolved.choices[0].lobe, 0.7, 1e-12);
+  }
+}
+
 // A key light and many dim ones: the dim ones' highlights may be wrong by more.
 TEST(ErrorBudget, DimLightsGetCheaperForms) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 60.5));
