@@ -240,6 +240,28 @@ TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
   }
 }
 
+// Of a highlight on glass only the share is seen that the glass does not let through.
+TEST(ErrorBudget, HighlightsOnGlassCountByTheirShare) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.8, 20));
+  scene.materials[0].transmission = 0.75;
+  Look look;
+  look.shading = Shading::environment;
+  look.light = {test::directional({0, 0, 1})};
+  look.maxError = 1e6;
+  EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe, 0.2, 1e-12);
+}
+
+// Once a vertex pays only while there are fewer vertices than pixels.
+TEST(ErrorBudget, FineModelsInSmallPicturesAreShadedPerPixel) {
+  const Scene scene = test::sceneOf(test::sphere(64, 32), test::materialOf(1, 1, 0, 20));
+  Look look;
+  look.shading = Shading::automatic;
+  look.maxError = 0.1;
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::gouraud);
+  look.resolution = {48, 48};
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
+}
+
 // A key light and many dim ones: the dim ones' highlights may be wrong by more.
 TEST(ErrorBudget, DimLightsGetCheaperForms) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 60.5));
