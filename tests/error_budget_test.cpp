@@ -8,13 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 
+#include "glint/image/error.h"
+#include "glint/render/cost_file.h"
 #include "glint/render/reference_renderer.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
 using namespace glint;
@@ -148,7 +152,7 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
     for (const Light& each : *d.look.light) light += each.intensity;
     const glm::dvec3 S = m.metalness * m.color + (1 - m.metalness);
     const double scale = m.specular * std::max({S.x * light.x, S.y * light.y, S.z * light.z});
-    double least = lobeCost(LobeForm::exact, 1);
+    double least = CostTable().exact;
     for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
                           LobeForm::gaussian})
       for (int gamma = 1; gamma <= 64; gamma *= 2) {
@@ -158,11 +162,40 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
             const double exact = x < 1 ? std::exp(m.exponent * std::log1p(-x)) : 0.0;
             worst = std::max(worst, std::abs(lobe(form, gamma, x, m.exponent) - exact));
           }
-        if (scale * worst < 0.6 * *d.look.maxError) least = std::min(least, lobeCost(form, gamma));
+        if (scale * worst < 0.6 * *d.look.maxError)
+          least = std::min(least, CostTable().lobe(form, gamma));
       }
     EXPECT_LE(resolved.choices[0].cost, least * double(d.look.light->size()) + 1e-9)
         << describe(d, resolved);
   }
+}
+
+// Under a table in which another form is the cheapest, that one is taken; the table goes with the
+// budget.
+TEST(ErrorBudget, GoesByTheTableOfCostsThatTheLookNames) {
+  Random random(26);
+  Draw d = randomDraw(random, false);
+  d.scene.materials[0].shading = {};
+  d.scene.materials[0].shading.specular = 0.5;
+  d.scene.materials[0].shading.exponent = 300;
+  d.look = {};
+  d.look.maxError = 0.01;
+  const auto chosen = [&] { return resolveLook(d.scene, boundsOf(d.scene), d.look); };
+  const HighlightForms shipped = chosen().choices.at(0).highlight;
+  EXPECT_NE(shipped, HighlightForms(Highlight::gaussian));
+  CostFile file;
+  file.costs.gaussian = 1;
+  d.look.costTable = test::temporaryFolder() + "/gaussian.json";
+  std::ofstream(d.look.costTable) << costFileText(file);
+  const ResolvedLook resolved = chosen();
+  EXPECT_EQ(resolved.choices.at(0).highlight, HighlightForms(Highlight::gaussian));
+  EXPECT_LE(resolved.bound, 0.01);
+  EXPECT_EQ(resolved.choices.at(0).cost, 1);
+  EXPECT_EQ(resolved.look.costTable, "");
+  d.look.costTable = "/no/such.json";
+  EXPECT_THROW(chosen(), InputError);
+  d.look.maxError.reset();  // nothing to choose
+  EXPECT_EQ(chosen().look.costTable, "/no/such.json");
 }
 
 TEST(ErrorBudget, BelowTheExactFormsOwnBoundItIsExact) {

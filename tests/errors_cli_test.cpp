@@ -121,6 +121,23 @@ TEST(Usage, BadValuesOfOptions) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+TEST(Usage, OptionsThatExcludeEachOther) {
+  Folder folder("exclude");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& what) {
+    arguments.insert(arguments.begin(), {"render", sphere});
+    expectRefusal(runGlint(arguments), what);
+  };
+  const std::string png = folder / "a.png";
+  refused({"-o", folder / "a.exr", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
+  refused({"-o", folder / "a.pfm", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
+  refused({"-o", png, "--no-lights", "--light", "camera"}, "--light and --no-lights");
+  refused({"-o", png, "--sweep", "exponent=1:9:3", "--sweep", "exponent=1:9:2"},
+          "--sweep: twice over exponent");
+  refused({"-o", png, "--rendering-backend", "metal"}, "osmesa, reference");
+  expectRefusal(runGlint({"render", "", "-o", png}), "'': does not exist");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
 TEST(Usage, ModelsThatCannotBeRead) {
   Folder folder("unreadable");
   expectRefusal(runGlint(quick({"render", folder / "none.glb", "-o", folder / "a.png"})),

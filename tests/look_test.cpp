@@ -184,6 +184,17 @@ const std::vector<Good>& goodTexts() {
        [](Look& l) {
          l.light = {light(Light::Type::point, {-1, 2, 0.5}, {}, glm::dvec3(0))};
        }},
+      {"light", "point:-1,2,3:0.5,0,2:falloff",
+       [](Look& l) {
+         l.light = {light(Light::Type::point, {-1, 2, 3}, {}, {0.5, 0, 2})};
+         l.light->front().fallsOff = true;
+       }},
+      {"light", "spot:0,3,0:0,-1,0:0,90:falloff,2.5",
+       [](Look& l) {
+         l.light = {light(Light::Type::spot, {0, 3, 0}, {0, -1, 0}, glm::dvec3(1), 0, 90)};
+         l.light->front().fallsOff = true;
+         l.light->front().range = 2.5;
+       }},
       {"light", "spot:0,3,0:0,-1,0:10,20:1,1,0",
        [](Look& l) {
          l.light = {light(Light::Type::spot, {0, 3, 0}, {0, -1, 0}, {1, 1, 0}, 10, 20)};
@@ -222,6 +233,7 @@ const std::vector<Good>& goodTexts() {
       {"animation-time", "1.5", [](Look& l) { l.animationTime = 1.5; }},
       {"animation", "Walk, 2", [](Look& l) { l.animation = "Walk, 2"; }},
       {"hdri-file", "a b.hdr", [](Look& l) { l.hdriFile = "a b.hdr"; }},
+      {"cost-table", "my costs.json", [](Look& l) { l.costTable = "my costs.json"; }},
       {"light-scale", "0.01", [](Look& l) { l.lightScale = 0.01; }},
       {"light-scale", "auto", [](Look& l) { l.lightScale.reset(); }},
       {"clipping-range", "0.1,1e7", [](Look& l) { l.clippingRange = glm::dvec2(0.1, 1e7); }},
@@ -333,6 +345,14 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
         "directional:inf,0,0",
         "point",
         "point:1,2,3:-1,0,0",
+        "point:1,2,3:falloff:1,1,1",
+        "point:1,2,3:falloff,-1",
+        "point:1,2,3:falloff,nan",
+        "point:1,2,3:falloff,",
+        "point:1,2,3:fallof",
+        "point:1,2,3:falloff2",
+        "directional:1,2,3:falloff",
+        "camera:falloff",
         "spot:0,0,0:0,0,0:1,2",
         "spot:0,0,0:0,1,0",
         "spot:0,0,0:0,1,0:20,10",
@@ -363,6 +383,7 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"animation-time", {"", "-1", "x", "nan", "1e10"}},
       {"animation", {""}},
       {"hdri-file", {""}},
+      {"cost-table", {""}},
       {"light-scale", {"", "-1", "x", "inf"}},
       {"clipping-range",
        {"", "1", "0,1", "-1,1", "2,1", "1,1", "1,nan", "nan,1", "1,inf", "1,2,3"}},
@@ -416,6 +437,7 @@ class RandomLooks {
     if (coin()) l.animationTime = number(0, 1e9);
     if (coin()) l.animation = "take 2";
     if (coin()) l.hdriFile = "room.exr";
+    if (coin()) l.costTable = "costs.json";
     if (coin()) l.lightScale = number(0, 1e30);
     if (coin()) l.clippingRange = glm::dvec2(number(1e-3, 1), number(2, 1e30));
     l.resolution = {1 + index(65535), 1 + index(65535)};

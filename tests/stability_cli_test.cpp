@@ -99,6 +99,10 @@ TEST(StabilityCommand, Refusals) {
   expectRefusal(stability({"--case", "H1", "--output", folder / "file"}),
                 "cannot make this folder");
   expectRefusal(stability({"--case", "H1", "--json", folder / "none/r.json"}), "r.json");
+  // Nor is an empty folder left.
+  expectRefusal(stability({"--glsl", "/nonexistent", "--output", folder / "new/page"}),
+                "not a folder");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});
 }
 
 TEST(StabilityCommand, NoContextIsStatus3) {

@@ -109,7 +109,54 @@ TEST(StudyCommand, RefusesWhatItCannotDo) {
   refused({"--time-budget", "0"}, "--time-budget");
   refused({"--repetitions", "0"}, "--repetitions");
   refused({"--material", "Nobody:ior=2"}, "Nobody");
+  refused({"--measure-costs", "/tmp/costs.json"}, "leave --quick out");
+  refused({"--cost-table", "/no/such.json"}, "/no/such.json");
   refused({"--camera-position", "0,0,9", "--camera-focal-point", "0,0,20"}, "no pixel");
+}
+
+// A model without anything to compare: one line, though its warnings would be others.
+TEST(StudyCommand, SaysOneLineOfAnEmptyModel) {
+  const Folder folder("study-empty");
+  std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
+  const Ran ran = runGlint(tiny({folder / "empty.gltf", "--output", folder / "deep/report"}));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("empty: no pixel"));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.gltf"});  // nor an empty folder
+}
+
+// What a budget chooses stands beside the others, within its bound.
+TEST(StudyCommand, ShowsWhatABudgetChooses) {
+  const Ran ran = runGlint(
+      tiny({"--max-error", "0.01", "--highlight", "exact", "--fresnel", "exact", "--json", "-"}));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  int chosen = 0;
+  const Json json = Json::parse(ran.out);
+  for (const Json& v : json["variants"]) {
+    if (!v.contains("bound")) continue;
+    SCOPED_TRACE(v["name"]);
+    ++chosen;
+    EXPECT_THAT(v["name"].get<std::string>(), testing::StartsWith("max-error 0.01: "));
+    EXPECT_LE(v["bound"].get<double>(), 0.01);
+    // Interpolation by the driver is not in the bound.
+    EXPECT_LE(v["parts"]["shading"]["max"].get<double>(), v["bound"].get<double>());
+    EXPECT_EQ(v["times"]["wall"]["frames"], 3);
+  }
+  EXPECT_EQ(chosen, 3);  // phong, blinn-phong, environment
+  const Ran automatic = runGlint(tiny({"--max-error", "0.01", "--shading", "auto", "--highlight",
+                                       "exact", "--fresnel", "exact", "--json", "-"}));
+  ASSERT_EQ(automatic.status, 0) << automatic.err;
+  EXPECT_EQ(Json::parse(automatic.out)["variants"].size(), 5u + 3u);
+}
+
+TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {
+  const Folder folder("study-costs");
+  const std::string command = "timeout --preserve-status -s INT 1.5 " GLINT_EXECUTABLE
+                              " study --measure-costs " +
+                              folder / "costs.json" + " > /dev/null 2>&1";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+  EXPECT_TRUE(folder.names().empty());
 }
 
 }  // namespace

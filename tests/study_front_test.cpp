@@ -48,8 +48,38 @@ TEST(StudyStatistics, BootstrapIntervalCoversTheTrueMedian) {
   EXPECT_GE(covered, 85);
 }
 
-TEST(StudyStatistics, RatiosAreRoundByRound) {
-  EXPECT_EQ(roundRatios({2, 9, 4}, {1, 3}), (Times{2, 3}));
+TEST(StudyStatistics, RatioIsThatOfTheLowerQuartilesOfTheRoundsThatBothHave) {
+  const Times a{2, 4, 6, 8, 10}, b{1, 2, 3, 4, 5, 0.1};
+  EXPECT_DOUBLE_EQ(timeRatio(a, b).value, 4.0 / 2.0);
+  EXPECT_EQ(timeRatio(a, a).low, 1);
+  EXPECT_EQ(timeRatio(a, a).high, 1);
+  EXPECT_EQ(timeRatio({}, a).value, 0);
+}
+
+// A machine that is away for one frame of four, and one of six builds that is a third slower: what
+// is added is not what is compared.
+TEST(StudyStatistics, RatioLeavesOutWhatIsAddedNowAndThen) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    Times a = framesOf(5, seed, 0.02), b = framesOf(5, seed + 100, 0.02);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (i / 6 == 2) a[i] *= 1.33;
+      if (random() % 4 == 0) a[i] += 2;
+      if (random() % 4 == 0) b[i] += 2;
+    }
+    const TimeRatio ratio = timeRatio(a, b);
+    EXPECT_NEAR(ratio.value, 1, 0.01) << seed;
+    EXPECT_LT(ratio.high - ratio.low, 0.04) << seed;
+  }
+}
+
+// A machine that becomes slower half way changes both.
+TEST(StudyStatistics, RatioBearsAChangeOfSpeed) {
+  Times a = framesOf(5, 1, 0.02), b = framesOf(4, 2, 0.02);
+  for (std::size_t i = a.size() / 2; i < a.size(); ++i) a[i] *= 1.25, b[i] *= 1.25;
+  const TimeRatio ratio = timeRatio(a, b);
+  EXPECT_NEAR(ratio.value, 1.25, 0.02);
+  EXPECT_LT(ratio.high - ratio.low, 0.05);
 }
 
 TEST(StudyFront, FasterMeansBeyondTheSpread) {
@@ -107,8 +137,7 @@ TEST(StudyFront, IsTheSameInAnotherRun) {
     for (unsigned i = 0; i < 6; ++i) times.push_back(framesOf(milliseconds[i], 100 * seed + i));
     std::vector<FrontCandidate> candidates;
     for (unsigned i = 0; i < 6; ++i) candidates.push_back({std::pow(10.0, int(i) - 6), times[i]});
-    const std::vector<std::vector<double>> controls{
-        roundRatios(framesOf(6, seed + 5000), times[2])};
+    const std::vector<TimeRatio> controls{timeRatio(framesOf(6, seed + 5000), times[2])};
     EXPECT_EQ(membersOf(paretoFront(candidates, spreadOfControls(controls))),
               (std::vector{0, 2, 4}))
         << seed;
@@ -116,7 +145,7 @@ TEST(StudyFront, IsTheSameInAnotherRun) {
 }
 
 TEST(StudyFront, SpreadIsTheFarEndOfTheControls) {
-  const std::vector<std::vector<double>> ratios{{1.0, 1.0, 1.0}, {0.9, 0.9, 0.9}};
+  const std::vector<TimeRatio> ratios{{1.0, 0.99, 1.02}, {0.95, 0.9, 1.01}, {}};
   EXPECT_DOUBLE_EQ(spreadOfControls(ratios), 1 - 0.9);
   EXPECT_EQ(spreadOfControls({}), 0);
 }

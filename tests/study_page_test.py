@@ -107,6 +107,27 @@ def test_says_what_an_interrupted_study_lacks(browser):
         assert not browser.errors, browser.errors
 
 
+def test_marks_what_a_budget_chooses(browser):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
+                        "--repetitions", "3", "--shading", "phong", "--highlight", "exact", "--max-error",
+                        "0.01", "--output", folder], check=True, stdout=subprocess.DEVNULL)
+        browser.open(folder + "/study.html")
+        assert browser.evaluate("document.querySelectorAll('.budget').length") == 1
+        assert browser.evaluate("$('budget').hidden") is False
+        name = browser.evaluate("data.variants.find(isChosen).name")
+        assert name.startswith("max-error 0.01: phong "), name
+        browser.evaluate(_event(name, "mousemove"))
+        assert "proven bound" in browser.evaluate("$('tip').textContent")
+        browser.evaluate(_event(name, "click"))
+        assert "its proven bound" in browser.evaluate("document.querySelector('#detail h2').textContent")
+        assert not browser.errors, browser.errors
+        assert "<path" in pathlib.Path(folder, "study.svg").read_text()
+    browser.open(_page)
+    assert browser.evaluate("document.querySelectorAll('.budget').length") == 0
+    assert browser.evaluate("$('budget').hidden") is True
+
+
 def test_every_form_joins(browser):
     names = {v["name"] for v in _data["variants"]}
     for name in ("flat exact", "gouraud pow", "phong exact", "phong pow", "phong lyon:4",

@@ -101,7 +101,7 @@ TEST(Picker, FindsTheTriangleAndThePoint) {
   const Picker picker(scene);
   const auto hit = picker.pick(scene, {{0.25, -0.5, 3}, {0, 0, -1}}, false);
   ASSERT_TRUE(hit);
-  EXPECT_EQ(hit->triangle, 0u);
+  EXPECT_EQ(hit->primitive, 0u);
   expectNear(hit->position, {0.25, -0.5, 0}, 1e-12);
   expectNear(hit->normal, {0, 0, 1}, 1e-12);
   EXPECT_FALSE(hit->backFace);

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Measures glint-viewer under Xvfb: how long from a move of a slider to the changed picture on the
-screen, from a move of the camera likewise, and what the window takes of a core at rest.
+screen, from a move of the camera and of an animation's time likewise, and what the window takes of a
+core at rest.
 
-    viewer_latency.py GLINT GLINT_VIEWER MODELS [MODEL.glb]
+    viewer_latency.py GLINT GLINT_VIEWER MODELS [MODEL.glb [ANIMATED.glb]]
 
 A move is put into the X server at one moment (XTest); then the pixels are read again and again until
 they differ. What is measured so holds everything: event, panel, drawing, read-back, upload, X.
@@ -14,7 +15,7 @@ import statistics
 import sys
 import time
 
-import viewer_window_test as window
+import viewer_driver as window
 
 
 def until_changed(viewer, region, before, patience=20):
@@ -60,6 +61,15 @@ def tell(what, times):
           flush=True)
 
 
+def measure_time(tester, model):
+    with window.Viewer(model) as viewer:
+        viewer.key("F5")
+        left, right = window.SLIDER
+        places = [(left + 8 + 4 * (i % 36), window.TIME) for i in range(1, 60)]
+        times = moves(viewer, tester, (left + 8, window.TIME), places, (300, 100, 400, 500))
+        tell("animation time to picture (" + os.path.basename(model) + ")", times)
+
+
 def main():
     window.GLINT, window.VIEWER, models = (os.path.abspath(path) for path in sys.argv[1:4])
     model = sys.argv[4] if len(sys.argv) > 4 else os.path.join(models, "teapot.glb")
@@ -67,6 +77,7 @@ def main():
     tester.XTestFakeMotionEvent.argtypes = [ctypes.c_void_p] + [ctypes.c_int] * 3 + [ctypes.c_ulong]
     tester.XTestFakeButtonEvent.argtypes = [ctypes.c_void_p, ctypes.c_uint, ctypes.c_int,
                                             ctypes.c_ulong]
+    measure_time(tester, sys.argv[5] if len(sys.argv) > 5 else os.path.join(models, "bend.glb"))
     with window.Viewer(model) as viewer:
         row = window.ROW["diffuse"]
         left, right = window.SLIDER

@@ -89,6 +89,45 @@ TEST(ViewerProbe, TexturedAndMaskedSurfaces) {
   EXPECT_GT(compareAll(scene, images, look), 300);
 }
 
+// They are told, too, at every pixel that shows one, by material and colour.
+TEST(ViewerProbe, PointsAndLines) {
+  Mesh lines;
+  lines.topology = Topology::lines;
+  lines.positions = {{-1, -0.7f, 0}, {1, 0.5f, 0.2f}, {-0.3f, 1, 0}, {0.2f, -1, -0.4f}};
+  lines.indices = {0, 1, 2, 3};
+  Mesh points;
+  points.topology = Topology::points;
+  points.positions = {{0.6f, 0.6f, 0}, {-0.6f, 0.4f, 0.3f}, {0.1f, -0.2f, 0.9f}};
+  points.indices = {0, 1, 2};
+  points.material = 1;
+  Scene scene = test::sceneOf(lines);
+  scene.materials[0].shading.color = {0.8, 0.4, 0.1};
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].shading.color = {0.1, 0.9, 0.4};
+  scene.meshes.push_back(points);
+  scene.instances.push_back({1, glm::dmat4(1)});
+  const Look look = scenes::plainLook(48, 40);
+  const Bounds bounds = boundsOf(scene);
+  ReferenceRenderer renderer(scene, {}, bounds, look, 1);
+  const Image exact = renderer.draw();
+  int drawn = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x)
+      drawn += std::abs(double(exact.row(y)[4 * x]) - look.backgroundColor.r) > 1e-6;
+  EXPECT_GT(drawn, 40);
+  EXPECT_EQ(compareAll(scene, {}, look), drawn);
+  // The mouse need not be on the very pixel.
+  const Picker picker(scene);
+  const Camera camera = cameraFor(scene, bounds, look);
+  int named = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x)
+      named +=
+          picker.pick(scene, rayThrough(camera, {x + 0.5, y + 0.5}, {48, 40}), false).has_value();
+  EXPECT_GT(named, drawn);
+  EXPECT_LT(named, 4 * drawn);
+}
+
 TEST(ViewerProbe, TermsAddUp) {
   const Scene scene = model("teapot.glb");
   Look look = scenes::plainLook(64, 48, Shading::environment);

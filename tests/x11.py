@@ -56,6 +56,13 @@ class Server:
     def atom(self, name):
         return self.x.XInternAtom(self.display, name.encode(), 0)
 
+    def set_dpi(self, dpi):
+        """As a desktop says how fine the screen is: a resource of the root window."""
+        text = f"Xft.dpi: {dpi}\n".encode()
+        self.x.XChangeProperty(self.display, self.root, self.atom("RESOURCE_MANAGER"),
+                               self.atom("STRING"), 8, 0, text, len(text))
+        self.x.XSync(self.display, 0)
+
     def capture(self, left, top, width, height):
         """The bytes of a part of the screen, RGB, rows from the top."""
         image = self.x.XGetImage(self.display, self.root, left, top, width, height, 0xFFFFFFFF, 2)

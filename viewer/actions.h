@@ -6,9 +6,20 @@
 
 namespace glint {
 
-/// What keys and buttons do. The one table of actions() names them; help is made from it.
+/// What keys and buttons do. The one table of actions() gives each its key and its help, in this
+/// order.
 enum class Action {
   help,
+  togglePanel,
+  tabShading,
+  tabLights,
+  tabCamera,
+  tabPicture,
+  tabCompare,
+  tabInfo,
+  nextPlot,
+  previousPlot,
+  quit,
   open,
   reload,
   saveLook,
@@ -17,14 +28,36 @@ enum class Action {
   saveModelAs,
   screenshot,
   screenshotAs,
-  quit,
   undo,
   redo,
+  nextMaterial,
+  previousMaterial,
+  findMaterial,
+  nextPreset,
+  previousPreset,
   copyMaterial,
   pasteMaterial,
   resetMaterial,
-  fit,
-  resetCamera,
+  copyPixel,
+  nextProgram,
+  nextHighlight,
+  nextFresnel,
+  maxError,
+  viewer,
+  twoSided,
+  brighter,
+  darker,
+  nextLight,
+  addLight,
+  removeLight,
+  defaultLights,
+  noLights,
+  nextEnvironment,
+  environmentBackground,
+  exposureUp,
+  exposureDown,
+  noBackground,
+  antiAliasing,
   front,
   back,
   right,
@@ -33,27 +66,27 @@ enum class Action {
   bottom,
   isometric,
   orthographic,
+  fit,
+  resetCamera,
   nextCamera,
+  play,
+  earlier,
+  later,
+  nextAnimation,
   keepAsB,
   swapAB,
   compareSplit,
   compareBlink,
   compareDifference,
-  compareOff,
   compareExact,
+  compareOff,
+  stronger,
+  weaker,
   wireframe,
   normals,
   facing,
   clipped,
-  nextProgram,
-  togglePanel,
-  tabShading,
-  tabLights,
-  tabCamera,
-  tabPicture,
-  tabCompare,
-  tabInfo,
-  copyPixel,
+  count,  ///< none: how many there are
 };
 
 struct ActionInfo {
@@ -61,6 +94,7 @@ struct ActionInfo {
   std::string_view section, help;
   int key = 0;  ///< GLFW's key code
   bool control = false, shift = false;
+  bool repeats = false;  ///< while the key is held
 };
 
 std::span<const ActionInfo> actions();

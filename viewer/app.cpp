@@ -8,6 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "edits.h"
 #include "glint/image/error.h"
 #include "interface.h"
 #include "materials.h"
@@ -41,8 +42,23 @@ App::~App() {
   if (loading_.valid()) loading_.wait();
 }
 
+// The animation goes on; at its end it begins again.
+void App::advance(double passed) {
+  if (!session_.playing) return;
+  const double duration =
+      session_.model ? animationDuration(session_.model->scene, session_.document.a) : 0;
+  if (!(duration > 0)) {
+    session_.playing = false;
+    return;
+  }
+  double& time = session_.document.a.animationTime.emplace(
+      session_.document.a.animationTime.value_or(0) + std::min(passed, 0.25));
+  time = std::round(std::fmod(time, duration) * 1000) / 1000;
+  lastScroll_ = Clock::now();  // moves, as under a hand
+}
+
 bool App::gestureActive() const {
-  return ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() ||
+  return session_.playing || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() ||
          seconds(Clock::now() - lastScroll_) < 0.3;
 }
 
@@ -97,6 +113,7 @@ bool App::somethingDue() {
     quit();
     due = true;
   }
+  if (session_.playing) due = true;
   if (shownResult_.request.preview && seconds(now - lastChange_) >= restAfter) due = true;
   if (recovery_.waiting())
     recovery_.keep(session_.document.a, session_.unsaved(),
@@ -115,7 +132,7 @@ void App::run() {
     window_.resize(glm::ivec2(glm::dvec2(session_.document.a.resolution + chrome) / ratio_));
   }
   if (options_.model.empty()) offerRecovered();
-  auto lastFrame = Clock::now();
+  auto lastFrame = Clock::now(), lastAdvance = lastFrame;
   const auto frame = [&](bool draw) {
     const auto now = Clock::now();
     interface.begin(seconds(now - lastFrame));
@@ -126,9 +143,10 @@ void App::run() {
     session_.history.settle(session_.document, gestureActive());
   };
   while (!quitting_) {
-    const double patience = shownResult_.request.preview ? restAfter
-                            : recovery_.waiting()        ? 0.2
-                                                         : 0.5;
+    const double patience = session_.playing               ? 0.01
+                            : shownResult_.request.preview ? restAfter
+                            : recovery_.waiting()          ? 0.2
+                                                           : 0.5;
     const bool happened = window_.wait(patience);
     if (!(somethingDue() || happened)) continue;
 
@@ -145,7 +163,8 @@ void App::run() {
     frame(false);
     layout();
     const auto before = Clock::now();
-    followPose();
+    advance(seconds(before - lastAdvance));
+    lastAdvance = before;
     updatePicture();
     const double waited = seconds(Clock::now() - before);
     frame(true);
@@ -194,13 +213,15 @@ void App::key(const InputEvent& e) {
       execute(Action::quit);
     return;
   }
-  if (e.code == GLFW_KEY_F1) return execute(Action::help);
+  if (e.code == GLFW_KEY_F1 || (e.code == GLFW_KEY_H && !control && !shift))
+    return execute(Action::help);
   if (control && !shift && e.code == GLFW_KEY_Y) return execute(Action::redo);
   for (const ActionInfo& info : actions()) {
     if (info.command == Action::help) continue;  // comes as a character, on any keyboard
     if (info.key == e.code && info.control == control && info.shift == shift) {
-      const bool repeats = info.command == Action::undo || info.command == Action::redo;
-      if (!e.repeated || repeats) execute(info.command);
+      if (!e.repeated || info.repeats) execute(info.command);
+      // As under a hand: one step of undo.
+      if (e.repeated && info.repeats) lastScroll_ = Clock::now();
       return;
     }
   }
@@ -258,8 +279,9 @@ void App::helpWindow() {
   ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x / 2, io.DisplaySize.y / 2), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   const float font = ImGui::GetFontSize();
-  ImGui::SetNextWindowSize(ImVec2(std::min(font * 62, io.DisplaySize.x * 0.96f),
-                                  std::min(font * 52, io.DisplaySize.y * 0.96f)));
+  const float width = std::min(font * 90, io.DisplaySize.x * 0.96f);
+  const bool wide = width > font * 75;
+  ImGui::SetNextWindowSize(ImVec2(width, std::min(font * 54, io.DisplaySize.y * 0.96f)));
   ImGui::Begin("Keys and mouse", &helpShown_,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
   const auto line = [&](const std::string& key, std::string_view text) {
@@ -267,7 +289,7 @@ void App::helpWindow() {
     ImGui::SameLine(font * 9);
     ImGui::TextWrapped("%s", std::string(text).c_str());
   };
-  ImGui::Columns(2, "keys", false);
+  ImGui::Columns(wide ? 3 : 2, "keys", false);
   ImGui::TextDisabled("Mouse over the picture");
   line("left drag", "turn the camera about what it looks at");
   line("middle drag", "move the camera sideways (also Shift + left)");
@@ -282,7 +304,8 @@ void App::helpWindow() {
   std::string_view section;
   for (const ActionInfo& info : actions()) {
     if (info.section != section) {
-      if (info.section == "Camera") ImGui::NextColumn();
+      if (info.section == (wide ? "Edit" : "Shading") || (wide && info.section == "Camera"))
+        ImGui::NextColumn();
       ImGui::Spacing();
       section = info.section;
       ImGui::TextDisabled("%s", std::string(section).c_str());
@@ -309,6 +332,7 @@ void App::buildInterface() {
     context.preview = shownResult_.request.preview;
     context.comparison = comparisonText();
     context.probeShown = &probeShown_;
+    session_.plotShown = false;
     context.probe = probe_ ? &*probe_ : nullptr;
     context.uiMilliseconds = uiMilliseconds_;
     context.run = [this](Action c) { execute(c); };

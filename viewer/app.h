@@ -61,6 +61,7 @@ class App {
   void layout();
   void setTitle();
   void tellLog();
+  void advance(double passed);
   bool gestureActive() const;
 
   // app_view.cpp: the picture as a thing to touch
@@ -81,6 +82,7 @@ class App {
   // app_actions.cpp: what keys and buttons do
   void execute(Action);
   void executeCamera(Action);
+  glm::dmat3 cameraAxes() const;
   void setCompare(CompareMode, bool exact);
   void pick(glm::dvec2 pixel);
   /// Runs something; an error goes to the log.
@@ -93,7 +95,6 @@ class App {
   void open(const std::string& path);
   void load(const std::filesystem::path& path);
   void finishLoading();
-  void followPose();
   void offerRecovered();
   void restore(const Recovered&);
   bool watch();  ///< true if a look was read, or could not be
@@ -110,7 +111,6 @@ class App {
   std::filesystem::path loadingPath_, nextPath_;  ///< nextPath_: to be read after that
   std::optional<Recovered> restoring_;            ///< once its model is there
   bool offered_ = false;
-  PoseRequest triedPose_;  ///< of the last attempt to read
 
   PaintResult shownResult_;     ///< what the screen is composed from
   std::optional<Look> failed_;  ///< could not be drawn; not tried again until it changes

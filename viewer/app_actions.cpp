@@ -2,7 +2,9 @@
 
 #include "app.h"
 #include "camera_control.h"
+#include "edits.h"
 #include "glint/image/error.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 #include "materials.h"
 
@@ -39,11 +41,16 @@ void App::pick(glm::dvec2 pixel) {
   });
 }
 
+glm::dmat3 App::cameraAxes() const {
+  return shownResult_.a ? shownResult_.a->list.camera.axes : glm::dmat3(1.0);
+}
+
 void App::execute(Action command) {
   Document& d = session_.document;
   const auto key = [&] {
     return session_.model ? materialKey(session_.model->scene, session_.material) : std::string();
   };
+  if (edit(session_, command, cameraAxes())) return;
   executeCamera(command);
   const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
   const auto overlay = [&](Overlay which) {
@@ -61,6 +68,18 @@ void App::execute(Action command) {
     case Action::tabInfo:
       options_.settings.panel = true;
       session_.wantedTab = int(command) - int(Action::tabShading);
+      break;
+    case Action::nextPlot:
+    case Action::previousPlot: {
+      const int step = command == Action::nextPlot ? 1 : plotCount - 1;
+      if (session_.plotShown) session_.plot = PlotView((int(session_.plot) + step) % plotCount);
+      options_.settings.panel = session_.plotWanted = true;
+      session_.wantedTab = 0;
+      break;
+    }
+    case Action::findMaterial:
+      options_.settings.panel = session_.findWanted = true;
+      session_.wantedTab = 0;
       break;
     case Action::togglePanel:
       options_.settings.panel = !options_.settings.panel;
@@ -130,13 +149,6 @@ void App::execute(Action command) {
           session_.say("pasted");
         });
       break;
-    case Action::resetMaterial:
-      resetMaterial(d.a, key());
-      break;
-    case Action::nextProgram:
-      d.a.shading = Shading((int(d.a.shading) + 1) % (int(Shading::automatic) + 1));
-      session_.say("program " + std::string(shadingName(d.a.shading)));
-      break;
     case Action::keepAsB:
       d.b = d.a;
       d.exact = false;
@@ -163,6 +175,12 @@ void App::execute(Action command) {
       break;
     case Action::compareOff:
       d.compare = CompareMode::off;
+      break;
+    case Action::stronger:
+    case Action::weaker:
+      d.amplification =
+          std::clamp(d.amplification * (command == Action::stronger ? 2 : 0.5), 1.0, 256.0);
+      session_.say("difference x " + numberText(d.amplification));
       break;
     case Action::copyPixel:
       if (probe_) {

@@ -14,10 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool samePose(const PoseRequest& a, const PoseRequest& b) {
-  return a.time == b.time && a.animation == b.animation;
-}
-
 FileState stateOfFolder(const fs::path& folder) {
   FileState all;
   std::error_code error;
@@ -38,8 +34,8 @@ void App::load(const fs::path& path) {
   }
   loadingPath_ = path;
   modelState_ = stateOf(path);
-  const PoseRequest pose = poseOf(session_.document.a);
-  triedPose_ = pose;
+  const bool another = session_.model && session_.model->path != path;
+  const PoseRequest pose = another ? PoseRequest{} : poseOf(session_.document.a);
   loading_ = std::async(std::launch::async, [path, pose] {
     struct Wake {
       ~Wake() { Window::wake(); }
@@ -48,30 +44,18 @@ void App::load(const fs::path& path) {
   });
 }
 
-// The look may ask for another moment of the animation than the model was read in.
-void App::followPose() {
-  if (!session_.model || loading_.valid()) return;
-  const PoseRequest wanted = poseOf(session_.document.a);
-  if (samePose(wanted, session_.model->pose) || samePose(wanted, triedPose_)) return;
-  load(session_.model->path);
-}
-
 void App::finishLoading() {
   attempt([&] {
-    std::shared_ptr<Model> model = loading_.get();
-    const bool posed = session_.model && session_.model->path == model->path &&
-                       !samePose(session_.model->pose, model->pose);
-    session_.take(std::move(model));
+    const std::size_t before = session_.log.size();
+    session_.take(loading_.get());
     painter_->setModel(session_.model);
     reference_->stop();
-    if (!posed) shownResult_ = {};  // else the old pose is seen until the new one is drawn
-    shownResult_.request = {};
+    shownResult_ = {};
     requested_.reset();
     failed_.reset();
     probe_.reset();
     screenStale_ = probeStale_ = true;
-    if (posed) return;
-    const std::size_t warnings = session_.model->scene.warnings.size();
+    const std::size_t warnings = session_.log.size() - before;
     session_.say("read " + session_.model->path.string() +
                  (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
   });

@@ -95,6 +95,7 @@ void App::receive(PaintResult result) {
     else
       pace_.drewWhole(result.a->milliseconds, result.a->times.compile > 1);
   }
+  if (result.model && result.model != session_.model) session_.takePose(result.model);
   shownResult_ = std::move(result);
   screenStale_ = probeStale_ = true;
 }
@@ -143,7 +144,8 @@ void App::composeScreen() {
   if (exact && document.compare == CompareMode::difference && reference && rows > 0)
     pixels = errorMap(a.linear, reference->linear, rows);
   else
-    pixels = compose(pictureA, pictureB.codes ? &pictureB : nullptr, document, a.look.noBackground);
+    pixels = compose(pictureA, pictureB.codes ? &pictureB : nullptr, document,
+                     a.look.noBackground || (shownResult_.b && shownResult_.b->look.noBackground));
   if (pictureB.codes && !exact) difference_ = compareNumbers(pictureA, pictureB);
   if (session_.overlay == Overlay::clipped) {
     const std::size_t marked = markClipped(pixels, a.linear, a.look.exposure);
@@ -179,7 +181,7 @@ void App::updateProbe() {
     }
     const Image* plain = shownResult_.plain ? &shownResult_.plain->linear : nullptr;
     if (a.look.antiAliasing.mode == AntiAliasing::Mode::none) plain = &a.linear;
-    probe_ = probePixel({model.scene, model.images, model.bounds, *model.picker, a.list}, a.look,
+    probe_ = probePixel({model.scene, *model.images, model.bounds, *model.picker, a.list}, a.look,
                         a.linear, plain, at);
     if (probe_->hit) session_.hovered = probe_->hit->material;
   });

@@ -114,6 +114,8 @@ std::string App::comparisonText() const {
     std::string all = text;
     if (errors_.edges > 0)
       all += ", " + std::to_string(errors_.edges) + " pixels at edges left out";
+    else if (exact->edges.empty())
+      all += ", pixels at edges among them";
     if (errors_.notFinite > 0)
       all += ", " + std::to_string(errors_.notFinite) + " pixels not finite";
     if (rows < exact->linear.height)
@@ -162,7 +164,7 @@ void App::drawOverPicture() {
     }
     write(10 * s, size.y - ImGui::GetTextLineHeight() - 8 * s, text);
   }
-  if (exact && document.compare == CompareMode::difference) {
+  if (exact && document.compare == CompareMode::difference && shownResult_.a) {
     const float left = 10 * s, width = 180 * s, top = 8 * s, height = 10 * s;
     draw->AddRectFilled(
         ImVec2(left - 6 * s, top - 4 * s),

@@ -170,12 +170,13 @@ Ray rayThrough(const Camera& camera, glm::dvec2 pixel, glm::ivec2 resolution) {
   const glm::dvec2 at = pixel / glm::dvec2(resolution) * 2.0 - 1.0;
   const glm::dvec2 reach(camera.halfHeight * camera.aspect, camera.halfHeight);
   const glm::dvec2 offset = glm::dvec2(at.x, -at.y) * reach;
+  const double width = 2 * camera.halfHeight / resolution.y;
   if (camera.orthographic) {
     // From far enough back that the whole scene lies ahead.
     const glm::dvec3 eye = camera.eye + camera.axes[2] * (camera.far - camera.near);
-    return {eye + camera.axes[0] * offset.x + camera.axes[1] * offset.y, -camera.axes[2]};
+    return {eye + camera.axes[0] * offset.x + camera.axes[1] * offset.y, -camera.axes[2], width, 0};
   }
-  return {camera.eye, glm::normalize(camera.axes * glm::dvec3(offset, -1.0))};
+  return {camera.eye, glm::normalize(camera.axes * glm::dvec3(offset, -1.0)), 0, width};
 }
 
 }  // namespace glint

@@ -48,9 +48,11 @@ void fit(Look&, const Scene&, const Bounds&);
 /// The framing that a scene has without camera options.
 void resetCamera(Look&);
 
-/// A half-line in world space; the direction is unit.
+/// A half-line in world space; the direction is unit. Around it stands a pixel: at the distance t,
+/// its width is width + spread t.
 struct Ray {
   glm::dvec3 origin{0.0}, direction{0, 0, -1};
+  double width = 0, spread = 0;
 };
 
 /// The ray through a point of the picture, in pixels from the upper left corner (pixel centres at

@@ -29,6 +29,7 @@ bool leavesOpen(const Look& look) {
 Look withChoice(Look look, const ResolvedLook& chosen) {
   look.shading = chosen.look.shading;
   if (!std::exchange(look.maxError, std::nullopt)) return look;
+  look.costTable.clear();
   look.highlight = chosen.look.highlight;
   look.fresnel = chosen.look.fresnel;
   for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();

@@ -53,13 +53,23 @@ void dropEmpty(Look& look) {
 
 }  // namespace
 
-void dropMissing(Look& look, const Scene& scene) {
+std::string dropMissing(Look& look, const Scene& scene) {
+  std::string missing;
+  const auto add = [&](const std::string& what) {
+    missing += (missing.empty() ? "" : ", ") + what;
+  };
   std::erase_if(look.material, [&](const auto& each) {
-    return !each.first.empty() && std::ranges::none_of(scene.materials, [&](const Material& m) {
-      return m.name == each.first;
-    });
+    const bool there = each.first.empty() ||
+                       std::ranges::any_of(scene.materials,
+                                           [&](const Material& m) { return m.name == each.first; });
+    if (!there) add("material '" + each.first + "'");
+    return !there;
   });
-  if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) look.cameraIndex.reset();
+  if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) {
+    add("camera " + std::to_string(*look.cameraIndex));
+    look.cameraIndex.reset();
+  }
+  return missing;
 }
 
 void resetParameter(Look& look, const std::string& key, const MaterialParameter& p) {

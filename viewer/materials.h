@@ -29,8 +29,9 @@ ShadingParameters effectiveParameters(const Scene&, const Look&, int index);
 /// Sets all parameters of a material.
 void setParameters(Look&, const std::string& key, const ShadingParameters&);
 
-/// Takes out of a look what it says of materials and cameras that the scene does not have.
-void dropMissing(Look&, const Scene&);
+/// Takes out of a look what it says of materials and cameras that the scene does not have. Returns
+/// what that was, for a message; empty if nothing.
+std::string dropMissing(Look&, const Scene&);
 
 /// Takes back one edit, or all; for "" those of every material.
 void resetParameter(Look&, const std::string& key, const MaterialParameter&);

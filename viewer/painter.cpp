@@ -10,10 +10,36 @@
 
 namespace glint {
 
-struct Painter::Objects {
+namespace {
+
+// A model in the pose that was drawn last, in the driver's memory.
+struct PosedScene {
   std::shared_ptr<const Model> model;
-  std::unique_ptr<Renderer> renderer;
   std::unique_ptr<GpuScene> scene;
+
+  explicit operator bool() const { return scene != nullptr; }
+
+  void begin(std::shared_ptr<const Model> with) {
+    scene.reset();  // refers to the old model
+    model = std::move(with);
+    if (model) scene = std::make_unique<GpuScene>(model->scene, *model->images);
+  }
+
+  // Throws InputError for a pose that the file does not have.
+  void pose(const Look& look) {
+    const auto next = posed(model, glint::poseOf(look));
+    if (next == model) return;
+    scene->pose(next->scene, changedMeshes(*model, *next));
+    model = next;
+  }
+};
+
+}  // namespace
+
+struct Painter::Objects {
+  std::unique_ptr<Renderer> renderer;
+  PosedScene first;
+  PosedScene second;  ///< of B, where that has a pose of its own
   std::unique_ptr<OverlayDrawer> overlay;
   Chooser chooser;
   SharedPicture a, b, plain;
@@ -55,10 +81,9 @@ void Painter::setModel(std::shared_ptr<const Model> model) {
     o.b.reset();
     o.plain.reset();
     o.layer.reset();
-    o.scene.reset();
     o.chooser.forget();
-    o.model = model;
-    if (model) o.scene = std::make_unique<GpuScene>(model->scene, model->images);
+    o.second = {};
+    o.first.begin(model);
   });
 }
 
@@ -76,19 +101,21 @@ void Painter::request(PaintRequest request) {
 
 void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, int model) {
   Objects& o = *objects_;
-  if (!o.scene) return;
+  if (!o.first) return;
   PaintResult result;
   result.request = request;
-  const auto drawn = [&](SharedPicture& kept, const Look& look) {
+  const auto drawn = [&](SharedPicture& kept, const Look& look, PosedScene& posed) {
     const auto start = std::chrono::steady_clock::now();
+    posed.pose(look);
+    const Model& its = *posed.model;
     const auto choice =
-        o.chooser.choose(o.model->scene, o.model->bounds, look, request.size, request.preview);
+        o.chooser.choose(its.scene, its.bounds, look, request.size, request.preview);
     const std::chrono::duration<double, std::milli> choosing =
         std::chrono::steady_clock::now() - start;
     const auto fits = [&] { return kept && kept->asked == look && kept->choice == choice; };
     if (!fits()) {
       auto picture =
-          drawPicture(*o.renderer, *o.scene, o.model->bounds, withChoice(look, *choice), stop);
+          drawPicture(*o.renderer, *posed.scene, its.bounds, withChoice(look, *choice), stop);
       if (picture) {
         picture->asked = look;
         picture->choice = choice;
@@ -99,16 +126,21 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
     return !stop && fits() ? kept : nullptr;
   };
   try {
-    if (!(result.a = drawn(o.a, request.a))) return;
-    if (request.b && !(result.b = drawn(o.b, *request.b))) return;
-    if (request.plain && !(result.plain = drawn(o.plain, *request.plain))) return;
+    if (!(result.a = drawn(o.a, request.a, o.first))) return;
+    result.model = o.first.model;
+    if (request.b) {
+      const bool samePlace = samePose(glint::poseOf(*request.b), glint::poseOf(request.a));
+      if (!samePlace && !o.second) o.second.begin(o.first.model);
+      if (!(result.b = drawn(o.b, *request.b, samePlace ? o.first : o.second))) return;
+    }
+    if (request.plain && !(result.plain = drawn(o.plain, *request.plain, o.first))) return;
     const bool laid = request.overlay == Overlay::wireframe ||
                       request.overlay == Overlay::normals || request.overlay == Overlay::facing;
     if (laid) {
       if (!o.layer || o.layerKind != request.overlay || o.layerLook != request.a) {
         if (!o.overlay) o.overlay = std::make_unique<OverlayDrawer>();
         o.layer = std::make_shared<const std::vector<std::uint8_t>>(
-            o.overlay->draw(*o.scene, result.a->list, request.overlay, request.a.resolution));
+            o.overlay->draw(*o.first.scene, result.a->list, request.overlay, request.a.resolution));
         o.layerKind = request.overlay;
         o.layerLook = request.a;
       }
@@ -172,8 +204,11 @@ void Painter::save(const Look& look, const std::string& path, Done done) {
     std::string text;
     try {
       Objects& o = *objects_;
-      if (!o.scene) throw InputError("there is no picture to save: open a model");
-      writePicture(*o.renderer, *o.scene, o.model->bounds, look, o.model->path.string(), path);
+      PosedScene& posed = o.first;
+      if (!posed) throw InputError("there is no picture to save: open a model");
+      posed.pose(look);
+      writePicture(*o.renderer, *posed.scene, posed.model->bounds, look, posed.model->path.string(),
+                   path);
     } catch (const std::exception& error) {
       text = error.what();
     }
@@ -191,10 +226,11 @@ void Painter::reload(const std::filesystem::path& glsl, const Look& trial, Done 
     try {
       Objects& o = *objects_;
       auto fresh = std::make_unique<Renderer>(GlslSources(glsl));
-      if (o.scene) {
-        const Bounds& bounds = o.model->bounds;
-        const Look look = resolveLook(o.model->scene, bounds, trial).look;
-        (void)drawPicture(*fresh, *o.scene, bounds, look, stop);
+      if (o.first) {
+        o.first.pose(trial);
+        const Bounds& bounds = o.first.model->bounds;
+        const Look look = resolveLook(o.first.model->scene, bounds, trial).look;
+        (void)drawPicture(*fresh, *o.first.scene, bounds, look, stop);
       }
       o.renderer = std::move(fresh);
       o.a.reset();

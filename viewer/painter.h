@@ -35,21 +35,24 @@ using Layer = std::shared_ptr<const std::vector<std::uint8_t>>;
 /// What came of a request. Pictures that were drawn before are given again.
 struct PaintResult {
   PaintRequest request;
+  std::shared_ptr<const Model> model;  ///< in the pose that A asks for; null if it has none
   SharedPicture a, b, plain;
   Layer overlay;
   std::string error;  ///< empty if all is there
 };
 
 /// Draws pictures with a GL context and a thread of its own, by the same renderer as `glint
-/// render`, so that neither compiling nor a large picture holds up the window. What is drawn is
-/// read back in any case: pictures are values, and the window's own context only shows them.
+/// render`, each look with the model in the pose that it asks for, so that neither compiling nor a
+/// large picture holds up the window. What is drawn is read back in any case: pictures are values,
+/// and the window's own context only shows them.
 class Painter {
  public:
   /// On the main thread, as the window. `wake` is called when something is ready.
   Painter(const Window&, const std::filesystem::path& glsl, std::function<void()> wake);
   ~Painter();
 
-  /// Draws this model from now on; results of other models are not given any more.
+  /// Draws this model, in whatever pose, from now on; results of other models are not given any
+  /// more.
   void setModel(std::shared_ptr<const Model>);
 
   /// Asks for pictures in place of those asked for before.

@@ -4,8 +4,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "camera_control.h"
+#include "edits.h"
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "materials.h"
@@ -52,15 +54,32 @@ void materialList(Session& session) {
   static std::string filter;
   const Scene& scene = session.model->scene;
   const std::vector<int> drawn = drawnMaterials(scene);
-  if (drawn.size() > 8) {
+  static bool finding = false;
+  const bool begins = std::exchange(session.findWanted, false);
+  finding = finding || begins;
+  if (drawn.size() > 8 || finding || !filter.empty()) {
+    if (begins) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##find", "find a material by name", &filter);
-  } else {
-    filter.clear();
+    if (ImGui::InputTextWithHint("##find", "find a material by name", &filter,
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+      const auto first = std::ranges::find_if(drawn, [&](int index) {
+        return materialLabel(scene, index).find(filter) != std::string::npos;
+      });
+      if (first != drawn.end()) {
+        session.material = *first;
+        session.say("selected " + materialLabel(scene, *first));
+      } else {
+        session.say("no material has '" + filter + "' in its name");
+      }
+      filter.clear();
+    }
+    if (ImGui::IsItemDeactivated()) finding = false;
   }
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float lines = float(std::clamp<std::size_t>(drawn.size() + 1, 2, 6));
   if (!ImGui::BeginListBox("##materials", ImVec2(-1, line * lines + 4 * style().scale))) return;
+  static int shown =
+      -1;  // the one selected when the list was drawn last: another one is scrolled to
   const auto entry = [&](int index) {
     const std::string name = materialLabel(scene, index);
     if (!filter.empty() && index >= 0 && name.find(filter) == std::string::npos) return;
@@ -69,10 +88,12 @@ void materialList(Session& session) {
     if (session.hovered == index)
       ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 214, 120, 255));
     if (ImGui::Selectable(text.c_str(), session.material == index)) session.material = index;
+    if (session.material == index && index != shown) ImGui::SetScrollHereY();
     if (session.hovered == index) ImGui::PopStyleColor();
   };
   entry(-1);
   for (const int index : drawn) entry(index);
+  shown = session.material;
   ImGui::EndListBox();
 }
 
@@ -146,12 +167,14 @@ void materialButtons(PanelContext& context) {
   ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("##preset", "Preset", ImGuiComboFlags_HeightLarge)) {
     std::string_view group;
+    const int now =
+        presetOf(effectiveParameters(session.model->scene, session.document.a, session.material));
     for (const Preset& preset : presets()) {
       if (preset.group != group) {
         group = preset.group;
         ImGui::TextDisabled("%s", std::string(group).c_str());
       }
-      if (ImGui::Selectable(std::string(preset.name).c_str()))
+      if (ImGui::Selectable(std::string(preset.name).c_str(), &preset - presets().data() == now))
         setParameters(session.document.a, materialKey(session.model->scene, session.material),
                       presetParameters(preset));
     }
@@ -159,7 +182,9 @@ void materialButtons(PanelContext& context) {
   }
   widgets::tooltip(
       "a material from the classic published tables (teapots.c, Silicon Graphics), in the notes' "
-      "parameters");
+      "parameters (" +
+      keyText(infoOf(Action::nextPreset)) + " the next, " +
+      keyText(infoOf(Action::previousPreset)) + " the previous)");
   ImGui::SameLine();
   actionButton(context, Action::copyMaterial, "Copy", width);
   ImGui::SameLine();
@@ -181,7 +206,12 @@ void drawShadingTab(PanelContext& context) {
       continue;
     }
     drawParameter(session, p);
-    if (p.name == "max-error") drawChoice(context);
+    if (p.name != "max-error") continue;
+    drawChoice(context);
+    if (look.shading != Shading::automatic || look.maxError) continue;
+    const std::string key = keyText(infoOf(Action::maxError));
+    ImGui::TextWrapped("auto chooses by the error that is allowed: tick max error (%s)",
+                       key.c_str());
   }
   ImGui::Separator();
   if (!session.model) return;
@@ -261,6 +291,43 @@ void drawCameraTab(PanelContext& context) {
   }
 }
 
+namespace {
+
+void drawAnimation(PanelContext& context) {
+  Session& session = context.session;
+  Look& look = session.document.a;
+  const Scene& scene = session.model->scene;
+  ImGui::TextDisabled("Animation");
+  for (const Parameter& p : lookParameters()) {
+    if (p.section != "Animation") continue;
+    if (p.name == "animation-time") {
+      Parameter time = p;  // as long as this animation is
+      time.slider.max = std::max(animationDuration(scene, look), 0.001);
+      drawParameter(session, time);
+      continue;
+    }
+    widgets::label(p.name, !look.animation.empty());
+    const auto label = [&](std::size_t i) {
+      const std::string& name = scene.animations[i].name;
+      return std::to_string(i) + (name.empty() ? "" : "  " + name);
+    };
+    std::size_t now = 0;
+    for (std::size_t i = 0; i < scene.animations.size(); ++i)
+      if (look.animation == std::to_string(i) || look.animation == scene.animations[i].name)
+        now = i;
+    if (ImGui::BeginCombo("##animation", label(now).c_str())) {
+      for (std::size_t i = 0; i < scene.animations.size(); ++i)
+        if (ImGui::Selectable(label(i).c_str(), i == now) && i != now)
+          look.animation = std::to_string(i);
+      ImGui::EndCombo();
+    }
+    widgets::tooltip(p.help + " (" + keyText(infoOf(Action::nextAnimation)) + ")");
+  }
+  actionButton(context, Action::play, session.playing ? "Stop" : "Play", -1);
+}
+
+}  // namespace
+
 void drawPictureTab(PanelContext& context) {
   Session& session = context.session;
   static glm::ivec2 typed{0};
@@ -275,7 +342,7 @@ void drawPictureTab(PanelContext& context) {
   drawSection(context, "Picture", {"resolution"});
   if (session.model && !session.model->scene.animations.empty()) {
     ImGui::Separator();
-    drawSection(context, "Animation");
+    drawAnimation(context);
   }
   ImGui::Separator();
   const float gap = ImGui::GetStyle().ItemSpacing.x;

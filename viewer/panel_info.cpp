@@ -46,7 +46,9 @@ void surfaceRows(const Session& session, const Probe& probe) {
   vectorRow("C", probe.color);
   if (probe.alpha != 1) row("alpha", "%.5f", probe.alpha);
   if (probe.N == glm::dvec3(0.0)) {
-    ImGui::TextDisabled("unlit: shows C");
+    ImGui::TextDisabled("%s: shows C", probe.hit->topology == Topology::points  ? "a point"
+                                       : probe.hit->topology == Topology::lines ? "a line"
+                                                                                : "unlit");
     return;
   }
   vectorRow("N", probe.N);
@@ -195,9 +197,6 @@ void drawCompareTab(PanelContext& context) {
                        b.is_null() ? "-" : b.dump().c_str());
   }
   if (!any) ImGui::TextUnformatted("nothing: A and B are the same look");
-  if (document.a.animationTime != document.b->animationTime ||
-      document.a.animation != document.b->animation)
-    ImGui::TextWrapped("B is drawn in A's moment of the animation.");
 }
 
 void drawInfoTab(PanelContext& context) {
@@ -211,13 +210,18 @@ void drawInfoTab(PanelContext& context) {
   }
   if (session.model && ImGui::CollapsingHeader("Model", ImGuiTreeNodeFlags_DefaultOpen)) {
     const Scene& scene = session.model->scene;
-    std::size_t triangles = 0;
+    std::size_t triangles = 0, lines = 0, points = 0;
     for (const Instance& i : scene.instances) {
       const Mesh& mesh = scene.meshes[std::size_t(i.mesh)];
-      if (mesh.topology == Topology::triangles) triangles += mesh.indices.size() / 3;
+      std::size_t& count = mesh.topology == Topology::triangles ? triangles
+                           : mesh.topology == Topology::lines   ? lines
+                                                                : points;
+      count += mesh.indices.size() / cornersOf(mesh.topology);
     }
     ImGui::TextWrapped("%s", session.model->path.string().c_str());
     row("triangles", "%zu", triangles);
+    if (points > 0) row("points", "%zu", points);
+    if (lines > 0) row("lines", "%zu", lines);
     row("pieces", "%zu", scene.instances.size());
     row("radius", "%.5g", session.model->bounds.radius);
     vectorRow("centre", session.model->bounds.center);

@@ -213,8 +213,8 @@ void lobePlots(Settings& settings, const SumInput& input, const std::string& for
   differencePlot(plot.chosen, plot.exact, plot.largestDifference, {-90, -45, 0, 45, 90});
 }
 
-void fresnelPlots(const std::string& form, double n1, double n2, double schlickExponent) {
-  static bool inside = false;
+void fresnelPlots(bool& inside, const std::string& form, double n1, double n2,
+                  double schlickExponent) {
   if (ImGui::RadioButton("entering", !inside)) inside = false;
   ImGui::SameLine();
   if (ImGui::RadioButton("leaving", inside)) inside = true;
@@ -266,10 +266,27 @@ void widthPlots(double exponent) {
   legend(chosenColor, "across it");
 }
 
+// A plot that a key has asked for is opened, the others are closed.
+void openWanted(const Session& session, bool mine) {
+  if (session.plotWanted) ImGui::SetNextItemOpen(mine);
+}
+
+// And seen as a whole.
+void seeWanted(const Session& session, bool mine) {
+  if (session.plotWanted && mine) ImGui::SetScrollHereY(1);
+}
+
 }  // namespace
 
 void drawPlots(PanelContext& context) {
-  const Session& session = context.session;
+  Session& session = context.session;
+  session.plotShown = true;
+  const PlotView plot = session.plot;
+  const bool lobe = plot == PlotView::lobe || plot == PlotView::lobeOverAngle;
+  const bool fresnel = plot == PlotView::fresnel || plot == PlotView::fresnelLeaving;
+  if (session.plotWanted && lobe) context.settings.polar = plot == PlotView::lobe;
+  static bool inside = false;
+  if (session.plotWanted && fresnel) inside = plot == PlotView::fresnelLeaving;
   Look look = session.document.a;
   const DrawnPicture* picture = context.picture;
   if (leavesOpen(look) && picture && leavesOpen(picture->asked))
@@ -282,17 +299,24 @@ void drawPlots(PanelContext& context) {
   input.blinnFactor = look.blinnFactor;
   input.blinn = usesBlinn(look.shading);
   input.highlight = highlightText(highlightOf(material, look).brightest);
+  openWanted(session, lobe);
   if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
                               ImGuiTreeNodeFlags_DefaultOpen))
     lobePlots(context.settings, input, input.highlight);
+  seeWanted(session, lobe);
   const bool fresnelOpen = look.shading == Shading::environment;
   ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
+  openWanted(session, fresnel);
   if (ImGui::CollapsingHeader("Fresnel reflectance"))
-    fresnelPlots(std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior,
+    fresnelPlots(inside, std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior,
                  look.schlickExponent);
+  seeWanted(session, fresnel);
+  openWanted(session, plot == PlotView::widths);
   if (ImGui::CollapsingHeader(style().greek ? "\u03b1'/\u03b1 of equally wide highlights###width"
                                             : "a'/a of equally wide highlights###width"))
     widthPlots(s.exponent);
+  seeWanted(session, plot == PlotView::widths);
+  session.plotWanted = false;
 }
 
 }  // namespace glint

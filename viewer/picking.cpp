@@ -30,21 +30,66 @@ bool meets(const glm::dvec3& origin, const glm::dvec3& inverse, const glm::vec3&
 }  // namespace
 
 Picker::Picker(const Scene& scene) {
-  for (const Mesh& mesh : scene.meshes) {
-    auto& chunks = chunks_.emplace_back();
-    if (mesh.topology != Topology::triangles) continue;
-    for (std::size_t first = 0; first < mesh.indices.size(); first += 3 * chunkSize) {
-      Chunk chunk{glm::vec3(std::numeric_limits<float>::infinity()),
-                  glm::vec3(-std::numeric_limits<float>::infinity())};
-      const std::size_t end = std::min(first + 3 * chunkSize, mesh.indices.size());
-      for (std::size_t i = first; i < end; ++i) {
-        chunk.low = glm::min(chunk.low, mesh.positions[mesh.indices[i]]);
-        chunk.high = glm::max(chunk.high, mesh.positions[mesh.indices[i]]);
-      }
-      chunks.push_back(chunk);
-    }
-  }
+  for (const Mesh& mesh : scene.meshes) chunks_.push_back(chunksOf(mesh));
 }
+
+void Picker::update(const Scene& scene, std::span<const int> meshes) {
+  chunks_.resize(scene.meshes.size());
+  for (const int mesh : meshes)
+    chunks_[std::size_t(mesh)] = chunksOf(scene.meshes[std::size_t(mesh)]);
+}
+
+std::vector<Picker::Chunk> Picker::chunksOf(const Mesh& mesh) {
+  std::vector<Chunk> chunks;
+  if (mesh.topology != Topology::triangles) return chunks;
+  const std::size_t size = 3 * chunkSize;
+  for (std::size_t first = 0; first < mesh.indices.size(); first += size) {
+    Chunk chunk{glm::vec3(std::numeric_limits<float>::infinity()),
+                glm::vec3(-std::numeric_limits<float>::infinity())};
+    const std::size_t end = std::min(first + size, mesh.indices.size());
+    for (std::size_t i = first; i < end; ++i) {
+      chunk.low = glm::min(chunk.low, mesh.positions[mesh.indices[i]]);
+      chunk.high = glm::max(chunk.high, mesh.positions[mesh.indices[i]]);
+    }
+    chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+namespace {
+
+// A point or line that comes nearer to the ray than a pixel's width; world space.
+std::optional<Hit> meetThin(const Scene& scene, const Instance& instance, std::size_t primitive,
+                            const Ray& ray) {
+  const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+  const std::size_t corners = cornersOf(mesh.topology);
+  const auto corner = [&](std::size_t i) {
+    const glm::dvec3 p(mesh.positions[mesh.indices[corners * primitive + i]]);
+    return glm::dvec3(instance.world * glm::dvec4(p + mesh.origin, 1));
+  };
+  const glm::dvec3 from = corner(0), along = corners == 2 ? corner(1) - from : glm::dvec3(0.0);
+  // The place on the line that is nearest to the ray: from + s along, ray at t.
+  const glm::dvec3 across = along - ray.direction * glm::dot(along, ray.direction);
+  const glm::dvec3 way = ray.origin - from;
+  const double square = glm::dot(across, across);
+  const double s = square > 0 ? std::clamp(glm::dot(way, across) / square, 0.0, 1.0) : 0;
+  const glm::dvec3 place = from + s * along;
+  const double t = glm::dot(place - ray.origin, ray.direction);
+  if (!(t > 0) ||
+      !(glm::length(ray.origin + t * ray.direction - place) <= ray.width + ray.spread * t))
+    return {};
+  Hit hit;
+  hit.mesh = instance.mesh;
+  hit.material = mesh.material;
+  hit.topology = mesh.topology;
+  hit.primitive = primitive;
+  hit.barycentric = {1 - s, s, 0};
+  hit.distance = t;
+  hit.position = place;
+  return hit;
+}
+
+}  // namespace
 
 template <typename Visit>
 void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, double& limit,
@@ -52,8 +97,17 @@ void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, doubl
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
     const Instance& instance = scene.instances[n];
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    if (mesh.topology != Topology::triangles) {
+      const std::size_t count = mesh.indices.size() / cornersOf(mesh.topology);
+      for (std::size_t i = 0; i < count; ++i) {
+        auto hit = meetThin(scene, instance, i, ray);
+        if (!hit || !(hit->distance < limit)) continue;
+        hit->instance = int(n);
+        visit(*hit);
+      }
+      continue;
+    }
     const auto& chunks = chunks_[std::size_t(instance.mesh)];
-    if (chunks.empty()) continue;
     const glm::dmat3 linear(instance.world);
     const double determinant = glm::determinant(linear);
     if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) continue;
@@ -89,7 +143,7 @@ void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, doubl
         hit.instance = int(n);
         hit.mesh = instance.mesh;
         hit.material = mesh.material;
-        hit.triangle = t;
+        hit.primitive = t;
         hit.barycentric = {1 - u - v, u, v};
         hit.distance = distance;
         hit.position = ray.origin + ray.direction * distance;
@@ -115,13 +169,13 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
     nearest = hit.distance;
     best = hit;
   });
-  if (best) {
+  if (best && best->topology == Topology::triangles) {
     const Mesh& mesh = scene.meshes[std::size_t(best->mesh)];
     const glm::dmat3 linear(scene.instances[std::size_t(best->instance)].world);
     const glm::dmat3 normals = glm::transpose(glm::inverse(linear));
     glm::dvec3 sum(0.0);
     for (int i = 0; i < 3; ++i) {
-      const std::uint32_t index = mesh.indices[3 * best->triangle + std::size_t(i)];
+      const std::uint32_t index = mesh.indices[3 * best->primitive + std::size_t(i)];
       // Normalised per vertex, then interpolated, as the shaders do.
       sum += best->barycentric[i] * glm::normalize(normals * glm::dvec3(mesh.normals[index]));
     }

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "camera_control.h"
@@ -12,19 +13,27 @@ namespace glint {
 /// Where a ray meets a scene first, in double.
 struct Hit {
   int instance = 0, mesh = 0, material = 0;
-  std::size_t triangle = 0;     ///< its indices begin at 3 * triangle
+  Topology topology = Topology::triangles;
+  std::size_t primitive = 0;    ///< its indices begin at cornersOf(topology) * primitive
   glm::dvec3 barycentric{0.0};  ///< weights of its corners
   double distance = 0.0;        ///< along the ray
   glm::dvec3 position{0.0};     ///< world space
-  glm::dvec3 normal{0, 0, 1};   ///< the interpolated vertex normals, unit, world space
+  glm::dvec3 normal{0, 0, 1};   ///< the interpolated vertex normals, unit, world space; triangles
   bool backFace = false;
 };
 
-/// Finds what a pixel shows: triangles in chunks with boxes around them, tested in double. Faces
-/// that are not drawn (back faces of one-sided materials) are passed through; so is nothing else.
+inline std::size_t cornersOf(Topology topology) {
+  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+}
+
+/// Finds what a pixel shows: triangles in chunks with boxes around them, tested in double, and
+/// points and lines that come nearer to the ray than a pixel's width. Faces that are not drawn
+/// (back faces of one-sided materials) are passed through; so is nothing else.
 class Picker {
  public:
   explicit Picker(const Scene&);
+  /// These meshes have other vertices now.
+  void update(const Scene&, std::span<const int> meshes);
   std::optional<Hit> pick(const Scene&, const Ray&, bool twoSided) const;
   /// Everything that the ray meets, from the nearest; without `normal`.
   std::vector<Hit> pickAll(const Scene&, const Ray&, bool twoSided) const;
@@ -36,6 +45,7 @@ class Picker {
   /// Calls visit(hit) for what lies nearer than `limit`, in no order; visit may lower it.
   template <typename Visit>
   void forEachHit(const Scene&, const Ray&, bool twoSided, double& limit, Visit visit) const;
+  static std::vector<Chunk> chunksOf(const Mesh&);
 
   std::vector<std::vector<Chunk>> chunks_;  // of each mesh
 };

@@ -6,6 +6,7 @@
 
 #include "glint/image/srgb.h"
 #include "glint/render/reference_pixel.h"
+#include "glint/render/reference_raster.h"
 #include "glint/render/reference_renderer.h"
 #include "glint/scene/lights.h"
 #include "glint/shading/fresnel.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::size_t mostLayers = 64;
 
-// The triangles that the ray meets, each a mesh of its own under the transform that it has: all
+// The primitives that the ray meets, each a mesh of its own under the transform that it has: all
 // that the reference needs of the scene for one pixel.
 Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   Scene scene;
@@ -35,10 +36,12 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
     one.normalsMayCancel = mesh.normalsMayCancel;
     one.material = mesh.material;
     one.texcoords.resize(mesh.texcoords.size());
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = mesh.indices[3 * hit.triangle + i];
+    one.topology = mesh.topology;
+    const std::size_t corners = cornersOf(mesh.topology);
+    for (std::size_t i = 0; i < corners; ++i) {
+      const std::uint32_t v = mesh.indices[corners * hit.primitive + i];
       one.positions.push_back(mesh.positions[v]);
-      one.normals.push_back(mesh.normals[v]);
+      if (!mesh.normals.empty()) one.normals.push_back(mesh.normals[v]);
       if (!mesh.tangents.empty()) one.tangents.push_back(mesh.tangents[v]);
       if (!mesh.colors.empty()) one.colors.push_back(mesh.colors[v]);
       for (std::size_t set = 0; set < mesh.texcoords.size(); ++set)
@@ -61,6 +64,16 @@ int itemOf(const DrawList& list, int instance, bool back) {
       return int(i);
   }
   return -1;
+}
+
+// A ray that passes a point or a line need not be in a pixel that shows it. (Of a triangle it is,
+// but on an edge, where the triangle beside it would do as well.)
+bool covers(const reference::Primitive& primitive, const glm::ivec2& grid, glm::ivec2 pixel) {
+  if (primitive.topology == Topology::triangles) return true;
+  bool found = false;
+  reference::forEachSample(primitive, grid, pixel.y, pixel.y + 1,
+                           [&](int column, int) { found = found || column == pixel.x; });
+  return found;
 }
 
 struct LayerValue {
@@ -164,6 +177,8 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
 
 std::string remarkFor(const reference::Stage& stage, const std::vector<LayerValue>& layers) {
   const reference::Item& item = stage.items[std::size_t(layers.front().item)];
+  if (item.mesh->topology != Topology::triangles)
+    return "a point or line: no normal, so that it shows C alone";
   if (layers.front().attributes.edgeDistance < 1.0 / 256)
     return "an edge passes the pixel's centre so closely that the driver may show what is beside "
            "it";
@@ -195,7 +210,8 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
     const int item = itemOf(list, int(k), hits[k].backFace);
     if (item < 0) continue;
     const reference::Item& drawn = stage.items[std::size_t(item)];
-    if (!reference::makePrimitive(drawn, stage.vertices[drawn.vertices], 0)) continue;
+    const auto primitive = reference::makePrimitive(drawn, stage.vertices[drawn.vertices], 0);
+    if (!primitive || !covers(*primitive, stage.grid, pixel)) continue;
     const reference::Attributes a = shader.attributes(item, 0, pixel.x, pixel.y);
     if (drawn.mask && a.base.a < drawn.alphaCutoff) continue;
     const glm::dvec3 radiance = reference::shade(stage.frame, drawn.surface, a).radiance;

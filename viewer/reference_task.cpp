@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "glint/image/error.h"
+#include "glint/render/reference_raster.h"
 #include "glint/render/reference_renderer.h"
 
 namespace glint {
@@ -18,32 +21,50 @@ constexpr int rowsAtOnce = 16;
 // Threads that it starts inherit this: the window comes first.
 void stepBack() { setpriority(PRIO_PROCESS, 0, 10); }
 
-// A surface in front of what is seen at a pixel, an edge of which may reach its sample: the next
-// one across, when that is nearer.
-bool mayCover(const reference::Attributes& next, const reference::Attributes& seen) {
-  constexpr double reach = 1.5, nearer = 1.002;  // samples; depth is 1 at the near plane, 0 far off
-  return next.item >= 0 && next.edgeDistance < reach &&
-         (seen.item < 0 || next.depth > seen.depth * nearer);
+constexpr double snapped = 1.0 / 128;  // samples: twice the grid of 1/256
+
+// Whether a primitive that is seen at the next pixel would, moved by a snap, cover the sample at
+// (x, y), in front of what is seen there.
+bool mayCover(const reference::Primitive& next, double x, double y,
+              const reference::Attributes& seen) {
+  if (next.topology != Topology::triangles) return true;
+  for (const glm::dvec3& edge : next.edges)
+    if (reference::at(edge, x, y) < -snapped * std::hypot(edge.x, edge.y)) return false;
+  return seen.item < 0 || next.footprint(x, y).depth > seen.depth;
 }
 
 // The edges of rows y to y + rows - 1; `around` are the attributes of those and of one row more on
 // either side, where there are any, from row `from`.
-void markEdges(const std::vector<reference::Attributes>& around, int from, int y, int rows,
-               ReferencePicture& picture) {
+void markEdges(const reference::Stage& stage, const std::vector<reference::Attributes>& around,
+               int from, int y, int rows, ReferencePicture& picture) {
   const int width = picture.linear.width;
   const int last = from + int(around.size() / std::size_t(width)) - 1;
   const auto at = [&](int x, int row) -> const reference::Attributes& {
     return around[std::size_t(width) * std::size_t(row - from) + std::size_t(x)];
   };
-  constexpr double snapped = 1.0 / 128;  // twice the grid of 1/256
+  // What is seen at each pixel, where another pixel's sample may be near its edges.
+  std::vector<std::optional<reference::Primitive>> primitives(around.size());
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    if (around[i].item < 0 || around[i].edgeDistance > 1.5) continue;
+    const reference::Item& item = stage.items[std::size_t(around[i].item)];
+    primitives[i] =
+        reference::makePrimitive(item, stage.vertices[item.vertices], around[i].primitive);
+  }
+  const auto same = [](const reference::Attributes& a, const reference::Attributes& b) {
+    return a.item == b.item && a.primitive == b.primitive;
+  };
   for (int row = y; row < y + rows; ++row)
     for (int x = 0; x < width; ++x) {
       const reference::Attributes& seen = at(x, row);
       bool edge = seen.item >= 0 && seen.edgeDistance < snapped;
       for (int dy = -1; dy <= 1 && !edge; ++dy)
-        for (int dx = -1; dx <= 1 && !edge; ++dx)
-          if (row + dy >= from && row + dy <= last && x + dx >= 0 && x + dx < width)
-            edge = mayCover(at(x + dx, row + dy), seen);
+        for (int dx = -1; dx <= 1 && !edge; ++dx) {
+          if (row + dy < from || row + dy > last || x + dx < 0 || x + dx >= width) continue;
+          const reference::Attributes& next = at(x + dx, row + dy);
+          const auto& primitive = primitives[std::size_t(&next - around.data())];
+          edge = primitive && !same(next, seen) &&
+                 mayCover(*primitive, x + 0.5, stage.grid.y - row - 0.5, seen);
+        }
       picture.edges[std::size_t(width) * std::size_t(row) + std::size_t(x)] = edge;
     }
 }
@@ -52,7 +73,7 @@ void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>
           const std::function<void()>& progressed) {
   using Clock = std::chrono::steady_clock;
   const int threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);
-  ReferenceRenderer renderer(model.scene, model.images, model.bounds, picture.look, threads);
+  ReferenceRenderer renderer(model.scene, *model.images, model.bounds, picture.look, threads);
   Image band;
   auto told = Clock::now();
   const int height = picture.linear.height;
@@ -62,7 +83,7 @@ void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>
     std::ranges::copy(band.values, picture.linear.row(y));
     if (!picture.edges.empty()) {
       const int from = std::max(0, y - 1), end = std::min(height, y + rows + 1);
-      markEdges(renderer.attributes(from, end - from), from, y, rows, picture);
+      markEdges(renderer.stage(), renderer.attributes(from, end - from), from, y, rows, picture);
     }
     picture.rows = y + rows;
     if (progressed && Clock::now() - told > std::chrono::milliseconds(100)) {

@@ -17,10 +17,17 @@ std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRe
   auto model = std::make_unique<Model>();
   model->path = path;
   model->pose = pose;
-  model->scene = loadGltf(path, pose);
+  SceneFile file(path);
+  model->scene = file.take(pose);
   model->bounds = boundsOf(model->scene);
-  model->images = decodeImages(model->scene, Look());  // no look reads others
+  model->images = std::make_shared<const DecodedImages>(
+      decodeImages(model->scene, Look()));  // no look reads others
+  for (EncodedImage& image : model->scene.images) std::vector<std::byte>().swap(image.bytes);
   model->picker.emplace(model->scene);
+  if (!model->scene.animations.empty()) {
+    model->meshVersions.assign(model->scene.meshes.size(), 0);
+    model->file = std::make_shared<ModelFile>(path, std::move(file), model->scene);
+  }
   model->loadTime =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return model;
@@ -90,31 +97,43 @@ void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution)
   say("saved the look as " + path.string());
 }
 
-void Session::take(std::shared_ptr<Model> loaded) {
+void Session::take(std::shared_ptr<const Model> loaded) {
   const bool same = model && model->path == loaded->path;
   const bool first = !model;
   model = std::move(loaded);
-  dropMissing(document.a, model->scene);
+  playing = false;
+  if (!same && !first) {  // another model is seen whole, and has a history of its own
+    document.a.cameraPosition.reset();
+    document.a.cameraFocalPoint.reset();
+    document.a.cameraIndex.reset();
+    document.a.clippingRange.reset();
+    document.a.animation.clear();
+    document.a.animationTime.reset();
+    document.a.material.clear();
+    document.b.reset();
+    document.compare = CompareMode::off;
+  }
+  const std::string missing = dropMissing(document.a, model->scene);
+  if (!missing.empty())
+    log.push_back(model->path.string() + " has no " + missing + ": the look goes on without");
   if (document.b) dropMissing(*document.b, model->scene);
   if (!same) {
     writtenMaterials.clear();
     const std::vector<int> drawn = drawnMaterials(model->scene);
     material = drawn.size() == 1 ? drawn.front() : -1;
-    if (!first) {  // another model is seen whole, and has a history of its own
-      document.a.cameraPosition.reset();
-      document.a.cameraFocalPoint.reset();
-      document.a.cameraIndex.reset();
-      document.a.clippingRange.reset();
-      document.b.reset();
-      document.compare = CompareMode::off;
-      document.a.material.clear();
-    }
     history = History(document);
     saved = document.a;
   }
   if (material >= int(model->scene.materials.size())) material = -1;
   hovered.reset();
   for (const std::string& warning : model->scene.warnings) log.push_back(warning);
+}
+
+void Session::takePose(std::shared_ptr<const Model> posed) {
+  const auto& warnings = posed->scene.warnings;
+  for (std::size_t i = model->scene.warnings.size(); i < warnings.size(); ++i)
+    log.push_back(warnings[i]);
+  model = std::move(posed);
 }
 
 std::filesystem::path nextFreeName(const std::filesystem::path& folder, const std::string& stem,

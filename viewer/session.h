@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -14,16 +15,19 @@
 #include "glint/scene/gltf.h"
 #include "glint/scene/scene.h"
 #include "picking.h"
+#include "posing.h"
 
 namespace glint {
 
 /// A model read from its file.
 struct Model {
   std::filesystem::path path;
-  Scene scene;
+  std::shared_ptr<ModelFile> file;  ///< to be posed; null if nothing in it moves
+  Scene scene;                      ///< without the bytes of its pictures
   Bounds bounds;
-  DecodedImages images;
-  PoseRequest pose;  ///< that the scene is in
+  std::shared_ptr<const DecodedImages> images;
+  PoseRequest pose;                         ///< that the scene is in
+  std::vector<std::uint64_t> meshVersions;  ///< of a file that is posed: see changedMeshes()
   std::optional<Picker> picker;
   double loadTime = 0;  ///< ms
 };
@@ -39,19 +43,29 @@ struct FileState {
 };
 FileState stateOf(const std::filesystem::path&);
 
+/// What the panel plots of a material.
+enum class PlotView { lobe, lobeOverAngle, fresnel, fresnelLeaving, widths };
+inline constexpr int plotCount = 5;
+
 enum class Overlay { none, wireframe, normals, facing, clipped };
 
 /// What the window shows and edits, without GL and widgets.
 struct Session {
-  std::shared_ptr<Model> model;  ///< null until one is loaded
+  std::shared_ptr<const Model> model;  ///< null until one is loaded; in the pose that is shown
   Document document;
   History history;
   int material = -1;           ///< selected, an index into the scene's; -1 is all of them
   std::optional<int> hovered;  ///< the material under the cursor
   Overlay overlay = Overlay::none;
-  std::optional<int> wantedTab;  ///< of the panel, to be shown next
-  std::vector<std::string> log;  ///< errors and warnings, the newest last
-  std::string status;            ///< the last thing that was done
+  std::size_t light = 0;           ///< selected, of those that the look has
+  bool playing = false;            ///< the animation runs
+  std::optional<int> wantedTab;    ///< of the panel, to be shown next
+  PlotView plot = PlotView::lobe;  ///< that keys have chosen last
+  bool plotWanted = false;         ///< it is to be shown next
+  bool plotShown = false;          ///< was, in this frame: keys go on to the next
+  bool findWanted = false;         ///< the text by which materials are found is to be typed next
+  std::vector<std::string> log;    ///< errors and warnings, the newest last
+  std::string status;              ///< the last thing that was done
   bool statusIsError = false;
 
   std::filesystem::path lookPath;  ///< where saveLook writes without asking; empty: asks
@@ -73,7 +87,9 @@ struct Session {
 
   /// Puts a newly loaded model in place of the old one. Edits and camera stay if it is the same
   /// file; otherwise edits of materials that it does not have go.
-  void take(std::shared_ptr<Model> loaded);
+  void take(std::shared_ptr<const Model> loaded);
+  /// Puts the same model in another pose in its place.
+  void takePose(std::shared_ptr<const Model> posed);
 };
 
 /// The first name STEM_N.ENDING in the folder that does not exist yet.

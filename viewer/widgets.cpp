@@ -84,7 +84,7 @@ bool color(const char* id, glm::dvec3& linear) {
 }
 
 bool vector(const char* id, glm::dvec3& v) {
-  double values[3] = {v.x, v.y, v.z};
+  double values[3] = {v.x + 0.0, v.y + 0.0, v.z + 0.0};  // no -0
   if (!ImGui::InputScalarN(id, ImGuiDataType_Double, values, 3, nullptr, nullptr, "%.4g"))
     return false;
   for (int i = 0; i < 3; ++i)

@@ -99,7 +99,8 @@ std::string oneLine(const Json& value) {
 void printChoice(const Json& choice) {
   std::cout << "\nChoice by error";
   if (choice.contains("max-error"))
-    std::cout << ": within " << choice["max-error"] << ", bound " << choice["bound"];
+    std::cout << ": within " << choice["max-error"] << ", bound " << choice["bound"]
+              << "; costs: " << oneLine(choice["costs"]);
   std::cout << "\n  " << oneLine(choice["shading"]);
   if (choice.contains("reason")) std::cout << " (" << oneLine(choice["reason"]) << ")";
   std::cout << "\n";

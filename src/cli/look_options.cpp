@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <deque>
 #include <iostream>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/render/cost_file.h"
 #include "glint/scene/parameters.h"
 
 namespace glint {
@@ -89,6 +91,13 @@ Look LookSource::operator()() const {
   Look look;
   if (!options_->lookFile.empty()) readLookFile(look, options_->lookFile);
   Look materials;
+  const auto given = [&](const char* name) {
+    return std::ranges::any_of(options_->options, [&](const auto& each) {
+      return each.first->name == name && each.second->count() > 0;
+    });
+  };
+  if (given("light") && given("no-lights"))
+    throw InputError("--light and --no-lights: give one of them");
   for (const auto& [p, option] : options_->options) {
     if (option->count() == 0) continue;
     if (p->name == "light") {  // in place of the file's, and of its having none
@@ -100,6 +109,7 @@ Look LookSource::operator()() const {
     for (const std::string& text : option->results()) p->read(target, text);
   }
   mergeMaterials(look, materials);
+  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
   if (!options_->saveFile.empty() && !hasBudget(look))
     writeText(options_->saveFile, saveLook(look));
   return look;

@@ -75,6 +75,8 @@ std::optional<ModelEntry> ModelList::next() {
     while (entry.model.empty()) {
       if (!readLine(entry.model)) return {};
       if (!entry.model.empty() && entry.model.back() == '\r') entry.model.pop_back();
+      // Editors that save "UTF-8 with BOM" put U+FEFF at the beginning of a file.
+      if (number_ == 0 && entry.model.starts_with("\xEF\xBB\xBF")) entry.model.erase(0, 3);
     }
     if (const auto tab = entry.model.find('\t'); tab != std::string::npos) {
       entry.output = entry.model.substr(tab + 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -18,6 +19,20 @@ bool isSameFile(const std::string& a, const std::string& b);
 /// write over a file that is read.
 void checkOutputs(std::initializer_list<OutputOption> outputs,
                   const std::vector<std::string>& inputs);
+
+/// The folder of --output, made before the work, so that what cannot be made is told at once. What
+/// it had to make is gone again with it where nothing was written there.
+class OutputFolder {
+ public:
+  /// Throws InputError.
+  explicit OutputFolder(const std::string& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the innermost first
+};
 
 /// Throws InputError if what was printed on std::cout did not arrive.
 void flushStandardOutput();

@@ -41,7 +41,8 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
                options.models);
   if (options.hasList()) checkOutputs({{"--from-list", "-"}, {"--save-look", saveFile}}, {});
   const bool reference = options.usesReference();
-  const Backend backend = reference ? Backend::automatic : backendFromName(options.backend);
+  const Backend backend =
+      reference ? Backend::automatic : backendFromName(options.backend, ", reference");
   const Interrupt interrupt;
   const auto list = listOf(options);
   PicturePlan plan(options, *list);

@@ -108,6 +108,15 @@ void checkRenderOptions(const RenderOptions& options) {
   if (options.turntable > 0 && options.frames > 0 && options.turntable != options.frames)
     throw InputError("--turntable and --frames: give both the same number");
   if (options.sweeps.size() > 2) throw InputError("--sweep: more than two: give one or two");
+  const auto key = [&](std::size_t i) {
+    return options.sweeps[i].substr(0, options.sweeps[i].find('='));
+  };
+  if (options.sweeps.size() == 2 && key(0) == key(1))
+    throw InputError("--sweep: twice over " + key(0) + ": give one sweep, or two numbers");
+  if (options.bitDepth == 16 &&
+      (options.output.ends_with(".exr") || options.output.ends_with(".pfm")))
+    throw InputError("--bit-depth: of PNG alone, and " + options.output +
+                     " has 32 bit floats: leave it out");
   if (!options.sweeps.empty() && options.terms)
     throw InputError("--sweep and --terms: give one of them");
   if (options.referenceThreshold && options.reference.empty())

@@ -39,7 +39,10 @@ Json variantsJson(const Scene& scene, const DrawList& list, const Look& given) {
 
 Json choiceJson(const ResolvedLook& resolved, const Look& asked) {
   Json json = Json::object();
-  if (asked.maxError) json["max-error"] = *asked.maxError;
+  if (asked.maxError) {
+    json["max-error"] = *asked.maxError;
+    json["costs"] = asked.costTable.empty() ? "shipped" : asked.costTable;
+  }
   json["bound"] = resolved.bound;
   json["shading"] = shadingName(resolved.look.shading);
   if (!resolved.programReason.empty()) json["reason"] = resolved.programReason;

@@ -16,6 +16,7 @@
 #include "glint/study/stability_profile.h"
 #include "glint/study/stability_search.h"
 #include "glint/study/stability_suite.h"
+#include "outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -49,14 +50,6 @@ void writeAll(OutputFile& file, std::initializer_list<std::string_view> parts) {
   file.commit();
 }
 
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw InputError("--output " + printablePath(folder) +
-                     ": cannot make this folder: give one that can be written");
-}
-
 int runStability(const StabilityOptions& options) {
   if (options.list) {
     std::cout << stability::listText(options.selection);
@@ -70,10 +63,11 @@ int runStability(const StabilityOptions& options) {
   options.selection.check();
   const Look forms = formsOf(options);
   // Before the work, so that what cannot be written is told at once.
+  std::optional<OutputFolder> folder;
   std::optional<OutputFile> jsonFile, page;
   if (!options.json.empty()) jsonFile.emplace(options.json);
   if (!options.output.empty()) {
-    makeFolder(options.output);
+    folder.emplace(options.output);
     page.emplace((std::filesystem::path(options.output) / "stability.html").string());
   }
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);

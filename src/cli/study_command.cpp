@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "glint/image/file.h"
 #include "glint/scene/gltf.h"
 #include "glint/scene/parameters.h"
+#include "glint/study/cost_measurement.h"
 #include "glint/study/study_page.h"
 #include "glint/study/study_results.h"
 #include "interrupt.h"
@@ -20,7 +22,7 @@ namespace glint {
 namespace {
 
 struct StudyArguments {
-  std::string model, output, json, markdown, command, backend = "auto";
+  std::string model, output, json, markdown, costs, command, backend = "auto";
   bool quick = false;
   int repetitions = 0;
   double timeBudget = 0;
@@ -30,6 +32,11 @@ struct StudyArguments {
 };
 
 constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
+/// Where a frame of exact phong takes more ms than this, half the width and height have to do, and
+/// fewer rounds: what frames are full of then is shading.
+constexpr double quickLongFrame = 15, fullLongFrame = 50;
+constexpr int longRounds = 36;
+constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< at least
 
 /// A study measures single samples, with what the look does not say by itself.
 Look studyLook(const StudyArguments& given, Look look) {
@@ -57,15 +64,6 @@ std::string commandLine(const CLI::App& command) {
   return line;
 }
 
-/// The folder of --output, made before anything is measured.
-void makeFolder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!std::filesystem::is_directory(path, error))
-    throw InputError("--output " + printablePath(path) + ": cannot make the folder" +
-                     (error ? ": " + error.message() : std::string()) + ": give another");
-}
-
 void commitText(OutputFile& file, const std::string& text) {
   file.write(std::as_bytes(std::span(text)));
   file.commit();
@@ -81,7 +79,8 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   std::optional<OutputFile> jsonFile, markdownFile;
   if (!given.json.empty()) jsonFile.emplace(given.json);
   if (!given.markdown.empty()) markdownFile.emplace(given.markdown);
-  if (!given.output.empty()) makeFolder(given.output);
+  std::optional<OutputFolder> folder;
+  if (!given.output.empty()) folder.emplace(given.output);
   StudyOptions options;
   options.keepPictures = !given.output.empty();
   options.look = studyLook(given, givenLook);
@@ -90,6 +89,8 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   options.rounds = given.repetitions > 0 ? given.repetitions
                    : given.quick         ? quickRounds
                                          : fullRounds;
+  options.builds =
+      std::clamp(options.rounds / roundsOfBuild, 1, given.quick ? quickBuilds : fullBuilds);
   // With it the times of compiling would be those of whatever was run before.
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   auto opening = openContextAsync(backend);
@@ -100,8 +101,6 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   const StudyScene prepared(std::move(scene), options.look);
   const auto context = opening.get();
   context->makeCurrent();
-  for (const std::string& warning : prepared.scene.warnings)
-    printWarning((given.model.empty() ? "sphere" : given.model) + ": " + warning);
   if (!context->remark().empty()) printWarning(context->remark());
 
   const Interrupt interrupt;
@@ -110,12 +109,22 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   const Stop stop = [&] {
     return Interrupt::signal() != 0 || (given.timeBudget > 0 && Clock::now() > end);
   };
+  const double longFrame = given.quick ? quickLongFrame : fullLongFrame;
+  const bool halved = !given.resolutionGiven &&
+                      options.look.resolution == studyLook(given, Look{}).resolution &&
+                      exactFrame(prepared, options.look) > longFrame;
+  if (halved) {
+    options.look.resolution /= 2;
+    if (given.repetitions == 0) options.rounds = std::min(options.rounds, longRounds);
+  }
   StudyResult result;
   {
     Progress progress("glint study");
     result = study(prepared, options, stop,
                    [&](std::string_view what, double share) { progress.show(share, what); });
   }
+  for (const std::string& warning : prepared.scene.warnings)  // none before an error
+    printWarning((given.model.empty() ? "sphere" : given.model) + ": " + warning);
   StudyHead head;
   head.version = GLINT_VERSION;
   head.model = given.model.empty() ? "sphere (built in)" : given.model;
@@ -124,6 +133,8 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   head.look = options.look;
   head.rounds = options.rounds;
   head.warmUp = options.warmUp;
+  head.builds = options.builds;
+  head.longFrame = halved ? longFrame : 0;
   if (!given.stdoutTaken) std::cout << studyTable(head, result);
   const auto json = studyJson(head, result);
   const std::string jsonText =
@@ -136,6 +147,47 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
     writeText(given.output + "/study.svg", studyPlot(json));
     writeText(given.output + "/study.html", studyPage(json, result, options.look));
   }
+  return done;
+}
+
+/// --measure-costs: a mode of its own, of no model and no look.
+int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_positional() && option->get_lnames().empty()
+                                 ? option->get_name()
+                                 : "--" + option->get_lnames().front();
+    if (name != "--measure-costs" && name != "--rendering-backend")
+      throw InputError("--measure-costs: measures the forms alone, whatever is drawn: leave " +
+                       name + " out");
+  }
+  if (given.backend == "reference")
+    throw InputError("--rendering-backend reference: costs are those of a driver: give another");
+  const Backend backend = backendFromName(given.backend);
+  OutputFile file(given.costs);
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  const auto context = openContext(backend);
+  context->makeCurrent();
+  if (!context->remark().empty()) printWarning(context->remark());
+  const Interrupt interrupt;
+  CostMeasurement measured;
+  {
+    Progress progress("glint study");
+    measured = measureCosts(
+        {}, [] { return Interrupt::signal() != 0; },
+        [&](std::string_view what, double share) { progress.show(share, what); });
+  }
+  if (!measured.complete) {
+    std::cerr << "glint: ended before all was measured: no table is written\n";
+    return 128 + Interrupt::signal();
+  }
+  constexpr double muchNoise = 10;
+  if (measured.file.noise > muchNoise)
+    printWarning("--measure-costs: the machine does other work, and costs are off by up to " +
+                 std::to_string(std::lround(measured.file.noise)) +
+                 " hundredths: measure again when it is at rest");
+  commitText(file, costFileText(measured.file));
+  if (given.costs != "-") std::cout << costText(measured);
   return done;
 }
 
@@ -177,8 +229,16 @@ Command addStudy(CLI::App& app) {
       ->type_name("FILE");
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--measure-costs", given->costs,
+          "instead of a study, measure what each form costs on this driver, in less than "
+          "a minute, and write the table that --cost-table reads to this file; - is stdout")
+      ->type_name("FILE")
+      ->take_last();
   auto look = addLookOptions(*command);
   return [given, look, command] {
+    if (!given->costs.empty()) return runMeasureCosts(*given, *command);
     checkOutputs({{"--json", given->json},
                   {"--markdown", given->markdown},
                   {"--save-look", look.saveFile()}},
@@ -191,6 +251,7 @@ Command addStudy(CLI::App& app) {
       return option->count() > 0 ? option->results().back() : std::string();
     };
     given->filter = {only("shading"), only("highlight"), only("fresnel"), false};
+    if (given->filter.shading == "auto") given->filter.shading.clear();  // a choice among all
     given->command = commandLine(*command);
     given->resolutionGiven = command->get_option("--resolution")->count() > 0;
     return runStudy(*given, asked);

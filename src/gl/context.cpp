@@ -95,14 +95,14 @@ const char* backendName(Backend backend) {
   return "";
 }
 
-Backend backendFromName(std::string_view name) {
+Backend backendFromName(std::string_view name, std::string_view more) {
   std::string all;
   for (const Name& entry : names) {
     if (entry.name == name) return entry.backend;
     all += (all.empty() ? "" : ", ") + std::string(entry.name);
   }
   throw InputError("no rendering backend is called \"" + std::string(name) + "\": there are " +
-                   all);
+                   all + std::string(more));
 }
 
 void Context::makeCurrent() {

@@ -24,8 +24,9 @@ enum class Backend { automatic, egl, eglSoftware, osmesa };
 /// "auto", "egl", "egl-software", "osmesa": as on the command line.
 const char* backendName(Backend backend);
 
-/// The backend with this name. Throws InputError that lists the names.
-Backend backendFromName(std::string_view name);
+/// The backend with this name. Throws InputError that lists the names, and `more` behind them: what
+/// the caller knows besides, such as ", reference".
+Backend backendFromName(std::string_view name, std::string_view more = {});
 
 /// No OpenGL context: what() is one line, or, for Backend::automatic, a heading and one line for
 /// each backend with the reason why it does not work. The program ends with status 3.

@@ -105,7 +105,7 @@ std::string printablePath(std::string_view path) {
   for (char& letter : printable) {
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
   }
-  return printable;
+  return printable.empty() ? "''" : printable;
 }
 
 std::vector<std::byte> readFile(const std::string& path) {

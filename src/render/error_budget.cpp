@@ -7,6 +7,7 @@
 #include <map>
 
 #include "form_choice.h"
+#include "glint/render/cost_file.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
@@ -61,11 +62,14 @@ struct Setting {
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
+  CostTable costs;
 };
 
 Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   Setting s;
   s.given = look;
+  s.costs = costTableFor(look);
+  s.given.costTable.clear();  // with the budget, which is gone already: the choice is made
   s.look = withFileLights(scene, look);
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
@@ -182,7 +186,7 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
   FormNeeds& needs = group.needs;
   needs.rest = group.interpolation + group.rounding;
   const ChosenForms forms =
-      cheapestForms(needs, setting.reach, setting.look, setting.blinn, budget);
+      cheapestForms(needs, setting.reach, setting.look, setting.costs, setting.blinn, budget);
   FormChoice choice;
   choice.material = name;
   choice.specular = needs.specular;

@@ -39,7 +39,8 @@ struct ResolvedLook {
 /// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
 /// enough to it. The forms that the look asks for give way to those chosen. Where no form is within
 /// the budget the exact one is taken, and `bound` is above the budget. A pure function of its
-/// arguments; about a millisecond, and with `auto` a look at every triangle.
+/// arguments and of the files that the look names (InputError if they cannot be read); about a
+/// millisecond, and with `auto` a look at every triangle.
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
 /// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "glint/shading/bounds.h"
-#include "glint/shading/costs.h"
 
 namespace glint {
 namespace {
@@ -28,21 +27,21 @@ struct Lobe {
   double both() const { return error + rounding; }
 };
 
-Lobe lobeOf(const HighlightForm& form, const FormNeeds& needs, bool blinn) {
+Lobe lobeOf(const HighlightForm& form, const FormNeeds& needs, const CostTable& costs, bool blinn) {
   const LobeForm f = lobeForm(form.form);
   Lobe lobe{form};
   for (const double exponent : needs.exponents) {
     lobe.error = std::max(lobe.error, lobeFormulaBound(f, form.gamma, exponent));
     lobe.rounding = std::max(lobe.rounding, lobeRoundingBound(f, form.gamma, exponent, blinn));
     const int power = form.form == Highlight::integer ? int(exponent) : form.gamma;
-    lobe.cost = std::max(lobe.cost, lobeCost(f, power));
+    lobe.cost = std::max(lobe.cost, costs.lobe(f, power));
   }
   return lobe;
 }
 
 // All forms that may pay, from the most exact to the cheapest: each costs less than all that are
 // more exact.
-std::vector<Lobe> lobeCandidates(const FormNeeds& needs, bool blinn) {
+std::vector<Lobe> lobeCandidates(const FormNeeds& needs, const CostTable& costs, bool blinn) {
   std::vector<HighlightForm> forms{Highlight::exact, Highlight::pow, Highlight::none};
   if (std::ranges::all_of(needs.exponents, [](double e) { return e > 0; })) {
     if (std::ranges::all_of(needs.exponents, isIntegerPower))
@@ -53,7 +52,7 @@ std::vector<Lobe> lobeCandidates(const FormNeeds& needs, bool blinn) {
     forms.emplace_back(Highlight::gaussian);
   }
   std::vector<Lobe> all;
-  for (const HighlightForm& form : forms) all.push_back(lobeOf(form, needs, blinn));
+  for (const HighlightForm& form : forms) all.push_back(lobeOf(form, needs, costs, blinn));
   std::ranges::stable_sort(all, {}, &Lobe::both);
   std::vector<Lobe> kept;
   for (const Lobe& each : all)
@@ -83,8 +82,13 @@ struct Lobes {
 // exactness.
 class LobeSearch {
  public:
-  LobeSearch(const std::vector<Lobe>& candidates, const FormNeeds& needs, const LightReach& lights)
-      : candidates_(candidates), count_(lights.most.size()), weights_(count_ * (count_ + 1)) {
+  /// A change of form costs `change`.
+  LobeSearch(const std::vector<Lobe>& candidates, double change, const FormNeeds& needs,
+             const LightReach& lights)
+      : candidates_(candidates),
+        change_(change),
+        count_(lights.most.size()),
+        weights_(count_ * (count_ + 1)) {
     for (std::size_t from = 0; from < count_; ++from)
       for (std::size_t end = from + 1; end <= count_; ++end)
         weight(from, end) = largest(needs.shine * lights.of(from, end));
@@ -108,7 +112,7 @@ class LobeSearch {
     const double reach = weight(from, end);
     lobes.error += reach * form.error;
     lobes.rounding += reach * form.rounding;
-    lobes.cost += double(end - from) * form.cost + (lobes.count > 0 ? lobeChangeCost : 0);
+    lobes.cost += double(end - from) * form.cost + (lobes.count > 0 ? change_ : 0);
     lobes.runs[lobes.count++] = {&form, from};
     return lobes;
   }
@@ -128,6 +132,7 @@ class LobeSearch {
   }
 
   const std::vector<Lobe>& candidates_;
+  double change_;
   std::size_t count_;
   std::vector<double> weights_;
   Lobes* best_ = nullptr;
@@ -139,11 +144,12 @@ struct Reflectance {
   double error = 0, rounding = 0, cost = 0;
 };
 
-Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& look) {
+Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& look,
+                          const CostTable& costs) {
   Reflectance r{fresnel};
   if (!needs.dielectric) return r;
   const FresnelForm form = fresnelForm(fresnel);
-  r.cost = fresnelCost(form, look.schlickExponent);
+  r.cost = costs.reflectance(form, look.schlickExponent);
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
     const double error = fresnelFormulaBound(form, n1, n2, look.schlickExponent);
@@ -165,15 +171,15 @@ glm::dvec3 LightReach::of(std::size_t from, std::size_t end) const {
 }
 
 ChosenForms cheapestForms(const FormNeeds& needs, const LightReach& lights, const Look& look,
-                          bool blinn, double budget) {
-  std::vector<Reflectance> reflectances{reflectanceOf(Fresnel::exact, needs, look)};
+                          const CostTable& costs, bool blinn, double budget) {
+  std::vector<Reflectance> reflectances{reflectanceOf(Fresnel::exact, needs, look, costs)};
   if (needs.dielectric)
     for (const Fresnel form : {Fresnel::schlick, Fresnel::schlickExp2, Fresnel::rational})
-      reflectances.push_back(reflectanceOf(form, needs, look));
+      reflectances.push_back(reflectanceOf(form, needs, look, costs));
   std::vector<Lobe> candidates;
-  if (needs.specular) candidates = lobeCandidates(needs, blinn);
-  const Lobe exactLobe = lobeOf(Highlight::exact, needs, blinn);
-  LobeSearch search(candidates, needs, lights);
+  if (needs.specular) candidates = lobeCandidates(needs, costs, blinn);
+  const Lobe exactLobe = lobeOf(Highlight::exact, needs, costs, blinn);
+  LobeSearch search(candidates, costs.change, needs, lights);
   Lobes exact;
   if (needs.specular) exact = search.all(exactLobe);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "glint/scene/look.h"
+#include "glint/shading/costs.h"
 
 namespace glint {
 
@@ -48,6 +49,6 @@ struct ChosenForms {
 /// lobes of up to three forms, the less exact ones for the dimmer lights. What costs as much as
 /// exact does not replace it.
 ChosenForms cheapestForms(const FormNeeds& needs, const LightReach& lights, const Look& look,
-                          bool blinn, double budget);
+                          const CostTable& costs, bool blinn, double budget);
 
 }  // namespace glint

@@ -155,6 +155,14 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
 GpuScene::GpuScene(const Scene& scene, DecodedImages images)
     : scene_(&scene), images_(std::move(images)) {}
 
+void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
+  scene_ = &scene;
+  for (const int mesh : changed) {
+    geometries_.erase({mesh, false});
+    geometries_.erase({mesh, true});
+  }
+}
+
 const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   const Mesh& mesh = scene_->meshes[std::size_t(index)];
   faces = faces && mesh.topology == Topology::triangles;

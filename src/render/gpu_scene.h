@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -33,6 +34,10 @@ DecodedImages decodeImages(Scene&, const Look&, const std::function<bool(int ima
 class GpuScene {
  public:
   GpuScene(const Scene& scene, DecodedImages images);
+
+  /// Goes on with the same scene in another pose, in which the vertices of `changed` meshes are
+  /// others.
+  void pose(const Scene& scene, std::span<const int> changed);
 
   struct Geometry {
     VertexArray array;

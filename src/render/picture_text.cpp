@@ -16,7 +16,8 @@ std::string pictureKey(const Look& look, const PictureOrigin& origin) {
        {std::string(program), saveLook(look), origin.modelHash, std::to_string(origin.bitDepth),
         origin.variation, std::string(origin.gl ? "gl" : "reference")})
     hash.add(part);
-  if (!look.hdriFile.empty()) hash.add(modelHash(look.hdriFile));
+  for (const std::string& file : {look.hdriFile, look.costTable})
+    if (!file.empty()) hash.add(modelHash(file));
   return hash.text();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "glint/gl/check.h"
 #include "glint/render/composition.h"
@@ -129,6 +130,11 @@ const Program& Renderer::backgroundFor(Environment environment) {
 
 void Renderer::limitPrograms(std::size_t most) {
   if (programs_.size() > most) programs_.clear();
+}
+
+void Renderer::setProgramsAside() {
+  former_.push_back(
+      std::exchange(programs_, {}));  // a map that is moved keeps its elements' places
 }
 
 RenderTarget& Renderer::targetFor(int width, int height, int samples) {

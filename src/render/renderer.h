@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/handles.h"
@@ -69,6 +70,10 @@ class Renderer {
   /// kinds stays within bounds. No picture may be in the making.
   void limitPrograms(std::size_t most);
 
+  /// Pictures begun from now on are drawn by programs of their own, built anew; those of earlier
+  /// pictures stay.
+  void setProgramsAside();
+
   /// Whether depth is 1 at the near plane and 0 at the far one; else 0 and 1.
   bool reversedDepth() const { return clipControl_; }
 
@@ -84,6 +89,7 @@ class Renderer {
   bool fileNames_;
   bool clipControl_;
   std::map<Variant, Program> programs_;
+  std::vector<std::map<Variant, Program>> former_;
   std::map<Environment, Program> backgrounds_;
   EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;

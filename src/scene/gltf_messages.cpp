@@ -54,7 +54,8 @@ std::string named(std::string_view kind, std::size_t index, std::string_view nam
   return text;
 }
 
-Messages::Messages(const std::filesystem::path& file) : file_(printable(file.string(), 4096)) {}
+Messages::Messages(const std::filesystem::path& file)
+    : file_(file.empty() ? "''" : printable(file.string(), 4096)) {}
 
 void Messages::fail(const std::string& what, const std::string& advice) const {
   throw InputError(file_ + ": " + what + ": " + advice);

@@ -57,8 +57,7 @@ struct HighlightForms {
 /// Lights that a picture may have; a uniform block of GL's least size holds them.
 inline constexpr std::size_t maxLights = 128;
 
-/// A light as `--light` gives it, or a model file. Intensities are linear; only a file's points and
-/// spots fall off with distance.
+/// A light as `--light` gives it, or a model file. Intensities are linear.
 struct Light {
   enum class Type { directional, point, spot, camera };
   Type type = Type::directional;
@@ -99,6 +98,7 @@ struct Look {
   Fresnel fresnel = Fresnel::exact;
   /// What error the forms may cost in linear radiance; read by resolveLook alone.
   std::optional<double> maxError;
+  std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;
   std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material

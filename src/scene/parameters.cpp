@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "glint/image/error.h"
+#include "glint/scene/light_text.h"
 #include "look_text.h"
 
 namespace glint {
@@ -134,10 +135,12 @@ Parameter lights() {
   Parameter p = custom(
       "light", "TYPE:...",
       "a light; repeatable; replaces the default one. directional:x,y,z[:r,g,b] (x,y,z points TO "
-      "the light), point:x,y,z[:r,g,b] (constant intensity), spot:x,y,z:dx,dy,dz:inner,outer"
-      "[:r,g,b] (shines along d; degrees), camera[:r,g,b] (shines along the view)",
+      "the light), point:x,y,z[:r,g,b], spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines "
+      "along d; degrees), camera[:r,g,b] (shines along the view); point and spot are constant over "
+      "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
+      "at RANGE",
       [](Look& look, const std::string& text) {
-        const Light light = parseLight(text);
+        const Light light = readLight(text);
         if (!look.light) look.light.emplace();
         if (look.light->size() == maxLights)
           throw InputError("--light: more than " + std::to_string(maxLights) +
@@ -147,7 +150,7 @@ Parameter lights() {
       [](const Look& look) {
         if (!look.light) return Json();
         Json list = Json::array();
-        for (const Light& light : *look.light) list.push_back(lightText(light));
+        for (const Light& light : *look.light) list.push_back(writeLight(light));
         return list;
       });
   p.repeatable = true;
@@ -224,6 +227,16 @@ Parameter resetting(Parameter p, Value Look::*member) {
   return p;
 }
 
+Parameter costTable() {
+  Parameter p = custom(
+      "cost-table", "FILE",
+      "what forms cost on a machine's driver, as glint study --measure-costs writes it: what "
+      "--max-error goes by in place of the table that comes with glint",
+      [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
+      [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
+  return resetting(std::move(p), &Look::costTable);
+}
+
 constexpr std::array<std::string_view, 6> shadingNames{"flat",        "gouraud",     "phong",
                                                        "blinn-phong", "environment", "auto"};
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
@@ -252,6 +265,7 @@ std::vector<Parameter> makeTable() {
                      "takes the cheapest forms of lobe and reflectance whose proven bound for this "
                      "scene is within E, in linear light; where none is, the exact ones"),
               1e-5, 1, true),
+       costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),

@@ -1,50 +1,61 @@
 #include "glint/shading/costs.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace glint {
+namespace {
 
-// Levels as measured on llvmpipe, where all forms but the exact one cost about half of it; what the
-// measurement cannot tell apart is ordered by counting operations.
+template <std::size_t Count>
+double at(const std::array<double, Count>& costs, int index) {
+  return costs[std::size_t(std::clamp(index, 0, int(Count) - 1))];
+}
 
-double lobeCost(LobeForm form, int gamma) {
-  const int steps = gamma > 1 ? std::bit_width(unsigned(gamma)) - 1 : 0;
+}  // namespace
+
+int productsOf(int power) {
+  if (power < 2) return 0;
+  return std::bit_width(unsigned(power)) - 1 + std::popcount(unsigned(power)) - 1;
+}
+
+double CostTable::lobe(LobeForm form, int power) const {
+  const int squarings = power > 1 ? std::bit_width(unsigned(power)) - 1 : 0;
   switch (form) {
     case LobeForm::exact:
-      return 100;
+      return exact;
     case LobeForm::pow:
-      return 56;
-    case LobeForm::integer:  // a squaring a bit, and a product for each bit that is set
-      return 43 + steps + std::popcount(unsigned(gamma)) - 1;
+      return pow;
+    case LobeForm::integer:
+      return at(integer, productsOf(power));
     case LobeForm::lyon:
     case LobeForm::lyonTuned:
-      return 45 + steps;
+      return at(lyon, squarings);
     case LobeForm::lyonCross:
-      return 47 + steps;
+      return at(lyonCross, squarings);
     case LobeForm::pade:
-      return 51 + steps;
+      return at(pade, squarings);
     case LobeForm::gaussian:
-      return 54;
+      return gaussian;
     case LobeForm::none:
       return 0;
   }
-  return 100;
+  return exact;
 }
 
-double fresnelCost(FresnelForm form, double schlickExponent) {
+double CostTable::reflectance(FresnelForm form, double exponent) const {
   switch (form) {
     case FresnelForm::exact:
-      return 100;
+      return fresnelExact;
     case FresnelForm::textbook:
-      return 110;
+      return textbook;
     case FresnelForm::schlick:
-      return schlickExponent == 5.0 ? 30 : 60;
+      return exponent == 5.0 ? schlick : schlickExponent;
     case FresnelForm::schlickExp2:
-      return 45;
+      return schlickExp2;
     case FresnelForm::rational:
-      return 40;
+      return rational;
   }
-  return 100;
+  return fresnelExact;
 }
 
 }  // namespace glint

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "glint/study/statistics.h"
-
 namespace glint {
 
 bool isFaster(std::span<const double> a, std::span<const double> b, double spread) {
-  const auto ratios = roundRatios({a.begin(), a.end()}, {b.begin(), b.end()});
-  return !ratios.empty() && medianInterval(ratios).high * (1 + spread) < 1;
+  const TimeRatio ratio = timeRatio(a, b);
+  return ratio.value > 0 && ratio.high * (1 + spread) < 1;
 }
 
 std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread) {
@@ -45,13 +43,11 @@ std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, 
   return places;
 }
 
-double spreadOfControls(std::span<const std::vector<double>> ratios) {
+double spreadOfControls(std::span<const TimeRatio> ratios) {
   double spread = 0;
-  for (const auto& of : ratios) {
-    if (of.empty()) continue;
-    const Interval interval = medianInterval(of);
-    spread = std::max({spread, std::abs(interval.high - 1), std::abs(interval.low - 1)});
-  }
+  for (const TimeRatio& ratio : ratios)
+    if (ratio.value > 0)
+      spread = std::max({spread, std::abs(ratio.high - 1), std::abs(ratio.low - 1)});
   return spread;
 }
 

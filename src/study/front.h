@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "glint/study/statistics.h"
+
 namespace glint {
 
 /// A variant as the front sees it.
@@ -19,8 +21,8 @@ struct FrontPlace {
 /// Errors that differ by less are the same.
 inline constexpr double sameError = 0.05;
 
-/// Whether a is faster than b: the upper end of the 95 % bootstrap interval of the median of a/b,
-/// round by round, lies below 1 / (1 + spread). `spread` is the noise floor, by which two
+/// Whether a is faster than b: the upper end of the interval of timeRatio() lies below
+/// 1 / (1 + spread). `spread` is the noise floor, by which two
 /// measurements of one program may differ.
 bool isFaster(std::span<const double> a, std::span<const double> b, double spread);
 
@@ -31,8 +33,8 @@ bool isFaster(std::span<const double> a, std::span<const double> b, double sprea
 /// owes nothing to chance unless a step is about as large as the spread itself.
 std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread);
 
-/// The noise floor from controls, pairs of measurements of one program: the largest distance from 1
-/// of the ends of the bootstrap intervals of their ratios.
-double spreadOfControls(std::span<const std::vector<double>> ratios);
+/// The noise floor from controls, the ratios of measurements of one program: the largest distance
+/// from 1 of the ends of their intervals.
+double spreadOfControls(std::span<const TimeRatio> ratios);
 
 }  // namespace glint

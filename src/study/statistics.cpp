@@ -36,10 +36,27 @@ Interval medianInterval(const std::vector<double>& values) {
   return {quantile(medians, 0.025), quantile(medians, 0.975)};
 }
 
-std::vector<double> roundRatios(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> ratios(std::min(a.size(), b.size()));
-  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = a[i] / b[i];
-  return ratios;
+TimeRatio timeRatio(std::span<const double> a, std::span<const double> b) {
+  const std::size_t rounds = std::min(a.size(), b.size());
+  if (rounds == 0) return {};
+  constexpr double share = 0.25;
+  std::vector<double> first(a.begin(), a.begin() + std::ptrdiff_t(rounds)),
+      second(b.begin(), b.begin() + std::ptrdiff_t(rounds));
+  TimeRatio ratio;
+  ratio.value = quantile(first, share) / quantile(second, share);
+  std::mt19937 random(1);
+  std::vector<double> ratios(1000);
+  for (double& each : ratios) {
+    for (std::size_t i = 0; i < rounds; ++i) {
+      const auto drawn = std::size_t(std::uint64_t(random()) * rounds >> 32);
+      first[i] = a[drawn];
+      second[i] = b[drawn];
+    }
+    each = quantile(first, share) / quantile(second, share);
+  }
+  ratio.low = quantile(ratios, 0.025);
+  ratio.high = quantile(ratios, 0.975);
+  return ratio;
 }
 
 }  // namespace glint

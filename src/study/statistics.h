@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace glint {
@@ -26,8 +27,15 @@ struct Interval {
 /// from `values` with replacement, always the same ones. {0, 0} of no values.
 Interval medianInterval(const std::vector<double>& values);
 
-/// a[i] / b[i] of the rounds that both have: what a and b took at nearly the same moment, so that a
-/// machine that slows down or speeds up changes both.
-std::vector<double> roundRatios(const std::vector<double>& a, const std::vector<double>& b);
+/// How the times of a and b compare, measured in turn.
+struct TimeRatio {
+  double value = 0, low = 0, high = 0;  ///< of a to b, with its 95 % interval; all 0 of no rounds
+};
+
+/// The ratio of the lower quartiles of the rounds that both have. What takes a machine away for a
+/// while, or puts one build of a program in an unlucky place, only ever adds time, and the lower
+/// quartile leaves it out as long as it hits less than three rounds of four. Bootstrap: rounds are
+/// drawn for a and b together, so that a machine that slows down or speeds up changes both.
+TimeRatio timeRatio(std::span<const double> a, std::span<const double> b);
 
 }  // namespace glint

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "glint/image/error.h"
@@ -94,10 +95,10 @@ class Study {
       for (const DrawItem& item : list.items)
         for (const std::string& name : featureNames(item.variant))
           if (features.insert(name).second) v.features.push_back(name);
-      pictures_.push_back(renderer_.begin(gpu_, std::move(list), v.variant.look));
+      pictures_.push_back(renderer_->begin(gpu_, std::move(list), v.variant.look));
       v.compile = pictures_.back().times().compile;
       v.firstFrame = timeOnce(pictures_.back());
-      Image picture = drawList(renderer_, gpu_, pictures_.back().list(), v.variant.look);
+      Image picture = drawList(*renderer_, gpu_, pictures_.back().list(), v.variant.look);
       errorsOf(v, picture);
       if (options_.keepPictures) v.picture = std::move(picture);
     }
@@ -124,9 +125,12 @@ class Study {
     v.interpolation = errorOf(truth(model), given, exposure);
   }
 
-  /// Floors and controls are measured among the variants.
-  void measureTimes() {
-    const std::size_t count = pictures_.size();
+  /// Begins the pictures of the variants, if they are not there, and of floors and controls.
+  void beginPictures(const std::vector<std::size_t>& controls) {
+    if (pictures_.empty())
+      for (const VariantResult& v : result_.variants)
+        pictures_.push_back(renderer_->begin(
+            gpu_, makeDrawList(scene_.scene, scene_.bounds, v.variant.look), v.variant.look));
     const Look exact = exactLook(options_.look, Shading::phong);
     DrawList list = makeDrawList(scene_.scene, scene_.bounds, exact);
     DrawList empty = list;
@@ -136,26 +140,50 @@ class Study {
       constant.unlit = true;
       item.variant = constant;
     }
-    pictures_.push_back(renderer_.begin(gpu_, std::move(empty), exact));
-    pictures_.push_back(renderer_.begin(gpu_, std::move(list), exact));
-    const std::vector<std::size_t> controls = controlled(count);
+    pictures_.push_back(renderer_->begin(gpu_, std::move(empty), exact));
+    pictures_.push_back(renderer_->begin(gpu_, std::move(list), exact));
+    renderer_->setProgramsAside();  // or a control would be drawn by its variant's own
     for (const std::size_t i : controls)
       pictures_.push_back(
-          renderer_.begin(gpu_, pictures_[i].list(), result_.variants[i].variant.look));
+          renderer_->begin(gpu_, pictures_[i].list(), result_.variants[i].variant.look));
+  }
 
-    std::vector<Renderer::Picture*> pictures;
-    for (Renderer::Picture& picture : pictures_) pictures.push_back(&picture);
-    const int whole = options_.warmUp + options_.rounds;
-    auto times = timeInTurn(pictures, options_.warmUp, options_.rounds, stop_, [&](int round) {
-      tell("frame times", double(round + options_.warmUp + 1) / whole);
-    });
+  /// Floors and controls are measured among the variants. All are built anew several times, since
+  /// where a driver puts a program may change how fast it is, for as long as it stays there.
+  void measureTimes() {
+    const std::size_t count = pictures_.size();
+    const std::vector<std::size_t> controls = controlled(count);
+    std::vector<FrameTimes> times(count + 2 + controls.size());
+    const int builds = std::clamp(options_.builds, 1, options_.rounds);
+    // The first frames draw the driver's and the machine's caches full; later builds need less.
+    const auto warmUpOf = [&](int build) {
+      return build == 0 ? options_.warmUp : std::min(options_.warmUp, 3);
+    };
+    int whole = options_.rounds, past = 0;
+    for (int build = 0; build < builds; ++build) whole += warmUpOf(build);
+    for (int build = 0; build < builds && !(stop_ && stop_()); ++build) {
+      if (build > 0) {
+        pictures_.clear();
+        renderer_.emplace();
+      }
+      beginPictures(controls);
+      std::vector<Renderer::Picture*> pictures;
+      for (Renderer::Picture& picture : pictures_) pictures.push_back(&picture);
+      const int rounds = options_.rounds * (build + 1) / builds - options_.rounds * build / builds;
+      const auto part = timeInTurn(pictures, warmUpOf(build), rounds, stop_,
+                                   [&](int) { tell("frame times", double(++past) / whole); });
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        times[i].wall.insert(times[i].wall.end(), part[i].wall.begin(), part[i].wall.end());
+        times[i].query.insert(times[i].query.end(), part[i].query.begin(), part[i].query.end());
+      }
+    }
     if (times[0].wall.size() < std::size_t(options_.rounds))
       result_.missing.emplace_back("frame times after " + std::to_string(times[0].wall.size()) +
                                    " of " + std::to_string(options_.rounds) + " rounds");
     for (std::size_t k = 0; k < controls.size(); ++k) {
       result_.controls.push_back(result_.variants[controls[k]].variant.name);
       result_.controlRatios.push_back(
-          roundRatios(times[count + 2 + k].wall, times[controls[k]].wall));
+          timeRatio(times[count + 2 + k].wall, times[controls[k]].wall));
     }
     result_.spread = spreadOfControls(result_.controlRatios);
     for (std::size_t i = 0; i < count; ++i) result_.variants[i].times = std::move(times[i]);
@@ -218,7 +246,7 @@ class Study {
   const Stop& stop_;
   const StudyProgress& progress_;
   GpuScene gpu_;
-  Renderer renderer_;
+  std::optional<Renderer> renderer_{std::in_place};
   StudyResult result_;
   std::deque<Renderer::Picture> pictures_;  ///< of the variants, then floors and controls
   std::map<Shading, Radiances> truths_, driverTruths_;
@@ -243,6 +271,16 @@ const VariantError* errorAgainst(const VariantResult& variant, Shading model) {
   for (const VariantError& error : variant.errors)
     if (error.against == model) return &error;
   return nullptr;
+}
+
+double exactFrame(const StudyScene& scene, const Look& given) {
+  GpuScene gpu(scene.scene, scene.images);
+  Renderer renderer;
+  const Look look = exactLook(given, Shading::phong);
+  Renderer::Picture picture =
+      renderer.begin(gpu, makeDrawList(scene.scene, scene.bounds, look), look);
+  timeOnce(picture);
+  return std::min({timeOnce(picture), timeOnce(picture), timeOnce(picture)});
 }
 
 StudyResult study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,

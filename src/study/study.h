@@ -20,6 +20,7 @@ struct StudyOptions {
   StudyFilter filter;  ///< with one there are no series
   int warmUp = 10;     ///< rounds that are not counted
   int rounds = 60;     ///< frames of each variant
+  int builds = 6;      ///< of each program, which share the rounds
   bool quick = false;  ///< series of fewer points
   bool keepPictures = false;
 };
@@ -95,9 +96,9 @@ struct StudyResult {
   StudyMask mask;  ///< of the variants' pictures
   std::vector<VariantResult> variants;
   std::vector<StudyFloor> floors;
-  std::vector<std::string> controls;  ///< variants measured twice
-  std::vector<std::vector<double>> controlRatios;
-  double spread = 0;  ///< noise floor of a ratio of times
+  std::vector<std::string> controls;     ///< variants measured twice, by programs of their own
+  std::vector<TimeRatio> controlRatios;  ///< of the second measurement to the first
+  double spread = 0;                     ///< noise floor of a ratio of times
   std::vector<StudyFront> fronts;
   std::vector<StudySeries> series;
   std::vector<Specialisation> specialisations;
@@ -113,6 +114,9 @@ double metricOf(const VariantError& error, const std::string& metric);
 
 /// The error of a variant against a model, null if it approximates another.
 const VariantError* errorAgainst(const VariantResult& variant, Shading model);
+
+/// Milliseconds of a frame in the exact form of phong, in the current context.
+double exactFrame(const StudyScene& scene, const Look& look);
 
 /// Studies a scene in the current context. `stop` ends it early with what there is by then.
 StudyResult study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,

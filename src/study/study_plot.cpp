@@ -52,7 +52,7 @@ const char* colorOf(const std::string& shading) {
 struct Point {
   std::string name, shading;
   double ms, low, high, error;
-  bool onFront;
+  bool onFront, isChosen;
 };
 
 std::vector<Point> pointsOf(const Json& json, const std::string& model) {
@@ -64,7 +64,7 @@ std::vector<Point> pointsOf(const Json& json, const std::string& model) {
       if (e["against"] == model && e["rmse"].is_number())
         points.push_back({v["name"], v["shading"], wall["median"], wall["lowerQuartile"],
                           wall["upperQuartile"], std::max(e["rmse"].get<double>(), 1e-9),
-                          e["fronts"].value("rmse", Json()) == Json(true)});
+                          e["fronts"].value("rmse", Json()) == Json(true), v.contains("bound")});
   }
   return points;
 }
@@ -142,9 +142,18 @@ std::string studyPlot(const Json& json) {
     svg += "<circle cx=\"" + number(x(p.ms)) + "\" cy=\"" + number(y(p.error)) + "\" r=\"" +
            (p.onFront ? "5" : "3") + "\" fill=\"" + color + "\"><title>" + p.name +
            "</title></circle>\n";
-    // Neighbours' names above and below, or they would lie on each other.
-    if (p.onFront)
-      svg += text(x(p.ms) + 8, y(p.error) + (above ? -7 : 15), p.name, "font-weight=\"bold\"");
+    if (p.isChosen)  // by --max-error
+      svg += "<path d=\"M" + number(x(p.ms)) + " " + number(y(p.error) - 10) +
+             " l10 10 l-10 10 l-10 -10 Z\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.5\"/>\n";
+    if (p.onFront || p.isChosen) {
+      // Neighbours' names above and below, or they would lie on each other; before the point where
+      // there is no room behind it.
+      const double beside = p.isChosen ? 12 : 8, below = p.onFront ? 15 : 26;
+      const bool before = x(p.ms) + 7 * double(p.name.size()) > width - right;
+      svg += text(x(p.ms) + (before ? -beside : beside),
+                  y(p.error) + (p.onFront && above ? -7 : below), p.name,
+                  before ? "font-weight=\"bold\" text-anchor=\"end\"" : "font-weight=\"bold\"");
+    }
     above = above != p.onFront;
   }
   double place = left;

@@ -107,8 +107,9 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
   std::vector<std::string> all{
       formatted(
           "Variants, floors and controls take turns, in another order each round: %d rounds after "
-          "%d that are not counted.",
-          head.rounds, head.warmUp),
+          "%d that are not counted. They are shared by %d builds of all programs, since where a "
+          "driver puts one may change how fast it is.",
+          head.rounds, head.warmUp, head.builds),
       "wall: from the first GL call of a frame until glFinish returns, nothing read back.",
       software
           ? "query: GL_TIME_ELAPSED. llvmpipe counts in its rasteriser's threads, anew in each "
@@ -118,12 +119,10 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
           "empty: the target is cleared and no more; constant: the same surface in one colour. ns "
           "per pixel: median above the empty frame, for each of the %zu covered pixels.",
           r.mask.covered),
-      formatted(
-          "Two times differ only if the 95 %% bootstrap interval of the median of their ratio, "
-          "round "
-          "by round, is farther from 1 than the spread, %.1f %%: the most by which a variant "
-          "differs from itself, measured twice (A/A).",
-          100 * r.spread),
+      formatted("Two times differ only if the 95 %% bootstrap interval of the ratio of their lower "
+                "quartiles is farther from 1 than the spread, %.1f %%: the most by which a variant "
+                "differs from itself, built and measured twice (A/A).",
+                100 * r.spread),
       formatted(
           "Errors: linear light before exposure, over %zu pixels, against double precision in the "
           "exact form. Left out of %zu covered: %zu at edges, %zu covered by one alone, %zu that "
@@ -133,6 +132,11 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
       "themselves, blinn-phong with phong too.",
       "shading: form and rounding, from what the driver interpolated; interpolation: what that "
       "differs from the exact (of flat and gouraud: light interpolated in place of normals)."};
+  if (head.longFrame > 0)
+    all.push_back(formatted(
+        "Half the usual width and height, since a frame of exact phong takes more than %g ms "
+        "there.",
+        head.longFrame));
   if (r.mask.sampledColors)
     all.emplace_back(
         "The driver's own samples of the textures count as given: their filtering is "
@@ -155,6 +159,7 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
       {"gl", {{"vendor", r.gl.vendor}, {"renderer", r.gl.renderer}, {"version", r.gl.version}}},
       {"triangles", r.triangles},
       {"draws", r.draws},
+      {"builds", head.builds},
       {"resolution", {head.look.resolution.x, head.look.resolution.y}}};
   json["mask"] = {{"pixels", r.mask.pixels.size()},
                   {"covered", r.mask.covered},
@@ -168,11 +173,11 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
   json["spread"] = r.spread;
   json["controls"] = Json::array();
   for (std::size_t i = 0; i < r.controls.size(); ++i) {
-    const Interval interval = medianInterval(r.controlRatios[i]);
+    const TimeRatio& ratio = r.controlRatios[i];
     json["controls"].push_back({{"variant", r.controls[i]},
-                                {"ratio", number(quantile(r.controlRatios[i], 0.5))},
-                                {"low", interval.low},
-                                {"high", interval.high}});
+                                {"ratio", ratio.value},
+                                {"low", ratio.low},
+                                {"high", ratio.high}});
   }
   json["floors"] = Json::array();
   for (const StudyFloor& floor : r.floors)
@@ -186,6 +191,7 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
                {"shading", shadingName(v.variant.program)},
                {"highlight", v.variant.highlight}};
     if (!v.variant.fresnel.empty()) entry["fresnel"] = v.variant.fresnel;
+    if (v.variant.bound) entry["bound"] = number(*v.variant.bound);
     entry["features"] = v.features;
     entry["ms"] = {{"compile", v.compile}, {"firstFrame", v.firstFrame}};
     entry["times"] = timesJson(v.times);
@@ -245,7 +251,7 @@ std::string studyCsv(const StudyResult& r) {
     for (const VariantError& e : v.errors) {
       const StudyFront* front = frontOf(r, e.against, "rmse");
       const FrontPlace* place = placeOf(front, i);
-      csv += v.variant.name + "," + std::string(shadingName(e.against)) + "," +
+      csv += "\"" + v.variant.name + "\"," + std::string(shadingName(e.against)) + "," +
              formatted("%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", wall.count, wall.minimum,
                        wall.lowerQuartile, wall.median, wall.upperQuartile, query.median,
                        perPixel(r, v.times), v.compile, v.firstFrame) +
@@ -255,7 +261,7 @@ std::string studyCsv(const StudyResult& r) {
                        v.interpolation.rmse) +
              (!place           ? ","
               : place->onFront ? "yes,"
-                               : "no," + dominator(r, *front, *place)) +
+                               : "no,\"" + dominator(r, *front, *place) + "\"") +
              "\n";
     }
   }
@@ -270,8 +276,7 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
   for (const StudyFloor& floor : r.floors)
     if (!floor.times.wall.empty())
       table += formatted("floor, %-9s %8.3f ms\n", floor.name.c_str(), median(floor.times));
-  if (!r.controlRatios.empty() && !r.controlRatios[0].empty())
-    table += formatted("spread (A/A)    %8.1f %%\n", 100 * r.spread);
+  if (r.spread > 0) table += formatted("spread (A/A)    %8.1f %%\n", 100 * r.spread);
   for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
     const StudyFront* front = frontOf(r, model, "rmse");
     std::vector<std::pair<double, std::size_t>> order;
@@ -280,8 +285,11 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
         order.emplace_back(e->whole.rmse, i);
     if (order.empty()) continue;
     std::sort(order.begin(), order.end());
+    int width = 32;
+    for (const auto& [rmse, i] : order)
+      width = std::max(width, int(r.variants[i].variant.name.size()));
     table +=
-        formatted("\n%-32s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n",
+        formatted("\n%-*s %8s %17s %7s %9s %9s %9s %9s %7s  %s\n", width,
                   ("against exact " + std::string(shadingName(model))).c_str(), "ms", "quartiles",
                   "ns/px", "max", "p99.9", "rmse", "flip", ">1 lev", "front (rmse)");
     for (const auto& [rmse, i] : order) {
@@ -289,7 +297,7 @@ std::string studyTable(const StudyHead& head, const StudyResult& r) {
       const VariantError& e = *errorAgainst(v, model);
       const Spread wall = spreadOf(v.times.wall);
       const FrontPlace* place = placeOf(front, i);
-      table += formatted("%-32s ", v.variant.name.c_str());
+      table += formatted("%-*s ", width, v.variant.name.c_str());
       table += wall.count == 0
                    ? formatted("%8s %17s %7s ", "-", "-", "-")
                    : formatted("%8.3f %8.3f-%8.3f %7.2f ", wall.median, wall.lowerQuartile,

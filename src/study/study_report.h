@@ -12,7 +12,9 @@ struct StudyHead {
   std::string version, model, backend;
   bool quick = false;
   Look look;
-  int rounds = 0, warmUp = 0;
+  int rounds = 0, warmUp = 0, builds = 0;
+  /// Not 0: the picture has half the usual width and height, since a frame takes more ms than that.
+  double longFrame = 0;
 };
 
 /// The whole result, without pictures.

@@ -57,9 +57,8 @@ class Results {
   }
   /// "0.93 (0.91 to 0.95)": the time of a over that of b.
   static std::string ratio(const FrameTimes& a, const FrameTimes& b) {
-    const auto ratios = roundRatios(a.wall, b.wall);
-    const Interval interval = medianInterval(ratios);
-    return formatted("%.3f (%.3f to %.3f)", quantile(ratios, 0.5), interval.low, interval.high);
+    const TimeRatio of = timeRatio(a.wall, b.wall);
+    return formatted("%.3f (%.3f to %.3f)", of.value, of.low, of.high);
   }
   /// "faster", "slower" or "the same", beyond the spread.
   std::string compared(const FrameTimes& a, const FrameTimes& b) const {
@@ -76,7 +75,8 @@ class Results {
       std::string table;
       int squarings = 0, faster = 0;
       for (const VariantResult& v : r_.variants) {
-        if (shadingName(v.variant.program) != program || v.times.wall.empty()) continue;
+        if (shadingName(v.variant.program) != program || v.times.wall.empty() || v.variant.bound)
+          continue;
         const PictureError& e = v.errors[0].whole;
         const bool lyons = v.variant.highlight.starts_with("lyon");
         const bool wins = isFaster(v.times.wall, pow->times.wall, r_.spread);
@@ -201,7 +201,8 @@ class Results {
         "|\n|---|---|---|---|---|---|\n");
     const VariantResult* exact = variant("environment exact");
     for (const VariantResult& v : r_.variants)
-      if (v.variant.program == Shading::environment && exact && !v.times.wall.empty())
+      if (v.variant.program == Shading::environment && exact && !v.times.wall.empty() &&
+          !v.variant.bound)
         add(formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.1e |\n", v.variant.fresnel.c_str(),
                       median(v.times), &v == exact ? "1" : ratio(v.times, exact->times).c_str(),
                       v.errors[0].whole.max, v.errors[0].whole.rmse, v.errors[0].flip));

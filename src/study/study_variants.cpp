@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "glint/image/error.h"
+#include "glint/render/error_budget.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/parameters.h"
 
 namespace glint {
@@ -22,12 +24,46 @@ bool has(const DrawList& list, bool Variant::*feature) {
 
 /// Whether two looks are drawn by the same programs with the same constants.
 bool drawnAlike(const DrawList& a, const DrawList& b) {
-  return std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
+  const auto bytes = [](const std::vector<LightEntry>& lights) {
+    return std::as_bytes(std::span(lights));
+  };
+  return std::ranges::equal(bytes(a.lights), bytes(b.lights)) &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
                     [](const DrawItem& x, const DrawItem& y) {
                       return x.variant == y.variant &&
                              std::memcmp(&x.materialBlock, &y.materialBlock,
                                          sizeof x.materialBlock) == 0;
                     });
+}
+
+/// What the look's budget chooses for one of its programs, named after the variant that is drawn
+/// alike, if there is one.
+StudyVariant chosenVariant(const Scene& scene, const Bounds& bounds, const Look& look,
+                           Shading program, const std::vector<StudyVariant>& others) {
+  Look asked = look;
+  asked.shading = program;
+  const ResolvedLook resolved = resolveLook(scene, bounds, asked);
+  StudyVariant v;
+  v.look = resolved.look;
+  v.bound = resolved.bound;
+  v.program = resolved.look.shading;
+  v.highlight = highlightText(v.look.highlight);
+  if (v.program == Shading::environment) v.fresnel = fresnelText(v.look.fresnel);
+  const bool byMaterial = std::ranges::any_of(v.look.material, [](const auto& each) {
+    return each.second.highlight || each.second.fresnel;
+  });
+  v.name = std::string(shadingName(v.program)) + (byMaterial ? " by material"
+                                                  : v.fresnel.empty()
+                                                      ? " " + v.highlight
+                                                      : " " + v.fresnel + " " + v.highlight);
+  const DrawList own = makeDrawList(scene, bounds, v.look);
+  for (const StudyVariant& other : others)
+    if (other.program == v.program && drawnAlike(own, makeDrawList(scene, bounds, other.look)))
+      v.name = other.name;
+  char budget[32];
+  std::snprintf(budget, sizeof budget, "%g", *look.maxError);
+  v.name = std::string("max-error ") + budget + ": " + v.name;
+  return v;
 }
 
 }  // namespace
@@ -110,6 +146,15 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
         all.push_back(v);
       }
   }
+  if (!look.maxError) return all;
+  std::vector<Shading> programs{Shading::phong, Shading::blinnPhong, Shading::environment};
+  if (look.shading == Shading::automatic) programs[0] = look.shading;
+  if (!filter.shading.empty()) programs = {look.shading};
+  std::vector<StudyVariant> chosen;
+  for (const Shading program : programs)
+    chosen.push_back(chosenVariant(scene, bounds, look, program, all));
+  all.insert(all.end(), std::make_move_iterator(chosen.begin()),
+             std::make_move_iterator(chosen.end()));
   return all;
 }
 

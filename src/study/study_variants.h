@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct StudyVariant {
   std::string highlight;  ///< as `--highlight` takes it
   std::string fresnel;    ///< as `--fresnel` takes it; empty but for the program environment
   Look look;
+  /// Of what --max-error chooses: the bound of its error, linear radiance.
+  std::optional<double> bound = {};
 
   bool operator==(const StudyVariant&) const = default;
 };
@@ -41,7 +44,9 @@ void setForms(Look& look, const std::string& highlight, const std::string& fresn
 /// material has, none of the reflectance without a dielectric, none that is drawn like an earlier
 /// one (such as a form that an exponent cannot have). Per face and per vertex, where they
 /// cost next to nothing, only the forms without a number; the program environment draws its
-/// highlight in the exact form, blinn-phong's forms being its own.
+/// highlight in the exact form, blinn-phong's forms being its own. Where the look has a budget
+/// (--max-error) the last are what is chosen for phong (or among the programs, if the look's is
+/// auto), blinn-phong and environment, also where another variant draws the same.
 std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds, const Look& look,
                                         const StudyFilter& filter);
 

@@ -1,0 +1,103 @@
+// Tables of costs: the shipped one, files of measured ones, and the wrong ones.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "glint/image/error.h"
+#include "glint/render/cost_file.h"
+#include "gltf_text.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string written(const std::string& text) {
+  const std::string path = test::temporaryFolder() + "/costs.json";
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(CostTable, CountsTheProductsOfAPower) {
+  // x, x^2, x^2 x, (x^2)^2, ... : squarings and one product for each further bit.
+  const int products[] = {0, 1, 2, 2, 3, 3, 4, 3};
+  for (int power = 1; power <= 8; ++power) EXPECT_EQ(productsOf(power), products[power - 1]);
+  EXPECT_EQ(productsOf(127), 12);
+  EXPECT_EQ(productsOf(128), 7);
+  const CostTable shipped;
+  EXPECT_EQ(shipped.lobe(LobeForm::integer, 127), shipped.integer.back());
+  EXPECT_EQ(shipped.lobe(LobeForm::lyonTuned, 64), shipped.lyon.back());
+  EXPECT_EQ(shipped.lobe(LobeForm::pade, 1), shipped.pade.front());
+  EXPECT_NE(shipped.reflectance(FresnelForm::schlick, 5),
+            shipped.reflectance(FresnelForm::schlick, 4));
+}
+
+TEST(CostFile, HoldsEveryCost) {
+  CostFile file;
+  file.gl = {"v", "llvm\"pipe", "4.5"};
+  file.noise = 1.25;
+  // Every cost another, so that none can stand in another's place.
+  double next = 1.0 / 3;
+  const auto set = [&](auto& costs) {
+    for (double& cost : costs) cost = next++;
+  };
+  CostTable& t = file.costs;
+  for (double* cost : {&t.exact, &t.pow, &t.gaussian, &t.fresnelExact, &t.textbook, &t.schlickExp2,
+                       &t.rational, &t.schlick, &t.schlickExponent})
+    *cost = next++;
+  set(t.integer);
+  set(t.lyon);
+  set(t.lyonCross);
+  set(t.pade);
+  const CostFile read = readCostFile(written(costFileText(file)));
+  EXPECT_EQ(read.costs, file.costs);
+  EXPECT_EQ(read.noise, file.noise);
+  EXPECT_EQ(read.gl.renderer, file.gl.renderer);
+  Look look;
+  EXPECT_EQ(costTableFor(look), CostTable());
+  look.costTable = written(costFileText(file));
+  EXPECT_EQ(costTableFor(look), file.costs);
+}
+
+TEST(CostFile, RefusesWhatIsNoTable) {
+  const auto refused = [](const std::string& text, const std::string& words) {
+    try {
+      readCostFile(written(text));
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_THAT(message, testing::HasSubstr(words));
+      EXPECT_THAT(message, testing::HasSubstr("costs.json: "));
+      EXPECT_THAT(message, testing::HasSubstr("glint study --measure-costs"));
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+  };
+  const Json good = Json::parse(costFileText({}));
+  const auto changed = [&](const char* pointer, const Json& value) {
+    Json json = good;
+    json[Json::json_pointer(pointer)] = value;
+    return json.dump();
+  };
+  refused("", "is not JSON");
+  refused("{\"glint-costs\": 1", "is not JSON");
+  refused("[1, 2]", "is no table of costs");
+  refused("{\"glint-look\": 1}", "is no table of costs");
+  refused(changed("/glint-costs", 2), "version 2, and this glint reads 1");
+  refused(changed("/highlight", 3), "lacks the cost of highlight exact");
+  refused(changed("/highlight/pow", "dear"), "highlight pow is not a number");
+  refused(changed("/highlight/pow", -1), "highlight pow is not from 0 to 1e6");
+  refused(changed("/highlight/pow", Json()), "highlight pow is not a number");
+  refused(changed("/fresnel/rational", 1e300), "fresnel rational is not from 0 to 1e6");
+  refused(changed("/highlight/lyon", Json::array({1, 2})), "is not a list of 7 numbers");
+  refused(changed("/highlight/lyon/3", Json::object()), "highlight lyon is not a number");
+  refused(changed("/fresnel/magic", 1), "a form that this glint does not know");
+  Json less = good;
+  less["fresnel"].erase("schlick");
+  refused(less.dump(), "lacks the cost of fresnel schlick");
+  EXPECT_THROW(readCostFile("/no/such/costs.json"), InputError);
+}
+
+}  // namespace
+}  // namespace glint

@@ -1,0 +1,53 @@
+// Costs measured on this driver: a whole table, whatever the figures are.
+
+#include <gtest/gtest.h>
+
+#include "glint/study/cost_measurement.h"
+
+namespace glint {
+namespace {
+
+TEST(CostMeasurementOnGl, FillsATable) {
+  const auto context = openContext(Backend::automatic);
+  context->makeCurrent();
+  double last = -1;
+  const CostMeasurement measured =
+      measureCosts({0, 1}, {}, [&](std::string_view, double share) { last = share; });
+  ASSERT_TRUE(measured.complete);
+  EXPECT_EQ(measured.builds, 1);
+  EXPECT_GE(last, 0);
+  EXPECT_GT(measured.exactNanoseconds, 0);
+  const CostTable& t = measured.file.costs;
+  EXPECT_EQ(t.exact, 100);
+  // Each is what was measured, and not what ships.
+  EXPECT_EQ(measured.lobes.size(), 2 + 5 + 3 * 7 + 1u);
+  EXPECT_EQ(measured.reflectances.size(), 6u);
+  for (const MeasuredCost& c : measured.lobes) EXPECT_GE(c.inTable, 1) << c.form;
+  for (const MeasuredCost& c : measured.reflectances) EXPECT_GE(c.inTable, 0) << c.form;
+  EXPECT_EQ(t.lyon[2], measured.lobes[7 + 3 * 2].inTable);
+  EXPECT_EQ(measured.lobes[7 + 3 * 2].form, "lyon:4");
+  EXPECT_EQ(measured.lobes[7 + 3 * 2].shipped, CostTable().lyon[2]);
+  EXPECT_EQ(t.rational, measured.reflectances.back().inTable);
+  // Those that are not measured lie between.
+  EXPECT_NEAR(t.integer[1], (t.integer[0] + t.integer[2]) / 2, 1e-9);
+  EXPECT_FALSE(measured.file.gl.renderer.empty());
+}
+
+TEST(CostMeasurementOnGl, StopsWithoutATable) {
+  const auto context = openContext(Backend::automatic);
+  context->makeCurrent();
+  int asked = 0;
+  EXPECT_FALSE(measureCosts({}, [&] { return ++asked > 3; }, {}).complete);
+}
+
+// What cannot be told apart is equal.
+TEST(CostMeasurement, RoundsToMultiplesOfTheNoiseAwayFromTheExactForm) {
+  EXPECT_EQ(roundedCost(101.4, 3), 100);
+  EXPECT_EQ(roundedCost(98.6, 3), 100);
+  EXPECT_EQ(roundedCost(98.4, 3), 97);
+  EXPECT_EQ(roundedCost(31.2, 3), 31);
+  EXPECT_EQ(roundedCost(31.2, 0), 31.2);
+}
+
+}  // namespace
+}  // namespace glint

@@ -1,0 +1,119 @@
+// --cost-table, as a user gives it.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+
+namespace glint::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+const std::string teapot = GLINT_SOURCE_DIR "/models/teapot.glb";
+
+/// A table in which a form of the lobe is nearly free.
+Json tableFor(const std::string& cheap) {
+  Json table{{"glint-costs", 1},
+             {"highlight",
+              {{"exact", 100},
+               {"pow", 99},
+               {"integer", std::vector<double>(13, 99)},
+               {"lyon", std::vector<double>(7, 99)},
+               {"lyon-cross", std::vector<double>(7, 99)},
+               {"pade", std::vector<double>(7, 99)},
+               {"gaussian", 99}}},
+             {"fresnel",
+              {{"exact", 100},
+               {"textbook", 100},
+               {"schlick", 100},
+               {"schlick-exponent", 100},
+               {"schlick-exp2", 100},
+               {"rational", 100}}}};
+  table["highlight"][cheap] = 1;
+  return table;
+}
+
+class CostTableCommand : public testing::Test {
+ protected:
+  std::string written(const std::string& text) {
+    std::ofstream(folder_ / "costs.json") << text;
+    return folder_ / "costs.json";
+  }
+  /// The choice of a command with --json -.
+  Json choice(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--max-error", "0.05", "--material",
+                                       "specular=0.5,exponent=300", "--json", "-"});
+    const Ran ran = runGlint(arguments);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    if (ran.status != 0) return {};
+    const Json json = Json::parse(ran.out);
+    return json.contains("choice") ? json["choice"] : json["pictures"][0]["choice"];
+  }
+  Folder folder_{"cost-table"};
+};
+
+TEST_F(CostTableCommand, IsWhatTheChoiceGoesBy) {
+  const Json shipped = choice({"info", teapot});
+  EXPECT_EQ(shipped["costs"], "shipped");
+  const std::string file = written(tableFor("gaussian").dump());
+  const Json measured = choice({"info", teapot, "--cost-table", file});
+  EXPECT_EQ(measured["costs"], file);
+  EXPECT_EQ(measured["materials"][0]["highlight"], "gaussian");
+  EXPECT_NE(shipped["materials"][0]["highlight"], "gaussian");
+  written(tableFor("pow").dump());
+  const Json drawn = choice(quick({"render", teapot, "-o", folder_ / "a.png", "--cost-table", file,
+                                   "--save-look", folder_ / "look.json"}));
+  EXPECT_EQ(drawn["costs"], file);
+  EXPECT_EQ(drawn["materials"][0]["highlight"], "pow");
+  const Json look = Json::parse(contents(folder_ / "look.json"));
+  EXPECT_EQ(look["highlight"], "pow");
+  EXPECT_FALSE(look.contains("cost-table"));
+  EXPECT_FALSE(look.contains("max-error"));
+}
+
+// One line and status 2, before anything is drawn and whether or not there is a choice to make.
+TEST_F(CostTableCommand, RefusesWhatIsNoTable) {
+  Json newer = tableFor("pow");
+  newer["glint-costs"] = 2;
+  const std::pair<std::string, const char*> wrong[] = {
+      {"no JSON", "is not JSON"}, {"{}", "is no table of costs"}, {newer.dump(), "version 2"}};
+  for (const auto& [text, words] : wrong)
+    for (const char* command : {"info", "render", "study"}) {
+      std::vector<std::string> arguments{command, teapot, "--cost-table", written(text)};
+      if (command == std::string("render"))
+        arguments.insert(arguments.end(), {"-o", folder_ / "a.png"});
+      const Ran ran = runGlint(arguments);
+      EXPECT_EQ(ran.status, 2);
+      EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+      EXPECT_THAT(ran.err, HasSubstr(words));
+      EXPECT_THAT(ran.err, HasSubstr("costs.json: "));
+      EXPECT_THAT(ran.err, HasSubstr("glint study --measure-costs"));
+    }
+  const Ran missing = runGlint({"info", teapot, "--cost-table", folder_ / "none.json"});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_EQ(missing.errorLines().size(), 1u);
+  EXPECT_THAT(missing.err, HasSubstr("none.json"));
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"costs.json"});
+}
+
+// What is drawn already was chosen by the file as it was.
+TEST_F(CostTableCommand, AnotherTableIsAnotherPictureForResume) {
+  const std::string file = written(tableFor("gaussian").dump());
+  const auto skipped = [&] {
+    const Ran ran = runGlint(quick({"render", teapot, "-o", folder_ / "a.png", "--cost-table", file,
+                                    "--max-error", "0.05", "--resume", "--json", "-"}));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return Json::parse(ran.out)["pictures"][0].contains("skipped");
+  };
+  EXPECT_FALSE(skipped());
+  EXPECT_TRUE(skipped());
+  written(tableFor("pow").dump());
+  EXPECT_FALSE(skipped());
+}
+
+}  // namespace
+}  // namespace glint::test

@@ -1,0 +1,279 @@
+"""A viewer in a real window under Xvfb, with the hands and eyes of a person: xdotool and the X server's
+pixels. Nothing is waited for by time alone: the machine may be busy."""
+
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+import x11
+
+PATIENCE = 60  # seconds; the machine may be busy
+
+
+def wait_for(what, condition, patience=PATIENCE):
+    end = time.monotonic() + patience
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError("waited in vain for " + what)
+        time.sleep(0.03)
+
+
+def pixels_of(png):
+    return subprocess.run(["convert", png, "-depth", "8", "rgb:-"], capture_output=True,
+                          check=True).stdout
+
+
+def pfm_pixel(data, x, y):
+    """The colour at a place of a PFM, whose rows begin at the bottom."""
+    kind, size, scale, values = data.split(b"\n", 3)
+    assert kind == b"PF" and float(scale) < 0
+    width, height = map(int, size.split())
+    return struct.unpack_from("<3f", values, 12 * (width * (height - 1 - y) + x))
+
+
+class Viewer:
+    """A display, a window on it, and a folder of its own with a copy of the model."""
+
+    screen = (1400, 840)
+    panel = 372  # pixels at scale 1; rows of the tab Shading below, as in viewer/panel.cpp
+
+    def __init__(self, model, *options, screen=None, dpi=None):
+        self.folder = tempfile.mkdtemp(prefix="glint-window-")
+        self.model = os.path.join(self.folder, os.path.basename(model))
+        shutil.copyfile(model, self.model)
+        self.options = options
+        self.errors = os.path.join(self.folder, "errors")
+        self.screen = screen or self.screen
+        width, height = self.screen
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24",
+             "-nolisten", "tcp", "-noreset"],
+            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = b""
+        while not number.endswith(b"\n"):  # written in pieces
+            piece = os.read(read, 16)
+            assert piece, "Xvfb did not start"
+            number += piece
+        os.close(read)
+        display = ":" + number.decode().strip()
+        self.environment = dict(os.environ, DISPLAY=display,
+                                XDG_CONFIG_HOME=os.path.join(self.folder, "config"),
+                                XDG_STATE_HOME=os.path.join(self.folder, "state"))
+        self.x = x11.Server(display)
+        if dpi:
+            self.x.set_dpi(dpi)
+        self.process = None
+        try:
+            self.start()
+        except BaseException:
+            self.end()
+            raise
+
+    def start(self, *options):
+        self.process = subprocess.Popen(
+            [VIEWER, os.path.basename(self.model), *self.options, *options], cwd=self.folder,
+            env=self.environment, stderr=open(self.errors, "w"), text=True)
+        self.window = int(wait_for("the window", lambda: not self.alive() or self.xdotool(
+            "search", "--onlyvisible", "--name", "glint$", check=False)).split()[0])
+        assert self.alive(), self.told()
+        self.move(20, 20)
+        self.settled(shaded=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        if kind:
+            self.screenshot("/tmp/glint-window-failure.png")
+            print("the screen is in /tmp/glint-window-failure.png", file=sys.stderr)
+        self.end()
+
+    def end(self):
+        self.kill()
+        self.x.close()
+        self.server.send_signal(signal.SIGTERM)
+        self.server.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def kill(self):
+        if self.process and self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+
+    def told(self):
+        """What it has written to the terminal."""
+        with open(self.errors) as file:
+            return file.read()
+
+    # Hands and eyes.
+
+    def xdotool(self, *arguments, check=True):
+        done = subprocess.run(["xdotool", *arguments], env=self.environment, capture_output=True,
+                              text=True)
+        if check and done.returncode:
+            raise AssertionError("xdotool " + " ".join(arguments) + ": " + done.stderr)
+        return done.stdout.strip()
+
+    def key(self, *keys):
+        for each in keys:
+            self.xdotool("key", each)
+            time.sleep(0.05)
+
+    def move(self, x, y):
+        self.xdotool("mousemove", str(x), str(y))
+
+    def click(self, x, y, repeat=1):
+        self.move(x, y)
+        self.xdotool("click", "--repeat", str(repeat), "--delay", "1", "1")
+
+    def drag(self, x0, y0, x1, y1, button=1, steps=8):
+        self.move(x0, y0)
+        self.xdotool("mousedown", str(button))
+        for i in range(1, steps + 1):
+            self.move(x0 + (x1 - x0) * i // steps, y0 + (y1 - y0) * i // steps)
+        self.xdotool("mouseup", str(button))
+
+    def screenshot(self, path):
+        subprocess.run(["import", "-window", "root", path], env=self.environment)
+
+    def capture(self):
+        """The bytes of the whole screen, RGB."""
+        return self.x.capture(0, 0, *self.screen)
+
+    def settled(self, shaded=False, quiet=0.35):
+        """The screen once it has not changed for a while."""
+        last, since = self.capture(), time.monotonic()
+        picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65)
+
+        def still():
+            nonlocal last, since
+            now = self.capture()
+            if now != last or (shaded and len(set(self.crop(now, picture))) <= 20):
+                last, since = now, time.monotonic()
+            return time.monotonic() - since > quiet
+        wait_for("the picture to be still", still)
+        return last
+
+    def shows(self, size, expected, what):
+        """Waits until the picture is `expected`."""
+        shown = []
+
+        def same():
+            shown[:] = [self.x.capture(0, 0, *size)]
+            return shown[0] == expected
+        try:
+            wait_for(what, same, PATIENCE / 3)
+        except AssertionError:
+            differ = sum(a != b for a, b in zip(shown[0], expected))
+            raise AssertionError(f"waited in vain for {what}: {differ} of {len(expected)} bytes differ")
+
+    def crop(self, screen, size, width=None):
+        across = 3 * (width or self.screen[0])
+        return b"".join(screen[y * across:y * across + 3 * size[0]] for y in range(size[1]))
+
+    # What a person can ask for.
+
+    def save_look(self):
+        """Ctrl+S; the first time the name that is offered is taken."""
+        path = os.path.join(self.folder, os.path.splitext(os.path.basename(self.model))[0]
+                            + "_1.json")
+        before = os.stat(path).st_mtime_ns if os.path.exists(path) else None
+        self.key("ctrl+s")
+        if before is None:
+            time.sleep(0.3)
+            self.key("Return")
+
+        def written():
+            return os.path.exists(path) and os.stat(path).st_mtime_ns != before
+        wait_for("the look to be saved", written)
+        with open(path) as file:
+            return json.load(file), path
+
+    def render(self, *options, ending="png"):
+        """What glint render draws with these options: bytes of RGB for a PNG, else the file's."""
+        out = os.path.join(self.folder, "offscreen." + ending)
+        subprocess.run([GLINT, "render", self.model, *options, "-o", out], check=True,
+                       cwd=self.folder)
+        if ending != "png":
+            with open(out, "rb") as file:
+                return file.read()
+        return pixels_of(out)
+
+    def picture(self):
+        """The window's picture, checked against glint render of the saved look. Returns its bytes
+        and the look."""
+        look, path = self.save_look()
+        self.move(20, 20)
+        drawn = self.render("--look", path)
+        assert len(set(drawn)) > 20, "the picture is one colour"
+        self.shows(tuple(look["resolution"]), drawn, "the picture to be glint render's")
+        return drawn, look
+
+    def alive(self):
+        return self.process.poll() is None
+
+    def left(self, patience=PATIENCE):
+        wait_for("the viewer to end", lambda: self.process.poll() is not None, patience)
+        return self.process.returncode
+
+
+# Centres of widgets in the tab Shading of a model with one material, scale 1.
+PANEL_LEFT = 1000
+TWO_SIDED = (PANEL_LEFT + 174, 193)
+ROW = {"ambient": 295, "diffuse": 320, "specular": 345, "exponent": 370, "metalness": 395}
+SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
+
+
+# Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
+TIME = 195           # tab Picture, of a model that is animated
+INTENSITY = 204      # tab Lights, three lights of which a directional one is selected
+
+
+def drag_slider(viewer, name, start, end):
+    span = SLIDER[1] - SLIDER[0]
+    y = ROW[name]
+    viewer.drag(int(SLIDER[0] + start * span), y, int(SLIDER[0] + end * span), y)
+
+
+def columns(picture, size, first, last, top=40, bottom=40):
+    return [picture[3 * (size[0] * y + first):3 * (size[0] * y + last)]
+            for y in range(top, size[1] - bottom)]
+
+
+def run(tests):
+    """Runs the functions test_... of a module's globals, given GLINT GLINT_VIEWER MODELS [TEST...] on
+    the command line: all, or those named. Returns the exit status: 77 (skipped) if Xvfb, xdotool or
+    ImageMagick are missing."""
+    global GLINT, VIEWER
+    GLINT, VIEWER, models = (os.path.abspath(path) for path in sys.argv[1:4])
+    tests.update(GLINT=GLINT, VIEWER=VIEWER, MODELS=models,
+                 GLSL=os.path.join(os.path.dirname(models), "glsl"),
+                 TEAPOT=os.path.join(models, "teapot.glb"),
+                 SPHERE=os.path.join(models, "sphere.glb"),
+                 BEND=os.path.join(models, "bend.glb"),
+                 LIGHTS=os.path.join(models, "lights.glb"))
+    known = [name for name in tests if name.startswith("test_")]
+    if any(shutil.which(tool) is None for tool in ("Xvfb", "xdotool", "import", "convert")):
+        print("skipped: needs Xvfb, xdotool and ImageMagick")
+        return 77
+    failed = 0
+    for name in sys.argv[4:] or known:
+        start = time.monotonic()
+        try:
+            tests[name]()
+            print(f"ok    {name}  {time.monotonic() - start:.1f} s", flush=True)
+        except AssertionError as error:
+            failed += 1
+            print(f"FAIL  {name}: {error}", flush=True)
+    return 1 if failed else 0

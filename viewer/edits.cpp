@@ -1,0 +1,280 @@
+#include "edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "glint/image/error.h"
+#include "glint/scene/look_text.h"
+#include "glint/scene/parameters.h"
+#include "light_edit.h"
+#include "materials.h"
+#include "presets.h"
+
+namespace glint {
+namespace {
+
+const Parameter& parameterNamed(std::string_view name) {
+  return *std::ranges::find(lookParameters(), name, &Parameter::name);
+}
+
+std::string textOf(const Parameter& p, const Look& look) {
+  const nlohmann::ordered_json value = p.save(look);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void sayChoice(Session& session, std::string_view parameter) {
+  nextChoice(session.document.a, parameter);
+  std::string name(parameter);
+  std::ranges::replace(name, '-', ' ');
+  session.say(name + " " + textOf(parameterNamed(parameter), session.document.a));
+}
+
+void sayForm(Session& session, std::string_view parameter) {
+  if (session.document.a.maxError)
+    session.say("the forms are chosen by max error: turn it off first (Shift+P)");
+  else
+    sayChoice(session, parameter);
+}
+
+void sayFlag(Session& session, const std::string& what, bool& flag) {
+  flag = !flag;
+  session.say(what + (flag ? ": on" : ": off"));
+}
+
+void selectMaterial(Session& session, int step) {
+  const std::vector<int> drawn = drawnMaterials(session.model->scene);
+  const int count = int(drawn.size()) + 1;  // and all of them
+  const auto found = std::ranges::find(drawn, session.material);
+  const int place = found == drawn.end() ? 0 : int(found - drawn.begin()) + 1;
+  const int next = (place + step + count) % count;
+  session.material = next == 0 ? -1 : drawn[std::size_t(next - 1)];
+  session.say("selected " + materialLabel(session.model->scene, session.material));
+}
+
+void takePreset(Session& session, int step) {
+  const Scene& scene = session.model->scene;
+  Look& look = session.document.a;
+  const int count = int(presets().size());
+  const int now = presetOf(effectiveParameters(scene, look, session.material));
+  const int next = now < 0 ? (step > 0 ? 0 : count - 1) : (now + step + count) % count;
+  const Preset& preset = presets()[std::size_t(next)];
+  setParameters(look, materialKey(scene, session.material), presetParameters(preset));
+  session.say(materialLabel(scene, session.material) + ": " + std::string(preset.name));
+}
+
+// All lights by a factor. Those of the file stay the file's: their scale is the look's.
+void scaleLights(Session& session, double factor) {
+  Look& look = session.document.a;
+  const Scene* scene = session.model ? &session.model->scene : nullptr;
+  if (lightsAreTheFiles(scene, look)) {
+    const double scale = look.lightScale.value_or(scene->lightScale) * factor;
+    const double place = std::pow(10.0, std::floor(std::log10(scale)) - 3);  // four digits
+    look.lightScale = std::clamp(std::round(scale / place) * place, 1e-30, 1e30);
+    return session.say("light scale " + numberText(*look.lightScale));
+  }
+  std::vector<Light> lights = shownLights(scene, look);
+  if (lights.empty()) return session.say("there is no light");
+  for (Light& light : lights) light.intensity = glm::min(light.intensity * factor, 1e6);
+  look.light = std::move(lights);
+  session.say(factor > 1 ? "brighter lights" : "darker lights");
+}
+
+void editLights(Session& session, Action command, const glm::dmat3& axes) {
+  Look& look = session.document.a;
+  const Scene* scene = session.model ? &session.model->scene : nullptr;
+  const Bounds bounds = session.model ? session.model->bounds : Bounds{};
+  std::vector<Light> lights = shownLights(scene, look);
+  const std::size_t count = lights.size();
+  session.light = std::min(session.light, count > 0 ? count - 1 : 0);
+  if (command == Action::addLight) {
+    if (count >= maxLights) return session.say("no more lights than these are possible");
+    Light sun;
+    sun.direction = {1, 1, 1};
+    lights.push_back(count == 0 ? sun : anotherLight(lights[session.light], bounds, axes));
+    session.light = count;
+  } else {
+    if (count == 0) return session.say("there is no light");
+    if (command == Action::nextLight) {
+      session.light = (session.light + 1) % count;
+      return session.say("selected light " + std::to_string(session.light + 1) + " of " +
+                         std::to_string(count));
+    }
+    lights.erase(lights.begin() + std::ptrdiff_t(session.light));
+  }
+  const std::string became = setLights(look, scene, bounds, std::move(lights));
+  session.say(!became.empty()               ? became
+              : command == Action::addLight ? "one light more"
+                                            : "one light less");
+}
+
+void moveTime(Session& session, double step) {
+  Look& look = session.document.a;
+  const double duration = animationDuration(session.model->scene, look);
+  const double now = look.animationTime.value_or(0);
+  // To the hundredth, so that steps come back to where they were.
+  look.animationTime = std::clamp(std::round((now + step) * 100) / 100, 0.0, duration);
+  session.say("animation at " + numberText(*look.animationTime) + " of " + numberText(duration) +
+              " s");
+}
+
+void nextAnimation(Session& session) {
+  Look& look = session.document.a;
+  const auto& all = session.model->scene.animations;
+  std::size_t now = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (look.animation == all[i].name || look.animation == std::to_string(i)) now = i;
+  const std::size_t next = (now + 1) % all.size();
+  look.animation = std::to_string(next);
+  if (!look.animationTime) look.animationTime = 0;
+  session.say("animation " + look.animation + " " + all[next].name);
+}
+
+bool editMaterial(Session& session, Action command) {
+  Look& look = session.document.a;
+  switch (command) {
+    case Action::nextMaterial:
+      selectMaterial(session, 1);
+      return true;
+    case Action::previousMaterial:
+      selectMaterial(session, -1);
+      return true;
+    case Action::nextPreset:
+      takePreset(session, 1);
+      return true;
+    case Action::previousPreset:
+      takePreset(session, -1);
+      return true;
+    case Action::resetMaterial:
+      resetMaterial(look, materialKey(session.model->scene, session.material));
+      session.say(materialLabel(session.model->scene, session.material) + " as in the file");
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool editAnimation(Session& session, Action command) {
+  if (command != Action::earlier && command != Action::later && command != Action::nextAnimation &&
+      command != Action::play)
+    return false;
+  if (session.model->scene.animations.empty()) {
+    session.say("the file has no animation");
+    return true;
+  }
+  if (command == Action::earlier) moveTime(session, -0.1);
+  if (command == Action::later) moveTime(session, 0.1);
+  if (command == Action::nextAnimation) nextAnimation(session);
+  if (command == Action::play) sayFlag(session, "playing", session.playing);
+  return true;
+}
+
+}  // namespace
+
+bool edit(Session& session, Action command, const glm::dmat3& axes) {
+  Look& look = session.document.a;
+  switch (command) {
+    case Action::nextProgram:
+      sayChoice(session, "shading");
+      return true;
+    case Action::nextHighlight:
+      sayForm(session, "highlight");
+      return true;
+    case Action::nextFresnel:
+      sayForm(session, "fresnel");
+      return true;
+    case Action::maxError:
+      look.maxError = look.maxError ? std::nullopt : std::optional(0.01);
+      session.say(look.maxError ? "the cheapest forms within 0.01" : "max error: off");
+      return true;
+    case Action::viewer:
+      sayChoice(session, "viewer");
+      return true;
+    case Action::twoSided:
+      sayFlag(session, "two-sided", look.twoSided);
+      return true;
+    case Action::nextEnvironment:
+      look.hdriFile.clear();
+      sayChoice(session, "environment");
+      return true;
+    case Action::environmentBackground:
+      sayFlag(session, "environment as background", look.environmentBackground);
+      return true;
+    case Action::noLights:
+      sayFlag(session, "no lights", look.noLights);
+      return true;
+    case Action::brighter:
+      scaleLights(session, 1.05);
+      return true;
+    case Action::darker:
+      scaleLights(session, 1 / 1.05);
+      return true;
+    case Action::nextLight:
+    case Action::addLight:
+    case Action::removeLight:
+      editLights(session, command, axes);
+      return true;
+    case Action::defaultLights:
+      look.light.reset();
+      look.noLights = false;
+      session.say("the lights that stand without any of your own");
+      return true;
+    case Action::exposureUp:
+    case Action::exposureDown:
+      look.exposure = std::clamp(look.exposure + (command == Action::exposureUp ? 0.25 : -0.25),
+                                 parameterNamed("exposure").min, parameterNamed("exposure").max);
+      session.say("exposure " + numberText(look.exposure) + " EV");
+      return true;
+    case Action::noBackground:
+      sayFlag(session, "transparent background", look.noBackground);
+      return true;
+    case Action::antiAliasing:
+      look.antiAliasing = look.antiAliasing.mode == AntiAliasing::Mode::none
+                              ? AntiAliasing{AntiAliasing::Mode::msaa, 4}
+                          : look.antiAliasing.mode == AntiAliasing::Mode::msaa
+                              ? AntiAliasing{AntiAliasing::Mode::ssaa, 2}
+                              : AntiAliasing{AntiAliasing::Mode::none, 1};
+      session.say("anti-aliasing " + antiAliasingText(look.antiAliasing));
+      return true;
+    default:
+      // The rest needs a model.
+      return session.model && (editMaterial(session, command) || editAnimation(session, command));
+  }
+}
+
+void nextChoice(Look& look, std::string_view parameter) {
+  const Parameter& p = parameterNamed(parameter);
+  std::vector<std::string> texts = p.choices();
+  const std::string now = textOf(p, look);
+  std::erase_if(texts, [&](const std::string& text) {
+    const std::size_t colon = text.find(':');
+    return text != now && colon != std::string::npos && text.substr(colon) != ":8";
+  });
+  const auto found = std::ranges::find(texts, now);
+  const bool last = found == texts.end() || found + 1 == texts.end();
+  p.read(look, last ? texts.front() : *(found + 1));
+}
+
+int presetOf(const ShadingParameters& values) {
+  const auto same = [&](const Preset& preset) {
+    const ShadingParameters its = presetParameters(preset);
+    return its.color == values.color &&
+           std::ranges::all_of(materialParameters(), [&](const MaterialParameter& p) {
+             return its.*p.value == values.*p.value;
+           });
+  };
+  const auto found = std::ranges::find_if(presets(), same);
+  return found == presets().end() ? -1 : int(found - presets().begin());
+}
+
+double animationDuration(const Scene& scene, const Look& look) {
+  const auto& all = scene.animations;
+  if (all.empty()) return 0;
+  if (!look.animation.empty())
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (look.animation == all[i].name || look.animation == std::to_string(i))
+        return all[i].duration;
+  return all.front().duration;
+}
+
+}  // namespace glint

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "glint/scene/gltf.h"
+
+namespace glint {
+
+struct Model;
+
+bool samePose(const PoseRequest&, const PoseRequest&);
+
+/// A model's file, kept open so that its scene can be brought into other poses without reading it
+/// again. For all threads.
+class ModelFile {
+ public:
+  /// `scene` is what `file` gave, with what has become of its textures since.
+  ModelFile(std::filesystem::path path, SceneFile file, Scene scene);
+
+  /// The model in another pose: what does not move is as in `from`, a model of this file. Throws
+  /// InputError, as reading does.
+  std::shared_ptr<const Model> pose(const Model& from, const PoseRequest&);
+
+ private:
+  std::mutex mutex_;
+  std::filesystem::path path_;
+  std::optional<SceneFile> file_;
+  Scene scene_;
+  std::vector<std::uint64_t> versions_;  ///< by mesh: the posing that has made it
+  std::uint64_t posings_ = 0;
+};
+
+/// The model in the pose: itself, where that is the one it is in or it cannot move.
+std::shared_ptr<const Model> posed(const std::shared_ptr<const Model>&, const PoseRequest&);
+
+/// Meshes whose vertices differ between two poses of one model, among those of the second.
+std::vector<int> changedMeshes(const Model& before, const Model& after);
+
+}  // namespace glint
