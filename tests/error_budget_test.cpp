@@ -343,10 +343,12 @@ TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
   Light lamp;
   lamp.type = Light::Type::point;
   lamp.fallsOff = true;
-  for (double distance : {3.0, 10.0}) {
-    lamp.position = {0, 0, distance};
+  // Over the middle of the square of half size 2, beside an edge, and beyond a corner.
+  for (const auto& [place, nearest] :
+       {std::pair{glm::dvec3(0, 0, 3), 3.0}, std::pair{glm::dvec3(0.5, 1, -0.25), 0.25},
+        std::pair{glm::dvec3(5, 1, 4), 5.0}, std::pair{glm::dvec3(-4, -3, 2), 3.0}}) {
+    lamp.position = place;
     look.light = {lamp};
-    const double nearest = distance - 2 * std::sqrt(2.0);
     EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe,
                 0.5 / (nearest * nearest), 1e-5);
   }
