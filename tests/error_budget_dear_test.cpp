@@ -171,6 +171,17 @@ Radiances shaded(const Draw& d, const Points& points, const HighlightForm& highl
   return radiances;
 }
 
+// In the forms of the look itself.
+Radiances shadedAsItIs(const Draw& d, const Points& points) {
+  Radiances radiances;
+  for (std::size_t side = 0; side < points.size(); ++side) {
+    const ReferenceRenderer reference(d.scene, {}, boundsOf(d.scene), lookFrom(d, side), 1);
+    for (const reference::Attributes& a : points[side])
+      radiances.push_back(reference.shade(a).radiance);
+  }
+  return radiances;
+}
+
 struct Candidate {
   std::string name;
   Radiances off;  // beside the exact form, by magnitude
@@ -223,7 +234,12 @@ std::vector<Candidate> reflectancesOf(const Draw& d, const Points& points, const
     if (each != Fresnel::exact && !dielectric) break;
     Candidate c{std::string(fresnelText(each)), {}, 0, 0};
     setOff(c, shaded(d, points, Highlight::exact, each), exact);
+<<<<<<< HEAD
     if (dielectric) c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent);
+=======
+    if (dielectric)
+      c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent);
+>>>>>>> bounds
     c.rounding = radiance * std::max(fresnelRoundingBound(FresnelForm(int(each)), 1, ior) -
                                          fresnelRoundingBound(FresnelForm::exact, 1, ior),
                                      0.0);
@@ -270,6 +286,10 @@ void compare(Shading program, unsigned seed, int usual, double margin) {
       d.look.maxError = budget;
       const ResolvedLook resolved = resolveLook(d.scene, bounds, d.look);
       const FormChoice& choice = resolved.choices.at(0);
+      Candidate chosen;
+      setOff(chosen, shadedAsItIs({d.scene, resolved.look, d.sides}, points), exact);
+      for (const glm::dvec3& off : chosen.off)
+        ASSERT_LE(std::max({off.x, off.y, off.z}), resolved.bound) << saveLook(resolved.look);
       double cheapest = choice.exactCost, allowed = choice.exactCost;
       std::string name = "exact";
       for (const Candidate& lobe : lobes)

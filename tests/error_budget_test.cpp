@@ -255,6 +255,46 @@ TEST(ErrorBudget, MaterialsThatDifferGetFormsOfTheirOwn) {
   EXPECT_EQ(resolved.look.material.at("sharp").highlight, resolved.choices[1].highlight);
 }
 
+// The worst of all materials of a name counts, whichever comes last.
+TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
+  for (const bool swapped : {false, true}) {
+    Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, swapped ? 0.1 : 0.7, 20));
+    scene.materials.push_back(test::materialOf(1, 1, swapped ? 0.7 : 0.1, 20));
+    for (Material& m : scene.materials) m.name = "both";
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = 1;
+    scene.instances.push_back({1, glm::dmat4(1.0)});
+    Look look;
+    look.light = {test::directional({0, 0, 1})};
+    look.maxError = 1e6;
+    const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+    ASSERT_EQ(resolved.choices.size(), 1u);
+    EXPECT_NEAR(resolved.choices[0].lobe, 0.7, 1e-12);
+  }
+}
+
+// Of a highlight on glass only the share is seen that the glass does not let through.
+TEST(ErrorBudget, HighlightsOnGlassCountByTheirShare) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.8, 20));
+  scene.materials[0].transmission = 0.75;
+  Look look;
+  look.shading = Shading::environment;
+  look.light = {test::directional({0, 0, 1})};
+  look.maxError = 1e6;
+  EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe, 0.2, 1e-12);
+}
+
+// Once a vertex pays only while there are fewer vertices than pixels.
+TEST(ErrorBudget, FineModelsInSmallPicturesAreShadedPerPixel) {
+  const Scene scene = test::sceneOf(test::sphere(64, 32), test::materialOf(1, 1, 0, 20));
+  Look look;
+  look.shading = Shading::automatic;
+  look.maxError = 0.1;
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::gouraud);
+  look.resolution = {48, 48};
+  EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
+}
+
 // A key light and many dim ones: the dim ones' highlights may be wrong by more.
 TEST(ErrorBudget, DimLightsGetCheaperForms) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 60.5));
@@ -303,10 +343,12 @@ TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
   Light lamp;
   lamp.type = Light::Type::point;
   lamp.fallsOff = true;
-  for (double distance : {3.0, 10.0}) {
-    lamp.position = {0, 0, distance};
+  // Over the middle of the square of half size 2, beside an edge, and beyond a corner.
+  for (const auto& [place, nearest] :
+       {std::pair{glm::dvec3(0, 0, 3), 3.0}, std::pair{glm::dvec3(0.5, 1, -0.25), 0.25},
+        std::pair{glm::dvec3(5, 1, 4), 5.0}, std::pair{glm::dvec3(-4, -3, 2), 3.0}}) {
+    lamp.position = place;
     look.light = {lamp};
-    const double nearest = distance - 2 * std::sqrt(2.0);
     EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe,
                 0.5 / (nearest * nearest), 1e-5);
   }

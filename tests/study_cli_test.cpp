@@ -12,6 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string sphere = GLINT_SOURCE_DIR "/models/sphere-series/sphere-3.glb";
 
@@ -67,6 +68,18 @@ TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
   const Json json = Json::parse(ran.out);
   ASSERT_EQ(json["variants"].size(), 1u);
   EXPECT_EQ(json["variants"][0]["name"], "phong exact");
+}
+
+// A form that no list has, with any number: by every program that has it, and by no other.
+TEST(StudyCommand, StudiesAnyFormThatIsAskedFor) {
+  const Ran lobes = runGlint(tiny({"--highlight", "lyon:8"}));
+  EXPECT_EQ(lobes.status, 0) << lobes.err;
+  EXPECT_THAT(lobes.out, HasSubstr("blinn-phong lyon:8"));
+  EXPECT_THAT(lobes.out, Not(HasSubstr("environment")));
+  const Ran fresnels = runGlint(tiny({"--fresnel", "rational"}));
+  EXPECT_EQ(fresnels.status, 0) << fresnels.err;
+  EXPECT_THAT(fresnels.out, HasSubstr("environment rational"));
+  EXPECT_THAT(fresnels.out, Not(HasSubstr("gouraud")));
 }
 
 TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {

@@ -52,6 +52,41 @@ Surroundings surroundingsOf(const Look& look) {
   return {largestRadiance(map), steepestRadiance(map)};
 }
 
+double distanceToEdge(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 way = b - a;
+  const double square = glm::dot(way, way);
+  const double t = square > 0 ? std::clamp(glm::dot(p - a, way) / square, 0.0, 1.0) : 0.0;
+  return glm::length(p - a - t * way);
+}
+
+double distanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                          const glm::dvec3& c) {
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const double size = glm::length(n);
+  const bool above = size > 0 && glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
+                     glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
+                     glm::dot(glm::cross(a - c, p - c), n) >= 0;
+  return above ? std::abs(glm::dot(p - a, n)) / size
+               : std::min(
+                     {distanceToEdge(p, a, b), distanceToEdge(p, b, c), distanceToEdge(p, c, a)});
+}
+
+// How near the lit surfaces of the scene come to a point.
+double distanceToScene(const Scene& scene, const glm::dvec3& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    if (mesh.topology != Topology::triangles) continue;
+    const auto at = [&](std::size_t i) {
+      const glm::dvec3 x = glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.origin;
+      return glm::dvec3(instance.world * glm::dvec4(x, 1.0));
+    };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      least = std::min(least, distanceToTriangle(point, at(i), at(i + 1), at(i + 2)));
+  }
+  return least;
+}
+
 // What all surfaces have in common.
 struct Setting {
   Look given;
@@ -89,7 +124,7 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
     // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
     double most = 1;
     if (light.fallsOff) {
-      const double way = glm::length(light.position - bounds.center) - bounds.radius;
+      const double way = distanceToScene(scene, light.position);
       most = 1 / std::pow(std::max(way, 1e-6), 2);
     }
     s.reach.most.push_back(most * light.intensity);

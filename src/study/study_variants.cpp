@@ -122,29 +122,34 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     if (v.program == Shading::automatic) continue;  // one of the others
     const bool environment = v.program == Shading::environment;
     const bool perPixel = v.program == modelOf(v.program);
+    // The form that is asked for, of whatever number, or all of them.
+    const std::string& only = environment ? filter.fresnel : filter.highlight;
+    const std::string& other = environment ? filter.highlight : filter.fresnel;
+    if (!wanted(other, "exact")) continue;  // a form that this program does not have
     const DrawList list = makeDrawList(scene, bounds, exactLook(look, v.program));
-    std::vector<std::string> highlights{"exact"}, fresnels{""};
-    if (!environment && has(list, &Variant::specular))
-      highlights = formsOf("highlight", filter.quick);
+    const bool choosable = has(list, environment ? &Variant::dielectric : &Variant::specular);
+    std::vector<std::string> forms{"exact"};
+    if (choosable && only.empty())
+      forms = formsOf(environment ? "fresnel" : "highlight", filter.quick);
+    else if (choosable)
+      forms = {only};
+    else if (!wanted(only, "exact"))
+      continue;
+    if (!perPixel && only.empty())
+      std::erase_if(forms, [](const std::string& form) { return form.find(':') != form.npos; });
     std::vector<DrawList> drawn;
-    if (environment) fresnels = {"exact"};
-    if (environment && has(list, &Variant::dielectric)) fresnels = formsOf("fresnel", filter.quick);
-    for (const std::string& highlight : highlights)
-      for (const std::string& fresnel : fresnels) {
-        if (!perPixel && highlight.find(':') != std::string::npos) continue;
-        if (!environment && !wanted(filter.highlight, highlight)) continue;
-        if (environment && !wanted(filter.fresnel, fresnel)) continue;
-        v.highlight = highlight;
-        v.fresnel = fresnel;
-        setForms(v.look, highlight, environment ? fresnel : "exact");
-        v.name = name + " " + (environment ? fresnel : highlight);
-        DrawList own = makeDrawList(scene, bounds, v.look);
-        if (std::any_of(drawn.begin(), drawn.end(),
-                        [&](const DrawList& other) { return drawnAlike(own, other); }))
-          continue;
-        drawn.push_back(std::move(own));
-        all.push_back(v);
-      }
+    for (const std::string& form : forms) {
+      v.highlight = environment ? "exact" : form;
+      v.fresnel = environment ? form : "";
+      setForms(v.look, v.highlight, environment ? form : "exact");
+      v.name = name + " " + form;
+      DrawList own = makeDrawList(scene, bounds, v.look);
+      if (std::any_of(drawn.begin(), drawn.end(),
+                      [&](const DrawList& each) { return drawnAlike(own, each); }))
+        continue;
+      drawn.push_back(std::move(own));
+      all.push_back(v);
+    }
   }
   if (!look.maxError) return all;
   std::vector<Shading> programs{Shading::phong, Shading::blinnPhong, Shading::environment};
