@@ -234,12 +234,8 @@ std::vector<Candidate> reflectancesOf(const Draw& d, const Points& points, const
     if (each != Fresnel::exact && !dielectric) break;
     Candidate c{std::string(fresnelText(each)), {}, 0, 0};
     setOff(c, shaded(d, points, Highlight::exact, each), exact);
-<<<<<<< HEAD
-    if (dielectric) c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent);
-=======
     if (dielectric)
       c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent);
->>>>>>> bounds
     c.rounding = radiance * std::max(fresnelRoundingBound(FresnelForm(int(each)), 1, ior) -
                                          fresnelRoundingBound(FresnelForm::exact, 1, ior),
                                      0.0);
