@@ -130,6 +130,12 @@ TEST(ErrorBudget, PicturesKeepWithinIt) {
     if (resolved.bound <= *d.look.maxError) {
       ASSERT_LE(error, *d.look.maxError + 1e-6) << describe(d, resolved);
     }
+    // What costs less than exact is taken only within the budget.
+    for (const FormChoice& choice : resolved.choices) {
+      if (choice.cost < choice.exactCost) {
+        ASSERT_LE(choice.bound, *d.look.maxError) << describe(d, resolved);
+      }
+    }
     chosen += resolved.look.highlight != HighlightForm(Highlight::exact);
     byLight += !resolved.look.highlight.dimmer.empty();
   }
@@ -271,6 +277,40 @@ TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
     ASSERT_EQ(resolved.choices.size(), 1u);
     EXPECT_NEAR(resolved.choices[0].lobe, 0.7, 1e-12);
   }
+}
+
+// Likewise of exponents, indices and meshes.
+TEST(ErrorBudget, SurfacesOfOneNameShareTheWorst) {
+  const auto bound = [](double first, double second, double firstIor, double secondIor) {
+    Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.7, first));
+    scene.materials.push_back(test::materialOf(1, 1, 0.7, second));
+    scene.materials[0].shading.ior = firstIor, scene.materials[1].shading.ior = secondIor;
+    for (Material& m : scene.materials) m.name = "both";
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = 1;
+    scene.instances.push_back({1, glm::dmat4(1.0)});
+    Look look;
+    look.shading = Shading::environment;
+    look.light = {test::directional({0, 0, 1})};
+    look.maxError = 0.3;
+    return resolveLook(scene, boundsOf(scene), look).choices.at(0);
+  };
+  EXPECT_DOUBLE_EQ(bound(30, 2.5, 1.5, 1.5).lobe, bound(2.5, 30, 1.5, 1.5).lobe);
+  EXPECT_DOUBLE_EQ(bound(30, 30, 1.5, 1.1).reflectance, bound(30, 30, 1.1, 1.5).reflectance);
+}
+
+// Lights that no normal sees together count one at a time; glass seen from within rounds more.
+TEST(ErrorBudget, LightsFromBothSidesCountOnce) {
+  Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.7, 20));
+  Look look;
+  look.light = {test::directional({0, 0, 1}), test::directional({0, 0, -1})};
+  look.maxError = 1e6;
+  EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe, 0.7, 1e-12);
+  look.shading = Shading::environment;
+  look.maxError = 0;
+  const double front = resolveLook(scene, boundsOf(scene), look).bound;
+  look.twoSided = true;
+  EXPECT_GT(resolveLook(scene, boundsOf(scene), look).bound, 5 * front);
 }
 
 // Of a highlight on glass only the share is seen that the glass does not let through.
