@@ -11,7 +11,7 @@ layout(std140) uniform FrameBlock {
 
 struct Light {
   vec4 position;         // xyz: to the light (directional) or where it is, eye space; w: 1 / range or 0
-  vec4 intensity;        // rgb: I_m
+  vec4 intensity;        // rgb: I_m; w: 1 if it falls off with distance, else 0
   vec4 axis;             // spot: xyz along its axis, w: cosine of the outer angle
   vec4 constant;         // directional and constant view: xyz: L + V, or H; w: spot's 1 / (cos inner - cos outer)
 };

@@ -1,6 +1,7 @@
 // Reflectance of a smooth boundary between two dielectrics, for unpolarised light, as a function of
 // the cosine of incidence c in [0, 1]. The constants of the boundary come from the CPU, in which
-// n = n2 / n1 never appears where n - 1 would cancel.
+// n = n2 / n1 never appears where n - 1 would cancel. Without DENSER_SIDE all boundaries are seen
+// from the thinner side, e >= 0.
 struct Boundary {
   float e;             // n^2 - 1 = d (2 + d), d = (n2 - n1) / n1
   float square;        // n^2
@@ -11,7 +12,11 @@ struct Boundary {
 // g^2 = (n cos(theta_t))^2; not positive in total reflection. From the denser side as a product,
 // whose first factor keeps its digits where it vanishes; e + c^2 would lose all of them.
 float refractedSquare(float c, Boundary b) {
+#if DENSER_SIDE
   return b.e < 0.0 ? ((c - b.critical) - b.criticalRest) * (c + b.critical) : b.e + c * c;
+#else
+  return b.e + c * c;
+#endif
 }
 
 // Free of cancellation (amplitudes times their conjugates): rs = e / (c + g)^2 and
@@ -19,7 +24,10 @@ float refractedSquare(float c, Boundary b) {
 // indices (e = 0) give 0 at every angle.
 float fresnelExact(float cosine, Boundary b) {
   float c = clamp(cosine, 0.0, 1.0), g2 = refractedSquare(c, b);
-  float q = b.e < 0.0 ? g2 - b.square * ((1.0 - c) * (1.0 + c)) : (b.square + 1.0) * (c * c) - 1.0;
+  float q = (b.square + 1.0) * (c * c) - 1.0;
+#if DENSER_SIDE
+  if (b.e < 0.0) q = g2 - b.square * ((1.0 - c) * (1.0 + c));
+#endif
   float g = sqrt(max(g2, 0.0));
   float s = c + g, p = b.square * c + g;
   float rs = b.e / (s * s), rp = b.e * q / (p * p);
@@ -40,8 +48,12 @@ float fresnelTextbook(float cosine, Boundary b) {
 // The cosine on the thinner side, in which Schlick's family is written: from the denser side that is
 // the refracted one, 0 in total reflection.
 float thinnerCosine(float cosine, Boundary b) {
+#if DENSER_SIDE
   float c = clamp(cosine, 0.0, 1.0);
   return b.e < 0.0 ? min(sqrt(max(refractedSquare(c, b), 0.0) / b.square), 1.0) : c;
+#else
+  return clamp(cosine, 0.0, 1.0);
+#endif
 }
 
 // R0 + (1 - R0) fall, where `fall` stands for (1 - c)^5: 1 at grazing and in total reflection, where

@@ -66,7 +66,7 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
   {
     vec3 way = lights[i].position.xyz - position, intensity = lights[i].intensity.rgb;
 #if LIGHT_FALLOFF
-    intensity *= lightFalloff(way, lights[i].position.w);
+    if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
 #endif
     ADD_LIGHT(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape);
   }
@@ -78,7 +78,7 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
     float cone = clamp((dot(-l, lights[i].axis.xyz) - lights[i].axis.w) * lights[i].constant.w, 0.0, 1.0);
     vec3 intensity = lights[i].intensity.rgb * (cone * cone);
 #if LIGHT_FALLOFF
-    intensity *= lightFalloff(way, lights[i].position.w);
+    if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
 #endif
     ADD_LIGHT(sum, n, v, l, intensity, vec3(0.0), false, shape);
   }

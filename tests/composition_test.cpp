@@ -186,11 +186,11 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
         "return lobeExact(", "= lobePow(",           "return lobeInteger(",
         "return lobeLyon(",  "return lobeLyon(",     "return lobeLyonCross(",
         "return lobePade(",  "return lobeGaussian(", "none"};
-    std::set<std::string_view> used;  // a form without lights of its own is not there
-    if (v.specular) used.insert(lobes[int(v.highlight.form)]);
-    for (const Variant::Dimmer& each : v.dimmer) used.insert(lobes[int(each.form.form)]);
+    std::set<std::string_view> forms;  // a form without lights of its own is not there
+    if (v.specular) forms.insert(lobes[int(v.highlight.form)]);
+    for (const Variant::Dimmer& each : v.dimmer) forms.insert(lobes[int(each.form.form)]);
     for (const char* lobe : lobes)
-      EXPECT_EQ(holds(lobe), used.contains(lobe) && lobe != std::string_view("none"))
+      EXPECT_EQ(holds(lobe), forms.contains(lobe) && lobe != std::string_view("none"))
           << program.name << " " << lobe;
     constexpr const char* reflectances[] = {
         "return fresnelExact(",       "return fresnelTextbook(", "return fresnelSchlick(",
@@ -203,6 +203,7 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
     EXPECT_EQ(holds("environmentRadiance"), v.program == Shading::environment && !v.unlit)
         << program.name;
     EXPECT_EQ(holds("float t = "), v.refraction) << program.name;
+    EXPECT_EQ(holds("b.e < 0.0"), v.denserSide) << program.name;
     EXPECT_EQ(holds("vPosition"), v.pixelPosition) << program.name;
     EXPECT_EQ(holds("dFdx"), v.vanishingNormal) << program.name;
     EXPECT_EQ(holds("gl_FrontFacing"), v.twoSided || v.vanishingNormal) << program.name;

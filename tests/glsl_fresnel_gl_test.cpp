@@ -79,7 +79,7 @@ class GlslFresnel : public GlslTest {
 
   void SetUp() override {
     GlslTest::SetUp();
-    probe_.emplace(glslSources(), ProbeText{{"fresnel.glsl"}, {}});
+    probe_.emplace(glslSources(), ProbeText{{"fresnel.glsl"}, {{"DENSER_SIDE", 1}}});
   }
 
   Column exact(const Column& c, const Indices& i) {
@@ -101,6 +101,25 @@ TEST_P(GlslFresnel, Exact) {
     expectWithin(record, "fresnelExact " + nameOf(i), {c, b}, {1, 4});
     for (std::size_t row = 0; row < c.size(); ++row)
       ASSERT_TRUE(got[row] >= 0 && got[row] <= 1) << got[row] << " at " << c[row];
+  }
+}
+
+// Where no denser side shows, the same values by shaders that know of none.
+TEST_P(GlslFresnel, TheThinnerSideAloneIsTheSame) {
+  Probe thinner(glslSources(), ProbeText{{"fresnel.glsl"}, {{"DENSER_SIDE", 0}}});
+  for (const Indices& i : indices()) {
+    if (i.n1 > i.n2) continue;
+    const Column c = cosines(i), b = boundary(fresnelConstants(i.n1, i.n2)), r0{0.04f}, k{0.7f};
+    const auto expectSame = [&](const char* function, std::vector<std::span<const float>> columns) {
+      EXPECT_EQ(thinner.run(function, columns), probe_->run(function, columns))
+          << function << " " << nameOf(i);
+    };
+    expectSame("float fresnelExact(float, Boundary)", {c, b});
+    expectSame("float fresnelTextbook(float, Boundary)", {c, b});
+    expectSame("float fresnelSchlickFifth(float, Boundary, float)", {c, b, r0});
+    expectSame("float fresnelSchlickExp2(float, Boundary, float)", {c, b, r0});
+    expectSame("float fresnelRational(float, Boundary, float, float)", {c, b, r0, k});
+    expectSame("float refractedSquare(float, Boundary)", {c, b});
   }
 }
 

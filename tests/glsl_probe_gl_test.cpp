@@ -44,7 +44,7 @@ TEST_P(GlslProbe, PassesFloatsBitByBit) {
 }
 
 TEST_P(GlslProbe, TakesEveryTypeOfArgumentAndResult) {
-  Probe probe(glslSources(), {{"fresnel.glsl"}, {}});
+  Probe probe(glslSources(), {{"fresnel.glsl"}, {{"DENSER_SIDE", 1}}});
   const Column ones{1, 2, 3}, twos{1, 2, 3, 4, 5, 6}, threes{1, 2, 3, 4, 5, 6, 7, 8, 9},
       fours{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   EXPECT_EQ(probe.run("float f(float x) { return 2.0 * x; }", {ones}), (Column{2, 4, 6}));

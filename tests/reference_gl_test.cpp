@@ -575,8 +575,11 @@ TEST_P(AgainstReference, EveryForm) {
       Look look = lookWith(shading, 100);
       look.light.emplace();
       look.highlight = parseHighlights(form, "form");
-      for (const char* light : {"spot:2,2,3:-2,-2,-3:10,40:0.4,0.3,0.3", "point:-2,2,2:0.7,0.9,0.5",
-                                "directional:1,1,1:0.3,0.2,0.2", "directional:0,1,2:0.6,0.5,0.5"})
+      // Some lamps weaken with distance and some do not.
+      for (const char* light :
+           {"spot:2,2,3:-2,-2,-3:10,40:4,3,3:falloff", "point:-2,2,2:0.7,0.9,0.5",
+            "point:0,3,2:7,8,5:falloff,9", "spot:-2,2,3:2,-2,-3:10,40:0.4,0.3,0.3",
+            "directional:1,1,1:0.3,0.2,0.2", "directional:0,1,2:0.6,0.5,0.5"})
         look.light->push_back(parseLight(light));
       const Comparison c = compare(renderer, model, look);
       print(form, shading, c, wholeBound(c));

@@ -96,6 +96,7 @@ const Case cases[] = {
        v.diffuse = v.specular = false;
        const bool sees = s == Shading::environment;
        v.pixelPosition = v.vanishingNormal = v.twoSided = v.unevenScale = sees;
+       v.denserSide = sees;
      }},
     {"black light",
      [](VariantInputs& in) {
@@ -266,9 +267,15 @@ const Case cases[] = {
        v.vanishingNormal = v.pixelPosition = isPerPixel(s);
      }},
     {"double sided", [](VariantInputs& in) { in.material.doubleSided = true; },
-     [](Variant& v, Shading) { v.twoSided = true; }},
+     [](Variant& v, Shading s) {
+       v.twoSided = true;
+       v.denserSide = s == Shading::environment;
+     }},
     {"--two-sided", [](VariantInputs& in) { in.look.twoSided = true; },
-     [](Variant& v, Shading) { v.twoSided = true; }},
+     [](Variant& v, Shading s) {
+       v.twoSided = true;
+       v.denserSide = s == Shading::environment;
+     }},
     {"vertex colours", [](VariantInputs& in) { in.mesh.colors.resize(4); },
      [](Variant& v, Shading) { v.vertexColors = true; }},
     {"colour texture", [](VariantInputs& in) { in.material.colorTexture.emplace(); },
@@ -352,6 +359,14 @@ const Case cases[] = {
      }},
     {"half a metal", [](VariantInputs& in) { in.material.shading.metalness = 0.5; },
      [](Variant& v, Shading s) { v.metal = s == Shading::environment; }},
+    {"thinner than the medium", [](VariantInputs& in) { in.look.mediumIor = 1.6; },
+     [](Variant& v, Shading s) { v.denserSide = s == Shading::environment; }},
+    {"as thin as the medium, both sides",
+     [](VariantInputs& in) {
+       in.look.mediumIor = in.material.shading.ior;
+       in.look.twoSided = true;
+     },
+     [](Variant& v, Shading) { v.twoSided = true; }},
     {"transmission", [](VariantInputs& in) { in.material.transmission = 0.1; },
      [](Variant& v, Shading s) { v.refraction = s == Shading::environment; }},
 };
@@ -392,7 +407,7 @@ TEST(Variants, DoNotDependOnNumbers) {
       in.material.shading.diffuse = number(random);
       in.material.shading.specular = number(random);
       in.material.shading.exponent = 1000 * number(random);
-      in.material.shading.ior = number(random);
+      in.material.shading.ior = 1 + number(random);
       in.material.shading.color = {number(random), 0, number(random)};
       in.material.alpha = number(random);
       in.material.alphaCutoff = number(random);
@@ -400,7 +415,8 @@ TEST(Variants, DoNotDependOnNumbers) {
                  glint::test::rotation(6 * number(random)) *
                  glint::test::scaling(glm::dvec3(number(random)));
       in.look.ambientLight = glm::dvec3(number(random));
-      in.look.blinnFactor = in.look.schlickExponent = in.look.mediumIor = number(random);
+      in.look.blinnFactor = in.look.schlickExponent = number(random);
+      in.look.mediumIor = 0.9 * number(random);
       in.look.environmentRotation = in.look.exposure = number(random);
       in.look.cameraPosition = glm::dvec3(number(random));
       in.look.resolution = {i + 1, 7};

@@ -112,6 +112,7 @@ inline std::set<Variant> sampledVariants() {
       [](VariantInputs& in) { in.material.shading.metalness = 1; },
       [](VariantInputs& in) { in.material.shading.metalness = 0.5; },
       [](VariantInputs& in) { in.material.transmission = 0.5; },
+      [](VariantInputs& in) { in.material.shading.ior = 0.5; },
   };
   constexpr std::size_t count = std::size(changes);
   std::set<Variant> variants;

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "glint/scene/light_text.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/parameters.h"
 #include "glint/viewer/edits.h"
@@ -164,7 +164,7 @@ TEST(LightEdit, TheFilesLightsBecomeOwnAsTheyAre) {
   readLook(again, saveLook(look), "saved");
   ASSERT_EQ(again.light->size(), files.size());
   for (std::size_t i = 0; i < files.size(); ++i)
-    EXPECT_EQ(writeLight((*again.light)[i]), writeLight(files[i]));
+    EXPECT_EQ(lightText((*again.light)[i]), lightText(files[i]));
   EXPECT_TRUE((*again.light)[1].fallsOff);
   EXPECT_EQ((*again.light)[1].range, files[1].range);
 }

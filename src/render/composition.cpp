@@ -74,6 +74,7 @@ std::string defines(const Variant& v) {
     for (int i = 0; i < 5; ++i) text += define((std::string("FRESNEL_") + forms[i]).c_str(), i);
     text += define("FRESNEL", int(v.fresnel));
     text += define("SCHLICK_FIFTH", v.schlickFifth);
+    text += define("DENSER_SIDE", v.denserSide);
     text += define("DIELECTRIC", v.dielectric);
     text += define("METAL", v.metal);
     text += define("REFRACTION", v.refraction);

@@ -62,7 +62,7 @@ void addLights(DrawList& list, const Look& look) {
     }
     if (light.fallsOff) {  // distances are in units of the camera's unit
       const double square = camera.unit * camera.unit;
-      e.intensity = glm::vec4(glm::vec3(glm::min(light.intensity / square, 1e30)), 0);
+      e.intensity = glm::vec4(glm::vec3(glm::min(light.intensity / square, 1e30)), 1);
       e.position.w = light.range > 0 ? float(std::min(camera.unit / light.range, 1e15)) : 0;
     }
     if (light.type == Light::Type::spot) {

@@ -183,6 +183,8 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
     if (v.dielectric) v.fresnel = fresnelOf(material, look);
     v.schlickFifth = v.fresnel == Fresnel::schlick && look.schlickExponent == 5;
     v.refraction = transparencyOf(material, look.shading) > 0 || v.alphaBlend;
+    v.denserSide = (v.dielectric || v.refraction) &&
+                   (s.ior < look.mediumIor || (v.twoSided && s.ior != look.mediumIor));
   }
   if (pixels) {
     v.vanishingNormal = mesh.normalsMayCancel;
@@ -231,8 +233,8 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
   count("point-lights", v.pointLights);
   count("spot-lights", v.spotLights);
   if (v.pointLights + v.spotLights > 0)
-    add("light-falloff", v.lightFalloff, "the file's lights weaken with distance",
-        "--light is constant");
+    add("light-falloff", v.lightFalloff, "some light weakens with distance",
+        "no light weakens with distance");
   add("diffuse", v.diffuse, "diffuse > 0", lights ? "diffuse is 0" : none);
   add("specular", v.specular, "specular > 0",
       !lights          ? none
@@ -274,6 +276,13 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
     if (v.fresnel == Fresnel::schlick)
       add("schlick-fifth", v.schlickFifth, "the exponent is 5: products, not pow",
           "--schlick-exponent is not 5");
+    if (v.dielectric || v.refraction)
+      add("denser-side", v.denserSide,
+          s.ior < look.mediumIor ? "ior is below that of the medium"
+                                 : "back faces show, and within ior is above that of the medium",
+          s.ior == look.mediumIor
+              ? "ior is that of the medium"
+              : "front faces alone show, whose ior is above that of the medium");
     add("metal", v.metal, "metalness > 0", "metalness is 0");
     add("refraction", v.refraction,
         v.alphaBlend ? "blended: transparency is 1 - alpha" : "transmission > 0", "opaque");
@@ -314,6 +323,7 @@ std::vector<std::string> featureNames(const Variant& v) {
     add(true, maps[int(v.environment)]);
     add(v.dielectric, ("fresnel:" + std::string(fresnelText(v.fresnel))).c_str());
     add(v.schlickFifth, "schlick-fifth");
+    add(v.denserSide, "denser-side");
     add(v.metal, "metal");
     add(v.refraction, "refraction");
   }

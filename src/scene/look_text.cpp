@@ -227,7 +227,9 @@ std::string_view fresnelText(Fresnel form) { return fresnelNames[std::size_t(for
 
 std::span<const std::string_view> fresnelTexts() { return fresnelNames; }
 
-Light parseLight(const std::string& text) {
+namespace {
+
+Light parseSteadyLight(const std::string& text) {
   const std::string what = "--light";
   const auto parts = split(text, ':');
   Light light;
@@ -236,8 +238,9 @@ Light parseLight(const std::string& text) {
   const std::size_t fields = std::array<std::size_t, 4>{2, 2, 4, 1}[std::size_t(light.type)];
   if (parts.size() != fields && parts.size() != fields + 1)
     refuse(what, text,
-           std::array<const char*, 4>{"directional:x,y,z[:r,g,b]", "point:x,y,z[:r,g,b]",
-                                      "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b]",
+           std::array<const char*, 4>{"directional:x,y,z[:r,g,b]",
+                                      "point:x,y,z[:r,g,b][:falloff[,RANGE]]",
+                                      "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b][:falloff[,RANGE]]",
                                       "camera[:r,g,b]"}[std::size_t(light.type)]);
   if (parts.size() == fields + 1) light.intensity = parseColor(parts[fields], what);
   if (light.type == Light::Type::camera) light.direction = {0, 0, 1};
@@ -259,6 +262,24 @@ Light parseLight(const std::string& text) {
   return light;
 }
 
+}  // namespace
+
+Light parseLight(const std::string& text) {
+  constexpr std::string_view word = "falloff";
+  const std::size_t colon = text.rfind(':');
+  const std::string last = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (!last.starts_with(word)) return parseSteadyLight(text);
+  const std::string rest = last.substr(word.size());
+  Light light = parseSteadyLight(text.substr(0, colon));
+  if (light.type != Light::Type::point && light.type != Light::Type::spot)
+    throw InputError("--light: '" + text + "': only points and spots fall off: leave '" + last +
+                     "' out");
+  if (!rest.empty() && rest[0] != ',') refuse("--light", last, "falloff or falloff,RANGE");
+  light.fallsOff = true;
+  if (!rest.empty()) light.range = parseNumber(rest.substr(1), 0, 1e30, "--light");
+  return light;
+}
+
 std::string lightText(const Light& light) {
   auto vec = [](const glm::dvec3& v) {
     return ":" + numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
@@ -270,7 +291,9 @@ std::string lightText(const Light& light) {
     text += vec(light.direction);
   if (light.type == Light::Type::spot)
     text += ":" + numberText(light.innerAngle) + "," + numberText(light.outerAngle);
-  return text + vec(light.intensity);
+  text += vec(light.intensity);
+  if (!light.fallsOff) return text;
+  return text + ":falloff" + (light.range > 0 ? "," + numberText(light.range) : "");
 }
 
 void setMaterialEdit(Look& look, const std::string& name, const std::string& key,

@@ -35,6 +35,7 @@ Fresnel parseFresnel(const std::string& text, const std::string& what);
 std::string_view fresnelText(Fresnel);
 /// All of them, in the order of the forms.
 std::span<const std::string_view> fresnelTexts();
+/// A light as --light gives it, its fall-off too.
 Light parseLight(const std::string& text);
 std::string lightText(const Light&);
 void parseMaterialEdit(Look&, const std::string& text);

@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "glint/image/error.h"
-#include "glint/scene/light_text.h"
 #include "look_text.h"
 
 namespace glint {
@@ -140,7 +139,7 @@ Parameter lights() {
       "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
       "at RANGE",
       [](Look& look, const std::string& text) {
-        const Light light = readLight(text);
+        const Light light = parseLight(text);
         if (!look.light) look.light.emplace();
         if (look.light->size() == maxLights)
           throw InputError("--light: more than " + std::to_string(maxLights) +
@@ -150,7 +149,7 @@ Parameter lights() {
       [](const Look& look) {
         if (!look.light) return Json();
         Json list = Json::array();
-        for (const Light& light : *look.light) list.push_back(writeLight(light));
+        for (const Light& light : *look.light) list.push_back(lightText(light));
         return list;
       });
   p.repeatable = true;

@@ -61,7 +61,8 @@ DrawList withAllFeatures(DrawList list) {
     v.diffuse = v.specular = v.unevenScale = v.twoSided = v.vanishingNormal = true;
     v.pixelPosition = true;
     v.constantView = false;
-    if (v.program == Shading::environment) v.dielectric = v.metal = v.refraction = true;
+    if (v.program == Shading::environment)
+      v.dielectric = v.metal = v.refraction = v.denserSide = true;
   }
   return list;
 }

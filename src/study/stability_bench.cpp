@@ -30,7 +30,8 @@ void setParameter(Look& look, std::string_view name, const std::string& text) {
 Bench::Bench(const Look& forms, GlslSources sources)
     : forms_(forms),
       sources_(std::move(sources)),
-      functions_(sources_, ProbeText{{"vector.glsl", "lobe.glsl", "fresnel.glsl"}, {}, {}}),
+      functions_(sources_,
+                 ProbeText{{"vector.glsl", "lobe.glsl", "fresnel.glsl"}, {{"DENSER_SIDE", 1}}, {}}),
       programs_(sources_),
       renderer_(sources_) {
   const std::string highlight = parameterText(forms, "highlight");
