@@ -30,8 +30,9 @@ TEST(CostTable, CountsTheProductsOfAPower) {
   EXPECT_EQ(shipped.lobe(LobeForm::integer, 127), shipped.integer.back());
   EXPECT_EQ(shipped.lobe(LobeForm::lyonTuned, 64), shipped.lyon.back());
   EXPECT_EQ(shipped.lobe(LobeForm::pade, 1), shipped.pade.front());
-  EXPECT_NE(shipped.reflectance(FresnelForm::schlick, 5),
-            shipped.reflectance(FresnelForm::schlick, 4));
+  EXPECT_NE(shipped.reflectance(FresnelForm::schlick, 5, false),
+            shipped.reflectance(FresnelForm::schlick, 4, false));
+  EXPECT_EQ(shipped.reflectance(FresnelForm::exact, 5, true), shipped.fresnelDenser.exact);
 }
 
 TEST(CostFile, HoldsEveryCost) {
@@ -44,9 +45,11 @@ TEST(CostFile, HoldsEveryCost) {
     for (double& cost : costs) cost = next++;
   };
   CostTable& t = file.costs;
-  for (double* cost : {&t.exact, &t.pow, &t.gaussian, &t.fresnelExact, &t.textbook, &t.schlickExp2,
-                       &t.rational, &t.schlick, &t.schlickExponent})
-    *cost = next++;
+  for (double* cost : {&t.exact, &t.pow, &t.gaussian}) *cost = next++;
+  for (ReflectanceCosts* c : {&t.fresnel, &t.fresnelDenser})
+    for (double* cost :
+         {&c->exact, &c->textbook, &c->schlickExp2, &c->rational, &c->schlick, &c->schlickExponent})
+      *cost = next++;
   set(t.integer);
   set(t.lyon);
   set(t.lyonCross);

@@ -33,6 +33,7 @@ Json tableFor(const std::string& cheap) {
                {"schlick-exponent", 100},
                {"schlick-exp2", 100},
                {"rational", 100}}}};
+  table["fresnel-denser-side"] = table["fresnel"];
   table["highlight"][cheap] = 1;
   return table;
 }

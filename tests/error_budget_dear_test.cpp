@@ -235,7 +235,7 @@ std::vector<Candidate> reflectancesOf(const Draw& d, const Points& points, const
     Candidate c{std::string(fresnelText(each)), {}, 0, 0};
     setOff(c, shaded(d, points, Highlight::exact, each), exact);
     if (dielectric)
-      c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent);
+      c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent, ior < 1);
     c.rounding = radiance * std::max(fresnelRoundingBound(FresnelForm(int(each)), 1, ior) -
                                          fresnelRoundingBound(FresnelForm::exact, 1, ior),
                                      0.0);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
@@ -24,12 +25,15 @@ void forCosts(Table& table, const Visit& visit) {
   visit("highlight", "lyon-cross", table.lyonCross);
   visit("highlight", "pade", table.pade);
   visit("highlight", "gaussian", table.gaussian);
-  visit("fresnel", "exact", table.fresnelExact);
-  visit("fresnel", "textbook", table.textbook);
-  visit("fresnel", "schlick", table.schlick);
-  visit("fresnel", "schlick-exponent", table.schlickExponent);
-  visit("fresnel", "schlick-exp2", table.schlickExp2);
-  visit("fresnel", "rational", table.rational);
+  for (const auto& [group, costs] : {std::pair("fresnel", &table.fresnel),
+                                     std::pair("fresnel-denser-side", &table.fresnelDenser)}) {
+    visit(group, "exact", costs->exact);
+    visit(group, "textbook", costs->textbook);
+    visit(group, "schlick", costs->schlick);
+    visit(group, "schlick-exponent", costs->schlickExponent);
+    visit(group, "schlick-exp2", costs->schlickExp2);
+    visit(group, "rational", costs->rational);
+  }
 }
 
 class Reader {
@@ -54,7 +58,8 @@ class Reader {
       set(json[group][name], std::string(group) + " " + name, cost);
       ++known;
     });
-    if (json["highlight"].size() + json["fresnel"].size() != known)
+    if (json["highlight"].size() + json["fresnel"].size() + json["fresnel-denser-side"].size() !=
+        known)
       fail("holds the cost of a form that this glint does not know");
     if (json.contains("noise")) set(json["noise"], "noise", file.noise);
     const Json gl = json.value("gl", Json::object());
@@ -97,7 +102,8 @@ std::string costFileText(const CostFile& file) {
        {{"vendor", file.gl.vendor}, {"renderer", file.gl.renderer}, {"version", file.gl.version}}},
       {"noise", file.noise},
       {"highlight", Json::object()},
-      {"fresnel", Json::object()}};
+      {"fresnel", Json::object()},
+      {"fresnel-denser-side", Json::object()}};
   forCosts(file.costs, [&](const char* group, const char* name, const auto& cost) {
     json[group][name] = cost;
   });

@@ -196,6 +196,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
     if (v.dielectric) {
       needs.dielectric = true;
+      needs.denserSide = needs.denserSide || v.denserSide;
       const FormNeeds::Mirror mirror{(1.0 - m.metalness) * radiance * through, m.ior, v.twoSided};
       if (std::ranges::find(needs.mirrors, mirror) == needs.mirrors.end())
         needs.mirrors.push_back(mirror);

@@ -149,7 +149,7 @@ Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& l
   Reflectance r{fresnel};
   if (!needs.dielectric) return r;
   const FresnelForm form = fresnelForm(fresnel);
-  r.cost = costs.reflectance(form, look.schlickExponent);
+  r.cost = costs.reflectance(form, look.schlickExponent, needs.denserSide);
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
     const double error = fresnelFormulaBound(form, n1, n2, look.schlickExponent);
@@ -174,7 +174,8 @@ ChosenForms cheapestForms(const FormNeeds& needs, const LightReach& lights, cons
                           const CostTable& costs, bool blinn, double budget) {
   std::vector<Reflectance> reflectances{reflectanceOf(Fresnel::exact, needs, look, costs)};
   if (needs.dielectric)
-    for (const Fresnel form : {Fresnel::schlick, Fresnel::schlickExp2, Fresnel::rational})
+    for (const Fresnel form :
+         {Fresnel::textbook, Fresnel::schlick, Fresnel::schlickExp2, Fresnel::rational})
       reflectances.push_back(reflectanceOf(form, needs, look, costs));
   std::vector<Lobe> candidates;
   if (needs.specular) candidates = lobeCandidates(needs, costs, blinn);

@@ -30,7 +30,8 @@ struct FormNeeds {
     bool operator==(const Mirror&) const = default;
   };
   std::vector<Mirror> mirrors;
-  double rest = 0;  ///< all of the bound that the choice of forms does not change
+  bool denserSide = false;  ///< some of them shows a side in the denser medium
+  double rest = 0;          ///< all of the bound that the choice of forms does not change
 };
 
 /// Forms, how far they are from the exact ones in linear radiance, and what they cost

@@ -42,20 +42,21 @@ double CostTable::lobe(LobeForm form, int power) const {
   return exact;
 }
 
-double CostTable::reflectance(FresnelForm form, double exponent) const {
+double CostTable::reflectance(FresnelForm form, double exponent, bool denserSide) const {
+  const ReflectanceCosts& costs = denserSide ? fresnelDenser : fresnel;
   switch (form) {
     case FresnelForm::exact:
-      return fresnelExact;
+      return costs.exact;
     case FresnelForm::textbook:
-      return textbook;
+      return costs.textbook;
     case FresnelForm::schlick:
-      return exponent == 5.0 ? schlick : schlickExponent;
+      return exponent == 5.0 ? costs.schlick : costs.schlickExponent;
     case FresnelForm::schlickExp2:
-      return schlickExp2;
+      return costs.schlickExp2;
     case FresnelForm::rational:
-      return rational;
+      return costs.rational;
   }
-  return fresnelExact;
+  return costs.exact;
 }
 
 }  // namespace glint

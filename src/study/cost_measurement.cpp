@@ -133,14 +133,19 @@ Trials reflectanceTrials(CostTable& table, Look look) {
     setForms(own, "exact", form);
     own.schlickExponent = exponent;
     trials.push_back({form, cost, own, {}});
+    if (look.mediumIor > 1) trials.back().form += ", denser side";
   };
-  add("exact", &table.fresnelExact);
-  add("textbook", &table.textbook);
-  add("schlick", &table.schlick);
-  add("schlick", &table.schlickExponent, 4.5);
-  trials.back().form = "schlick, another exponent";
-  add("schlick-exp2", &table.schlickExp2);
-  add("rational", &table.rational);
+  for (ReflectanceCosts* costs : {&table.fresnel, &table.fresnelDenser}) {
+    look.mediumIor = costs == &table.fresnel ? 1 : 2 * sphereMaterial().ior;
+    add("exact", &costs->exact);
+    add("textbook", &costs->textbook);
+    add("schlick", &costs->schlick);
+    add("schlick", &costs->schlickExponent, 4.5);
+    trials.back().form += ", other exponent";
+    add("schlick-exp2", &costs->schlickExp2);
+    add("rational", &costs->rational);
+  }
+  look.mediumIor = 1;
   add("exact", nullptr);
   return trials;
 }
@@ -286,9 +291,9 @@ std::string costText(const CostMeasurement& m) {
   for (const auto& [title, costs] :
        {std::pair("lobe", &m.lobes), {"reflectance", &m.reflectances}}) {
     text +=
-        formatted("\n%-26s %8s %9s %16s %9s\n", title, "shipped", "measured", "95 %", "in table");
+        formatted("\n%-38s %8s %9s %16s %9s\n", title, "shipped", "measured", "95 %", "in table");
     for (const MeasuredCost& c : *costs)
-      text += formatted("%-26s %8.0f %9.1f %7.1f-%8.1f %9.1f\n", c.form.c_str(), c.shipped, c.value,
+      text += formatted("%-38s %8.0f %9.1f %7.1f-%8.1f %9.1f\n", c.form.c_str(), c.shipped, c.value,
                         c.low, c.high, c.inTable);
   }
   return text;
