@@ -359,6 +359,28 @@ TEST(ErrorBudget, DimLightsGetCheaperForms) {
   EXPECT_NEAR(resolved.choices.at(0).lobe, error, 1e-12);
 }
 
+// Of meshes that share a material the coarsest counts, wherever it stands.
+TEST(ErrorBudget, TheCoarsestMeshOfAMaterialCounts) {
+  const auto interpolation = [](std::vector<Mesh> meshes) {
+    Scene scene = test::sceneOf(meshes[0], test::materialOf(1, 0.8, 0.5, 20));
+    for (std::size_t i = 1; i < meshes.size(); ++i) {
+      meshes[i].material = scene.meshes[0].material;
+      scene.meshes.push_back(meshes[i]);
+      scene.instances.push_back({int(i), glm::dmat4(1.0)});
+    }
+    Look look;
+    look.shading = Shading::automatic;
+    look.maxError = 100;
+    const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
+    EXPECT_EQ(resolved.look.shading, Shading::gouraud);
+    return resolved.choices.at(0).interpolation;
+  };
+  const Mesh coarse = test::sphere(16, 8), fine = test::sphere(64, 32);
+  EXPECT_GT(interpolation({coarse}), 2 * interpolation({fine}));
+  for (const std::vector<Mesh>& both : {std::vector<Mesh>{coarse, fine}, {fine, coarse}})
+    EXPECT_NEAR(interpolation(both), interpolation({coarse}), 1e-9);
+}
+
 TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 20));
   Look look;

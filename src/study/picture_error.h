@@ -37,7 +37,7 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
 using Radiances = std::vector<glm::dvec3>;
 
 /// What the exact form of a program gives at the mask's pixels: at what the reference interpolates,
-/// with the driver's samples of textures where there are any.
+/// with the driver's samples of textures where there are any: a mapped normal is the driver's.
 Radiances truthOf(const StudyScene& scene, const Look& look, Shading program,
                   const StudyMask& mask);
 
