@@ -93,7 +93,7 @@ TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
 TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
   const std::string folder = temporaryFolder() + "/interrupted";
   // Ctrl-C after two seconds, long before so many frames are done.
-  const std::string command = "timeout --preserve-status -s INT 2 " GLINT_EXECUTABLE
+  const std::string command = "timeout --foreground --preserve-status -s INT 2 " GLINT_EXECUTABLE
                               " study --resolution 64,64 --shading phong --highlight exact"
                               " --repetitions 100000 --output " +
                               folder + " > /dev/null 2>&1";
@@ -164,7 +164,7 @@ TEST(StudyCommand, ShowsWhatABudgetChooses) {
 
 TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {
   const Folder folder("study-costs");
-  const std::string command = "timeout --preserve-status -s INT 1.5 " GLINT_EXECUTABLE
+  const std::string command = "timeout --foreground --preserve-status -s INT 1.5 " GLINT_EXECUTABLE
                               " study --measure-costs " +
                               folder / "costs.json" + " > /dev/null 2>&1";
   const int status = std::system(command.c_str());
