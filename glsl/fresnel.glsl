@@ -48,11 +48,11 @@ float fresnelTextbook(float cosine, Boundary b) {
 // The cosine on the thinner side, in which Schlick's family is written: from the denser side that is
 // the refracted one, 0 in total reflection.
 float thinnerCosine(float cosine, Boundary b) {
-#if DENSER_SIDE
   float c = clamp(cosine, 0.0, 1.0);
+#if DENSER_SIDE
   return b.e < 0.0 ? min(sqrt(max(refractedSquare(c, b), 0.0) / b.square), 1.0) : c;
 #else
-  return clamp(cosine, 0.0, 1.0);
+  return c;
 #endif
 }
 
