@@ -131,8 +131,8 @@ class Running {
 
 TEST(List, EachLineIsAPictureAndALineOfJson) {
   Folder folder("list");
-  const std::string list =
-      listOf(folder, {"\xEF\xBB\xBF" + sphere, "", torus + "\t" + (folder / "own.png"), sphere + "\r"});
+  const std::string list = listOf(
+      folder, {"\xEF\xBB\xBF" + sphere, "", torus + "\t" + (folder / "own.png"), sphere + "\r"});
   const Ran ran = runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}-{model}.png"}));
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(ran.err, IsEmpty());

@@ -29,6 +29,7 @@
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "glint/shading/sum.h"
+#include "random.h"
 #include "scenes.h"
 
 using namespace glint;
@@ -40,27 +41,9 @@ constexpr double form = 1.25;
 // Points of a sphere are not everywhere: of the worst angle 5 % of the error may be missed.
 constexpr double seen = 1.05;
 
-int draws(int usual) {
-  const char* more = std::getenv("GLINT_BUDGET_DRAWS");
-  return more != nullptr ? std::max(std::atoi(more), 1) : usual;
-}
+int draws(int usual) { return test::drawsOf("GLINT_BUDGET_DRAWS", usual); }
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine_); }
-  double log(double low, double high) { return low * std::pow(high / low, unit()); }
-  int below(int count) { return int(unit() * count); }
-  bool coin() { return unit() < 0.5; }
-  glm::dvec3 direction() {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
-  }
-  glm::dvec3 color() { return {unit(), unit(), unit()}; }
-
- private:
-  std::mt19937 engine_;
-};
+using test::Random;
 
 struct Draw {
   Scene scene;

@@ -15,6 +15,7 @@
 #include "glint/render/renderer.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/bounds.h"
+#include "random.h"
 #include "scenes.h"
 
 namespace glint {
@@ -22,18 +23,7 @@ namespace {
 
 class BudgetOnDriver : public testing::TestWithParam<Backend> {};
 
-struct Random {
-  std::mt19937 engine;
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine); }
-  double log(double low, double high) { return low * std::pow(high / low, unit()); }
-  int below(int count) { return int(unit() * count); }
-  bool coin() { return unit() < 0.5; }
-  glm::dvec3 color() { return {unit(), unit(), unit()}; }
-  glm::dvec3 direction() {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(engine), normal(engine), normal(engine)));
-  }
-};
+using test::Random;
 
 Image pictureOf(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look) {
   auto picture = renderer.begin(scene, std::move(list), look);
@@ -69,9 +59,8 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
   const auto context = openContext(GetParam());
   context->makeCurrent();
   Renderer renderer;
-  Random r{std::mt19937(31)};
-  const char* more = std::getenv("GLINT_BUDGET_DRAWS");
-  const int draws = more != nullptr ? std::max(std::atoi(more), 1) : 12;
+  Random r(31);
+  const int draws = test::drawsOf("GLINT_BUDGET_DRAWS", 12);
   int pixels = 0, approximate = 0, behind = 0;
   double nearest = 0;
   for (int i = 0; i < draws; ++i) {

@@ -19,33 +19,16 @@
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "gltf_text.h"
+#include "random.h"
 #include "scenes.h"
 
 using namespace glint;
 
 namespace {
 
-int draws(int usual) {
-  const char* more = std::getenv("GLINT_BUDGET_DRAWS");
-  return more != nullptr ? std::max(std::atoi(more), 1) : usual;
-}
+int draws(int usual) { return test::drawsOf("GLINT_BUDGET_DRAWS", usual); }
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine_); }
-  double log(double low, double high) { return low * std::pow(high / low, unit()); }
-  int below(int count) { return int(unit() * count); }
-  bool coin() { return unit() < 0.5; }
-  glm::dvec3 direction() {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
-  }
-  glm::dvec3 color() { return {unit(), unit(), unit()}; }
-
- private:
-  std::mt19937 engine_;
-};
+using test::Random;
 
 struct Draw {
   Scene scene;

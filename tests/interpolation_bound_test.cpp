@@ -17,31 +17,20 @@
 #include "glint/render/reference_renderer.h"
 #include "glint/scene/parameters.h"
 #include "glint/shading/sum.h"
+#include "random.h"
 #include "scenes.h"
 
 using namespace glint;
 
 namespace {
 
-int draws(int usual) {
-  const char* more = std::getenv("GLINT_BOUND_DRAWS");
-  return more != nullptr ? std::max(std::atoi(more), 1) : usual;
-}
+int draws(int usual) { return test::drawsOf("GLINT_BOUND_DRAWS", usual); }
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(engine_); }
-  double log(double low, double high) { return low * std::pow(high / low, unit()); }
-  int below(int count) { return int(unit() * count); }
-  bool coin() { return unit() < 0.5; }
+struct Random : test::Random {
+  using test::Random::Random;
   double normal() { return std::normal_distribution<double>()(engine_); }
   glm::dvec3 vector() { return {normal(), normal(), normal()}; }
   glm::dvec3 direction() { return glm::normalize(vector()); }
-  glm::dvec3 color() { return {unit(), unit(), unit()}; }
-
- private:
-  std::mt19937 engine_;
 };
 
 struct Draw {
