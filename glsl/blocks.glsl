@@ -1,4 +1,4 @@
-// What the CPU tells the shaders; src/render/blocks.h has the same layout in C++ (std140).
+// What the CPU tells the shaders; src/glint/render/blocks.h has the same layout in C++ (std140).
 // Eye space: the eye at the origin, looking along -Z, in units of the camera's unit.
 
 layout(std140) uniform FrameBlock {

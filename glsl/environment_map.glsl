@@ -1,5 +1,5 @@
 // The built-in environments: radiance from the direction d, world space, +Y up. Polynomials of
-// direction cosines; src/shading/environment_map.h has the formulas and says what they are.
+// direction cosines; src/glint/shading/environment_map.h has the formulas and says what they are.
 #if ENVIRONMENT_MAP == ENVIRONMENT_STUDIO
 // A box of light with soft edges: axis, right and up are orthonormal; extents are cosines.
 float boxLight(vec3 d, vec3 axis, vec3 right, vec3 up, vec2 extent, float soft) {
@@ -10,7 +10,7 @@ float boxLight(vec3 d, vec3 axis, vec3 right, vec3 up, vec2 extent, float soft) 
 #endif
 
 #if ENVIRONMENT_MAP > ENVIRONMENT_WHITE  // ENVIRONMENT_IMAGE
-// Of src/render/environment_image.h, with its smaller levels.
+// Of src/glint/render/environment_image.h, with its smaller levels.
 uniform sampler2D environmentImage;
 
 // The angle of (x, y) from the x axis, in turns, to 1e-8: Abramowitz and Stegun 4.4.49. The driver's

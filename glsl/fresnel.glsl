@@ -81,7 +81,7 @@ float fresnelSchlickExp2(float cosine, Boundary b, float normal) {
 }
 
 // R0 + (1 - R0) ((1 - c) / (1 + k c))^2 with the k that suits the indices best (rationalMinimax of
-// src/shading/fresnel.h).
+// src/glint/shading/fresnel.h).
 float fresnelRational(float cosine, Boundary b, float normal, float k) {
   float c = thinnerCosine(cosine, b), ratio = (1.0 - c) / (1.0 + k * c);
   return schlickFrame(c, b, normal, ratio * ratio);

@@ -1,6 +1,6 @@
 // The highlight's lobe: max(1 - lambda, 0)^exponent, where 1 - lambda is the cosine R.V (Phong) or
-// N.H (Blinn-Phong), and forms that come near it for less. src/shading/lobe.h has the same in
-// double, src/shading/bounds.h how far each is off. What depends on the exponent alone comes from
+// N.H (Blinn-Phong), and forms that come near it for less. src/glint/shading/lobe.h has the same in
+// double, src/glint/shading/bounds.h how far each is off. What depends on the exponent alone comes from
 // the CPU (material.lobe).
 
 // lambda = 1 - R.V = |V - R|^2 / 2 from D = L + V - 2 (N.L) N (Lyon 1993): near the peak, where the

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
-#include "glint/render/cost_file.h"
+#include "glint/budget/cost_file.h"
 #include "gltf_text.h"
 
 namespace glint {

@@ -9,7 +9,7 @@
 
 #include "glint/image/error.h"
 #include "glint/render/draw_list.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "scenes.h"
 
 using glint::DrawItem;

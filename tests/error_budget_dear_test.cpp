@@ -22,10 +22,10 @@
 #include <string>
 #include <vector>
 
-#include "glint/render/error_budget.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/budget/error_budget.h"
+#include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "glint/shading/sum.h"

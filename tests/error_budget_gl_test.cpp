@@ -10,10 +10,10 @@
 #include <random>
 
 #include "glint/gl/context.h"
-#include "glint/render/error_budget.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/budget/error_budget.h"
+#include "glint/reference/renderer.h"
 #include "glint/render/renderer.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "random.h"
 #include "scenes.h"

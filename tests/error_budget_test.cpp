@@ -1,7 +1,7 @@
 // --max-error: the choice keeps within its budget, and is not needlessly dear. Without GL: the
 // formulas in double, with what single precision does to the inputs of a lobe.
 
-#include "glint/render/error_budget.h"
+#include "glint/budget/error_budget.h"
 
 #include <gmock/gmock.h>
 
@@ -12,10 +12,10 @@
 #include <random>
 
 #include "glint/image/error.h"
-#include "glint/render/cost_file.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/budget/cost_file.h"
+#include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "gltf_text.h"

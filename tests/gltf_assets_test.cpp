@@ -8,7 +8,7 @@
 #include <string>
 
 #include "glint/image/error.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // What becomes of the extensions of a file, and which skins and morph targets it has.
-#include "glint/scene/gltf_extensions.h"
+#include "glint/gltf/extensions.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "glint/scene/gltf_messages.h"
+#include "glint/gltf/messages.h"
 #include "gltf_sample.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "glint/scene/gltf_patch.h"
+#include "glint/gltf/patch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
-#include "glint/scene/pbr_conversion.h"
+#include "glint/gltf/pbr_conversion.h"
 
 namespace glint {
 namespace {

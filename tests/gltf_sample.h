@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "glint/image/error.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 
 /// A small glTF document that tests put together and break.
 class Sample {

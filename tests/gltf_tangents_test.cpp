@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "glint/scene/gltf_tangents.h"
+#include "glint/gltf/tangents.h"
 #include "gltf_sample.h"
 #include "scenes.h"
 

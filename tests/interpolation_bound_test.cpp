@@ -2,7 +2,7 @@
 // kinds, hunted over every point for the largest difference between the sum of their corners and
 // the sum at the point, both by the reference's formulas in double.
 
-#include "glint/render/interpolation_bound.h"
+#include "glint/budget/interpolation_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <limits>
 #include <random>
 
-#include "glint/render/reference_renderer.h"
-#include "glint/scene/parameters.h"
+#include "glint/reference/renderer.h"
+#include "glint/options/parameters.h"
 #include "glint/shading/sum.h"
 #include "random.h"
 #include "scenes.h"

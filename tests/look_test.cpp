@@ -10,7 +10,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/srgb.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "scenes.h"
 
 namespace glint {

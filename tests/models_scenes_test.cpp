@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 #include "models_file.h"
 
 namespace {

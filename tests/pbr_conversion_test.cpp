@@ -1,4 +1,4 @@
-#include "glint/scene/pbr_conversion.h"
+#include "glint/gltf/pbr_conversion.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/render/picture_terms.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/reference/terms.h"
+#include "glint/reference/renderer.h"
+#include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"
 

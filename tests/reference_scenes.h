@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "glint/render/reference_renderer.h"
+#include "glint/reference/renderer.h"
 #include "glint/scene/camera.h"
 #include "glint/scene/look.h"
 #include "glint/scene/scene.h"

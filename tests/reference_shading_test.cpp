@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "glint/image/error.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 #include "reference_scenes.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Texture sampling of the reference against values worked out by hand.
 
-#include "glint/render/reference_texture.h"
+#include "glint/reference/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,8 @@
 #include "glint/gl/check.h"
 #include "glint/image/srgb.h"
 #include "glint/render/composition.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"
 

@@ -8,7 +8,7 @@
 #include "glint/image/read_image.h"
 #include "glint/image/srgb.h"
 #include "glint/image/stored_image.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "scenes.h"
 
 using glint::test::contents;

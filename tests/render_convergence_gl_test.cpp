@@ -9,7 +9,8 @@
 #include <map>
 
 #include "formulas.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/scene/look_text.h"
 #include "gltf_text.h"
 #include "stage.h"
 

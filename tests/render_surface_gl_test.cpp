@@ -7,6 +7,7 @@
 
 #include "formulas.h"
 #include "glint/image/srgb.h"
+#include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"
 

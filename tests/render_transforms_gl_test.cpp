@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "formulas.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/scene/look_text.h"
 #include "gltf_text.h"
 #include "stage.h"
 #include "variants.h"

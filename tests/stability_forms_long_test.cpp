@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "glint/gl/context.h"
-#include "glint/study/stability_search.h"
-#include "glint/study/stability_suite.h"
+#include "glint/stability/search.h"
+#include "glint/options/parameters.h"
+#include "glint/stability/suite.h"
 
 using namespace glint;
 
@@ -22,9 +23,9 @@ TEST_P(StabilityOfForm, PassesEveryCase) {
   const auto context = openContext(Backend::osmesa);
   context->makeCurrent();
   Look forms;
-  stability::setParameter(forms, "highlight", GetParam().highlight);
-  stability::setParameter(forms, "fresnel", GetParam().fresnel);
-  stability::Bench bench(forms, GlslSources());
+  setParameter(forms, "highlight", GetParam().highlight);
+  setParameter(forms, "fresnel", GetParam().fresnel);
+  stability::Bench bench(forms, GlslSources(), setParameter);
   const auto results = stability::runCases(bench, {});
   EXPECT_TRUE(stability::allPassed(results)) << stability::summaryText(results);
   const stability::SearchReport report = stability::searchNotFinite(bench, 1000000);

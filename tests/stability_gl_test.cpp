@@ -5,9 +5,10 @@
 
 #include <set>
 
-#include "glint/study/stability_profile.h"
-#include "glint/study/stability_search.h"
-#include "glint/study/stability_suite.h"
+#include "glint/stability/profile.h"
+#include "glint/stability/search.h"
+#include "glint/options/parameters.h"
+#include "glint/stability/suite.h"
 #include "glsl_probe.h"
 
 using namespace glint;
@@ -18,9 +19,9 @@ class Stability : public GlslTest {};
 
 std::vector<stability::CaseResult> run(const char* highlight, const char* fresnel) {
   Look forms;
-  stability::setParameter(forms, "highlight", highlight);
-  stability::setParameter(forms, "fresnel", fresnel);
-  stability::Bench bench(forms, glslSources());
+  setParameter(forms, "highlight", highlight);
+  setParameter(forms, "fresnel", fresnel);
+  stability::Bench bench(forms, glslSources(), setParameter);
   return stability::runCases(bench, {});
 }
 
@@ -45,7 +46,7 @@ TEST(StabilityForms, TheTextbooksFailWhereTheyMust) {
 }
 
 TEST_P(Stability, NothingIsNotANumber) {
-  stability::Bench bench(Look(), glslSources());
+  stability::Bench bench(Look(), glslSources(), setParameter);
   const stability::SearchReport report = stability::searchNotFinite(bench, 200000);
   EXPECT_EQ(report.notFinite, 0u) << stability::searchText(report);
   EXPECT_GE(report.evaluations, 200000u);
@@ -54,7 +55,7 @@ TEST_P(Stability, NothingIsNotANumber) {
 
 // Every quality has a verdict and says what it touches, on any driver.
 TEST_P(Stability, TheDriversProfileIsComplete) {
-  stability::Bench bench(Look(), glslSources());
+  stability::Bench bench(Look(), glslSources(), setParameter);
   std::set<std::string> names;
   for (const stability::Quality& q : stability::measureProfile(bench)) {
     names.insert(q.name);

@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "glint/gl/context.h"
-#include "glint/study/stability_suite.h"
+#include "glint/options/parameters.h"
+#include "glint/stability/suite.h"
 #include "gltf_text.h"
 
 using namespace glint;
@@ -170,8 +171,8 @@ TEST_P(Mutation, IsCaught) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/" + guard.file) << textWithout(guard);
   Look forms;
-  stability::setParameter(forms, "highlight", guard.highlight);
-  stability::setParameter(forms, "fresnel", guard.fresnel);
+  setParameter(forms, "highlight", guard.highlight);
+  setParameter(forms, "fresnel", guard.fresnel);
   stability::Selection selection;
   if (*guard.caught) {
     selection.ids = {guard.caught};
@@ -180,7 +181,7 @@ TEST_P(Mutation, IsCaught) {
     selection.ids = {"P8", "P13"};
   }
   const auto failures = [&](GlslSources sources) {
-    stability::Bench bench(forms, std::move(sources));
+    stability::Bench bench(forms, std::move(sources), setParameter);
     std::set<std::string_view> failed;
     for (const stability::CaseResult& r : stability::runCases(bench, selection))
       if (!r.passed()) failed.insert(r.item->id);

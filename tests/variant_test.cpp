@@ -7,6 +7,7 @@
 
 #include "glint/render/draw_list.h"
 #include "glint/render/variant.h"
+#include "glint/scene/look_text.h"
 #include "variants.h"
 
 using glint::AlphaMode;

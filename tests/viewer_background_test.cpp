@@ -5,10 +5,10 @@
 #include <condition_variable>
 #include <limits>
 
-#include "glint/viewer/error_map.h"
-#include "glint/viewer/pace.h"
-#include "glint/viewer/reference_task.h"
-#include "glint/viewer/worker.h"
+#include "viewer/error_map.h"
+#include "viewer/pace.h"
+#include "viewer/reference_task.h"
+#include "viewer/worker.h"
 #include "reference_scenes.h"
 #include "scenes.h"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "glint/viewer/camera_control.h"
-#include "glint/viewer/picking.h"
+#include "viewer/camera_control.h"
+#include "viewer/picking.h"
 
 namespace glint {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "glint/viewer/choice.h"
-#include "glint/viewer/reference_task.h"
+#include "viewer/choice.h"
+#include "viewer/reference_task.h"
 #include "scenes.h"
 
 namespace glint {

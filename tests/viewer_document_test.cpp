@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "glint/viewer/document.h"
-#include "glint/viewer/input.h"
+#include "viewer/document.h"
+#include "viewer/input.h"
 
 namespace glint {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "glint/scene/look_text.h"
 #include "glint/scene/lights.h"
-#include "glint/scene/parameters.h"
-#include "glint/viewer/edits.h"
-#include "glint/viewer/light_edit.h"
-#include "glint/viewer/materials.h"
-#include "glint/viewer/presets.h"
+#include "glint/options/parameters.h"
+#include "viewer/edits.h"
+#include "viewer/light_edit.h"
+#include "viewer/materials.h"
+#include "viewer/presets.h"
 
 namespace glint {
 namespace {

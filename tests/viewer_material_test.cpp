@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "glint/image/error.h"
-#include "glint/viewer/materials.h"
-#include "glint/viewer/presets.h"
+#include "viewer/materials.h"
+#include "viewer/presets.h"
 
 namespace glint {
 namespace {

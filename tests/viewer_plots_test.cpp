@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/viewer/compose.h"
-#include "glint/viewer/plots.h"
+#include "viewer/compose.h"
+#include "viewer/plots.h"
 
 namespace glint {
 namespace {
@@ -27,7 +27,7 @@ TEST(LobePlot, ShowsHowFarAnApproximationIsOff) {
   SumInput input;
   input.exponent = 64;
   input.highlight = "gaussian";
-  // 0.134 / alpha, stated above gaussian() in src/shading/lobe.h.
+  // 0.134 / alpha, stated above gaussian() in src/glint/shading/lobe.h.
   const double error = lobePlot(input, 0).largestDifference;
   EXPECT_GT(error, 0.8 * 0.134 / 64);
   EXPECT_LT(error, 1.05 * 0.134 / 64);

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "glint/image/error.h"
-#include "glint/viewer/session.h"
+#include "viewer/session.h"
 
 namespace glint {
 namespace {

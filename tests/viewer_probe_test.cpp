@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "glint/scene/gltf.h"
-#include "glint/viewer/probe.h"
+#include "glint/gltf/scene_file.h"
+#include "viewer/probe.h"
 #include "reference_scenes.h"
 #include "scenes.h"
 

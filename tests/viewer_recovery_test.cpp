@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "glint/viewer/recovery.h"
-#include "glint/viewer/settings.h"
-#include "glint/viewer/xdg.h"
+#include "viewer/recovery.h"
+#include "viewer/settings.h"
+#include "viewer/xdg.h"
 
 namespace glint {
 namespace {

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 // GLFW's key codes are part of its ABI: letters and digits are ASCII.
@@ -139,4 +139,4 @@ std::string keyText(const ActionInfo& info) {
   return text + char(info.key);
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace glint {
+namespace glint::viewer {
 
 /// What keys and buttons do. The one table of actions() gives each its key and its help, in this
 /// order.
@@ -103,4 +103,4 @@ const ActionInfo& infoOf(Action);
 /// "Ctrl+Shift+S".
 std::string keyText(const ActionInfo&);
 
-}  // namespace glint
+}  // namespace glint::viewer

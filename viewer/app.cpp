@@ -15,7 +15,7 @@
 #include "widgets.h"
 #include "xdg.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 std::filesystem::path recoveryFolder() {
@@ -346,4 +346,4 @@ void App::buildInterface() {
   dialogs_.draw();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -20,7 +20,7 @@
 #include "settings.h"
 #include "window.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Seconds without input after which the picture is drawn in full.
 inline constexpr double restAfter = 0.12;
@@ -147,4 +147,4 @@ class App {
   std::unique_ptr<ReferenceTask> reference_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

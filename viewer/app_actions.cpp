@@ -5,10 +5,10 @@
 #include "edits.h"
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "materials.h"
 
-namespace glint {
+namespace glint::viewer {
 
 void App::attempt(const std::function<void()>& action) {
   try {
@@ -262,4 +262,4 @@ void App::executeCamera(Action command) {
   }
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -5,10 +5,10 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "materials.h"
 
-namespace glint {
+namespace glint::viewer {
 
 namespace fs = std::filesystem;
 
@@ -238,4 +238,4 @@ void App::quit() {
   dialogs_.ask("Not saved", "The look has edits that are not saved.", std::move(answers));
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -10,7 +10,7 @@
 #include "glint/image/error.h"
 #include "glint/image/srgb.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 // So long a frame waits for the picture that it asks for; longer ones come in a later frame.
@@ -197,4 +197,4 @@ void App::present() {
   checkGl("window");
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -9,7 +9,7 @@
 #include "compose.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 
 void App::pictureArea() {
   const ImVec2 size(float(resolution_.x / ratio_), float(resolution_.y / ratio_));
@@ -191,4 +191,4 @@ void App::drawOverPicture() {
   }
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

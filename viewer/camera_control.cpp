@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
@@ -179,4 +179,4 @@ Ray rayThrough(const Camera& camera, glm::dvec2 pixel, glm::ivec2 resolution) {
   return {camera.eye, glm::normalize(camera.axes * glm::dvec3(offset, -1.0)), 0, width};
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -6,7 +6,7 @@
 #include "glint/scene/look.h"
 #include "glint/scene/scene.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// A camera as a hand moves it: where it is, what it looks at, which way is up (world space).
 struct Pose {
@@ -59,4 +59,4 @@ struct Ray {
 /// .5), for a camera made with look.resolution.
 Ray rayThrough(const Camera&, glm::dvec2 pixel, glm::ivec2 resolution);
 
-}  // namespace glint
+}  // namespace glint::viewer

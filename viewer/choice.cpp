@@ -5,7 +5,7 @@
 
 #include "document.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr std::size_t most = 4;  // A and B, each as it was and as it is
@@ -61,4 +61,4 @@ std::shared_ptr<const ResolvedLook> Chooser::choose(const Scene& scene, const Bo
   return kept_.front().choice;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

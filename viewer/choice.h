@@ -3,9 +3,9 @@
 #include <list>
 #include <memory>
 
-#include "glint/render/error_budget.h"
+#include "glint/budget/error_budget.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Whether forms or the program of a look are still to be chosen: by --max-error or --shading auto.
 bool leavesOpen(const Look&);
@@ -32,4 +32,4 @@ class Chooser {
   std::list<Kept> kept_;  ///< the last used first
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

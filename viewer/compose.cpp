@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace glint {
+namespace glint::viewer {
 
 std::vector<std::uint8_t> compose(const CodePicture& a, const CodePicture* b,
                                   const Document& document, bool transparent) {
@@ -93,4 +93,4 @@ std::size_t markClipped(std::vector<std::uint8_t>& codes, const Image& linear, d
   return marked;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -6,7 +6,7 @@
 #include "document.h"
 #include "glint/image/image.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// 8-bit RGBA pixels, rows from the top, straight alpha.
 struct CodePicture {
@@ -35,4 +35,4 @@ CompareNumbers compareNumbers(const CodePicture& a, const CodePicture& b);
 /// exposure, blue where one is negative; the rest becomes darker. Returns how many are marked.
 std::size_t markClipped(std::vector<std::uint8_t>& codes, const Image& linear, double exposure);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace glint {
+namespace glint::viewer {
 
 namespace fs = std::filesystem;
 
@@ -179,4 +179,4 @@ void Dialogs::drawQuestion(bool enter, bool escape) {
   if (action) action();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

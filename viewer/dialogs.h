@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace glint {
+namespace glint::viewer {
 
 /// One modal dialog at a time: asks for a path, or for one of a few answers. Enter takes the first
 /// answer, Escape the last.
@@ -54,4 +54,4 @@ class Dialogs {
   std::vector<std::string> listed_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace glint {
+namespace glint::viewer {
 
 bool comparesLooks(const Document& d) {
   return d.compare != CompareMode::off && !d.exact && d.b.has_value();
@@ -54,4 +54,4 @@ Look withoutCamera(const Look& look) {
   return rest;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

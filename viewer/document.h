@@ -5,7 +5,7 @@
 
 #include "glint/scene/look.h"
 
-namespace glint {
+namespace glint::viewer {
 
 enum class CompareMode { off, split, blink, difference };
 
@@ -52,4 +52,4 @@ class History {
 /// when the window is closed.
 Look withoutCamera(const Look&);
 
-}  // namespace glint
+}  // namespace glint::viewer

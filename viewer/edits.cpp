@@ -6,12 +6,12 @@
 
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "light_edit.h"
 #include "materials.h"
 #include "presets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 const Parameter& parameterNamed(std::string_view name) {
@@ -277,4 +277,4 @@ double animationDuration(const Scene& scene, const Look& look) {
   return all.front().duration;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

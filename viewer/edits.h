@@ -5,7 +5,7 @@
 #include "actions.h"
 #include "session.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Does what the action edits or selects, where it is one that needs nothing but the session, and
 /// says so in its status line; false for all others. `axes` are the camera's in world space.
@@ -20,4 +20,4 @@ int presetOf(const ShadingParameters&);
 /// Seconds of the animation that the look chooses; 0 if the scene has none.
 double animationDuration(const Scene&, const Look&);
 
-}  // namespace glint
+}  // namespace glint::viewer

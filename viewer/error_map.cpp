@@ -7,7 +7,7 @@
 #include "glint/image/flip.h"
 #include "glint/image/srgb.h"
 
-namespace glint {
+namespace glint::viewer {
 
 ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
                           const std::vector<std::uint8_t>& edges, int rows, double exposure) {
@@ -87,4 +87,4 @@ std::vector<std::uint8_t> errorMap(const Image& picture, const Image& exact, int
   return out;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

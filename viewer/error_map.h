@@ -6,7 +6,7 @@
 
 #include "glint/image/image.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// How far a picture is from its reference, in linear light before exposure, over colours.
 struct ErrorNumbers {
@@ -35,4 +35,4 @@ std::vector<std::uint8_t> errorScale(int steps);
 /// Magma map over errorShade; rows below are grey, pixels that are not finite green.
 std::vector<std::uint8_t> errorMap(const Image& picture, const Image& exact, int rows);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,7 +7,7 @@
 #include "glint/shading/lobe.h"
 #include "glint/shading/sum.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 struct Form {
@@ -68,4 +68,4 @@ double fresnelValue(const std::string& form, double cosTheta, double n1, double 
   return fresnelExact(cosTheta, n1, n2);
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-namespace glint {
+namespace glint::viewer {
 
 // The double-precision formulas of src/shading by the names that a look gives their forms.
 
@@ -31,4 +31,4 @@ double lobeValue(const SumInput&, const std::string& form, const glm::dvec3& N, 
 double fresnelValue(const std::string& form, double cosTheta, double n1, double n2,
                     double schlickExponent);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace glint {
+namespace glint::viewer {
 
 void InputQueue::add(InputEvent event) {
   using Kind = InputEvent::Kind;
@@ -31,4 +31,4 @@ std::deque<InputEvent> InputQueue::take() {
   return frame;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

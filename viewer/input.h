@@ -6,7 +6,7 @@
 
 struct GLFWwindow;
 
-namespace glint {
+namespace glint::viewer {
 
 /// One thing that the person at the window did.
 struct InputEvent {
@@ -37,4 +37,4 @@ class InputQueue {
   std::deque<InputEvent> events_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -10,7 +10,7 @@
 
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr const char* fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -201,4 +201,4 @@ void Interface::end(bool draw) {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

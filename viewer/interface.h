@@ -4,7 +4,7 @@
 
 #include "window.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// ImGui set up for a window: font, colours, clipboard, and what it is told of input. Events come
 /// from the window's queue, not from ImGui's own GLFW part, which loses what happens between two
@@ -27,4 +27,4 @@ class Interface {
   Window& window_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -6,7 +6,7 @@
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr double mostIntensity = 1e6;  // of an option
@@ -106,4 +106,4 @@ Light anotherLight(const Light& from, const Bounds& bounds, const glm::dmat3& ax
   return light;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

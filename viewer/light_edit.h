@@ -8,7 +8,7 @@
 #include "glint/scene/look.h"
 #include "glint/scene/scene.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Whether the lights of the look are those of the scene's file.
 bool lightsAreTheFiles(const Scene*, const Look&);
@@ -32,4 +32,4 @@ void setFallOff(Light&, bool, const Bounds&);
 /// One light more, mirrored from this one.
 Light anotherLight(const Light&, const Bounds&, const glm::dmat3& axes);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "app.h"
-#include "glint/cli/commands.h"
-#include "glint/cli/exit_status.h"
-#include "glint/cli/heap.h"
-#include "glint/cli/help.h"
+#include "glint/options/exit_status.h"
+#include "glint/options/heap.h"
+#include "glint/options/help.h"
+#include "glint/options/look_options.h"
 
 int main(int argc, char** argv) {
   glint::adviseHeap();
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
       "looks, see the lobe and the Fresnel curve; what is shown is what glint render draws.",
       "glint view");
   app.formatter(std::make_shared<glint::HelpFormatter>());
-  glint::AppOptions options;
+  glint::viewer::AppOptions options;
   std::string model, glsl;
   app.add_option("MODEL", model,
                  "a glTF 2.0 model, .gltf or .glb; one can be dropped on the window");
@@ -33,9 +33,9 @@ int main(int argc, char** argv) {
     if (const CLI::Option* look = app.get_option("--look"); look->count() > 0)
       options.look = look->as<std::string>();
     const glint::Look look = makeLook();
-    options.settings = glint::loadSettings();
-    glint::Window window("glint", options.settings.window);
-    glint::App viewer(window, look, options);
+    options.settings = glint::viewer::loadSettings();
+    glint::viewer::Window window("glint", options.settings.window);
+    glint::viewer::App viewer(window, look, options);
     viewer.run();
     return glint::done;
   };

@@ -7,7 +7,7 @@
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 
-namespace glint {
+namespace glint::viewer {
 
 using Json = nlohmann::ordered_json;
 
@@ -129,4 +129,4 @@ void pasteMaterial(Look& look, const std::string& key, const std::string& text) 
   look = std::move(changed);
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

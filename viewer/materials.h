@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "glint/scene/look.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "glint/scene/scene.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Which materials of a scene something is drawn with, in ascending order.
 std::vector<int> drawnMaterials(const Scene&);
@@ -46,4 +46,4 @@ std::string materialText(const ShadingParameters&);
 /// nothing if it is neither.
 void pasteMaterial(Look&, const std::string& key, const std::string& text);
 
-}  // namespace glint
+}  // namespace glint::viewer

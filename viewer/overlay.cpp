@@ -5,7 +5,7 @@
 
 #include "glint/gl/check.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr const char* surfaceVertex = R"(#version 330 core
@@ -131,4 +131,4 @@ std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& l
   return layer;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

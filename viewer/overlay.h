@@ -9,7 +9,7 @@
 #include "glint/render/gpu_scene.h"
 #include "session.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Edges, normals and facing, to lie over the picture in the window; the picture itself stays as it
 /// is.
@@ -31,4 +31,4 @@ class OverlayDrawer {
   glm::ivec2 size_{0};
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

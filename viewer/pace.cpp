@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace glint {
+namespace glint::viewer {
 
 Look Pace::faster(const Look& look) const {
   Look fast = look;
@@ -34,4 +34,4 @@ void Pace::drewFaster(double ms) {
   }
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

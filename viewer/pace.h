@@ -2,7 +2,7 @@
 
 #include "glint/scene/look.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// How long a picture may take that follows a hand, ms.
 inline constexpr double slowFrame = 1000.0 / 30;
@@ -32,4 +32,4 @@ class Pace {
   double larger_ = 0;  ///< ms by one division less
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -8,7 +8,7 @@
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
 
-namespace glint {
+namespace glint::viewer {
 
 namespace {
 
@@ -243,4 +243,4 @@ void Painter::reload(const std::filesystem::path& glsl, const Look& trial, Done 
   });
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -14,7 +14,7 @@
 #include "window.h"
 #include "worker.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Pictures that the window wants at one time.
 struct PaintRequest {
@@ -94,4 +94,4 @@ class Painter {
   std::unique_ptr<Worker> worker_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -14,7 +14,7 @@
 #include "presets.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 
 using widgets::style;
 
@@ -387,4 +387,4 @@ void drawPanel(PanelContext& context) {
   ImGui::EndTabBar();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

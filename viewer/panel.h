@@ -9,7 +9,7 @@
 #include "session.h"
 #include "settings.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// What the panel shows and what it can ask for.
 struct PanelContext {
@@ -51,4 +51,4 @@ void drawSection(PanelContext&, const std::string& section,
 /// A button for a command, with its help and key as tooltip. `width` 0 fits the text.
 bool actionButton(PanelContext&, Action, const char* text, float width = 0);
 
-}  // namespace glint
+}  // namespace glint::viewer

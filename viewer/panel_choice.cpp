@@ -9,7 +9,7 @@
 #include "panel.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using widgets::style;
@@ -110,4 +110,4 @@ void drawChoice(PanelContext& context) {
   if (many) ImGui::EndChild();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,12 +7,13 @@
 
 #include "compose.h"
 #include "glint/scene/lights.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
+#include "glint/scene/look_text.h"
 #include "materials.h"
 #include "panel.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using widgets::style;
@@ -248,4 +249,4 @@ void drawInfoTab(PanelContext& context) {
   }
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,7 +7,7 @@
 #include "panel.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using widgets::style;
@@ -159,4 +159,4 @@ void drawLightsTab(PanelContext& context) {
   drawSection(context, section, {"light"});
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

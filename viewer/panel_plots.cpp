@@ -13,7 +13,7 @@
 #include "plots.h"
 #include "widgets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using widgets::style;
@@ -319,4 +319,4 @@ void drawPlots(PanelContext& context) {
   session.plotWanted = false;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

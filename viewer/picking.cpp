@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr std::size_t chunkSize = 32;  // triangles
@@ -185,4 +185,4 @@ std::optional<Hit> Picker::pick(const Scene& scene, const Ray& ray, bool twoSide
   return best;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

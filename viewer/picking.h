@@ -8,7 +8,7 @@
 #include "camera_control.h"
 #include "glint/scene/scene.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Where a ray meets a scene first, in double.
 struct Hit {
@@ -50,4 +50,4 @@ class Picker {
   std::vector<std::vector<Chunk>> chunks_;  // of each mesh
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

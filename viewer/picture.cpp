@@ -6,10 +6,10 @@
 #include "glint/gl/check.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
-#include "glint/render/picture_text.h"
-#include "glint/scene/model_hash.h"
+#include "glint/options/picture_text.h"
+#include "glint/gltf/model_hash.h"
 
-namespace glint {
+namespace glint::viewer {
 
 std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds,
                                         const Look& look, const std::atomic<bool>& stop) {
@@ -132,4 +132,4 @@ void Screen::show(int x, int y, int width, int height, int framebufferHeight) co
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

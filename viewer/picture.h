@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "glint/image/image.h"
-#include "glint/render/error_budget.h"
+#include "glint/budget/error_budget.h"
 #include "glint/render/renderer.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// A picture as drawn and as shown.
 struct DrawnPicture {
@@ -53,4 +53,4 @@ class Screen {
   int width_ = 0, height_ = 0;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,7 +7,7 @@
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
@@ -101,4 +101,4 @@ WidthPlot widthPlot(double exponent) {
   return plot;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

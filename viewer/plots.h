@@ -7,7 +7,7 @@
 
 #include "formulas.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Points of a curve; x rises.
 struct Curve {
@@ -48,4 +48,4 @@ struct WidthPlot {
 
 WidthPlot widthPlot(double exponent);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -4,7 +4,7 @@
 
 #include "session.h"
 
-namespace glint {
+namespace glint::viewer {
 
 bool samePose(const PoseRequest& a, const PoseRequest& b) {
   return a.time == b.time && a.animation == b.animation;
@@ -63,4 +63,4 @@ std::vector<int> changedMeshes(const Model& before, const Model& after) {
   return changed;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

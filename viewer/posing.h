@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 
-namespace glint {
+namespace glint::viewer {
 
 struct Model;
 
@@ -41,4 +41,4 @@ std::shared_ptr<const Model> posed(const std::shared_ptr<const Model>&, const Po
 /// Meshes whose vertices differ between two poses of one model, among those of the second.
 std::vector<int> changedMeshes(const Model& before, const Model& after);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr Preset table[] = {
@@ -239,4 +239,4 @@ ShadingParameters presetParameters(const Preset& preset) {
   return p;
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

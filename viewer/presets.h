@@ -5,7 +5,7 @@
 
 #include "glint/scene/scene.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// A material from the classic published tables, or one described here.
 struct Preset {
@@ -29,4 +29,4 @@ std::span<const Preset> presets();
 /// for metals with m_sm = 1. OpenGL's exponent belongs to N.H: m_sp = 128 shininess / 4.
 ShadingParameters presetParameters(const Preset&);
 
-}  // namespace glint
+}  // namespace glint::viewer

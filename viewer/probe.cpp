@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/srgb.h"
-#include "glint/render/reference_pixel.h"
-#include "glint/render/reference_raster.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/reference/pixel.h"
+#include "glint/reference/raster.h"
+#include "glint/reference/renderer.h"
 #include "glint/scene/lights.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
 #include "materials.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr std::size_t mostLayers = 64;
@@ -284,4 +284,4 @@ std::string probeText(const Scene& scene, const Probe& p) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -12,7 +12,7 @@
 #include "glint/scene/look.h"
 #include "picking.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// One light at a point.
 struct LightProbe {
@@ -67,4 +67,4 @@ Probe probePixel(const ProbeScene&, const Look& look, const Image& shown, const 
 /// All of it as JSON, to be copied.
 std::string probeText(const Scene&, const Probe&);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -10,9 +10,9 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 
-namespace glint {
+namespace glint::viewer {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -131,4 +131,4 @@ void Recovery::discard(const Recovered& recovered) {
   fs::remove(lockOf(recovered.file), error);
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -8,7 +8,7 @@
 
 #include "glint/scene/look.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// Edits that a window left behind when it ended without saving or discarding them.
 struct Recovered {
@@ -55,4 +55,4 @@ class Recovery {
   std::chrono::steady_clock::time_point lastTime_{};
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "glint/image/error.h"
-#include "glint/render/reference_raster.h"
-#include "glint/render/reference_renderer.h"
+#include "glint/reference/raster.h"
+#include "glint/reference/renderer.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 constexpr int rowsAtOnce = 16;
@@ -146,4 +146,4 @@ void ReferenceTask::stop() {
   model_.reset();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -11,7 +11,7 @@
 #include "session.h"
 #include "worker.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// A picture by the reference renderer that grows from the top. Rows below `rows` are final and may
 /// be read while the others are drawn.
@@ -58,4 +58,4 @@ class ReferenceTask {
   Worker worker_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -5,12 +5,12 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/scene/gltf.h"
-#include "glint/scene/gltf_patch.h"
-#include "glint/scene/parameters.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/gltf/patch.h"
+#include "glint/options/parameters.h"
 #include "materials.h"
 
-namespace glint {
+namespace glint::viewer {
 
 std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRequest& pose) {
   const auto start = std::chrono::steady_clock::now();
@@ -144,4 +144,4 @@ std::filesystem::path nextFreeName(const std::filesystem::path& folder, const st
   }
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

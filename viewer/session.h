@@ -12,12 +12,12 @@
 #include "document.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/scene/scene.h"
 #include "picking.h"
 #include "posing.h"
 
-namespace glint {
+namespace glint::viewer {
 
 /// A model read from its file.
 struct Model {
@@ -96,4 +96,4 @@ struct Session {
 std::filesystem::path nextFreeName(const std::filesystem::path& folder, const std::string& stem,
                                    const std::string& ending);
 
-}  // namespace glint
+}  // namespace glint::viewer

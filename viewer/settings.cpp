@@ -10,7 +10,7 @@
 #include "glint/image/file.h"
 #include "xdg.h"
 
-namespace glint {
+namespace glint::viewer {
 
 using Json = nlohmann::ordered_json;
 
@@ -88,4 +88,4 @@ void saveSettings(const Settings& settings) {
   file.commit();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

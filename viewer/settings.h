@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-namespace glint {
+namespace glint::viewer {
 
 /// What the window keeps from one start to the next: nothing that shapes a picture.
 struct Settings {
@@ -30,4 +30,4 @@ Settings loadSettings();
 /// Writes it if it would change, making the folder. Throws InputError.
 void saveSettings(const Settings&);
 
-}  // namespace glint
+}  // namespace glint::viewer

@@ -13,7 +13,7 @@
 
 #include "glint/scene/look_text.h"
 
-namespace glint::widgets {
+namespace glint::viewer::widgets {
 
 Style& style() {
   static Style value;
@@ -322,4 +322,4 @@ bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& 
   return changed;
 }
 
-}  // namespace glint::widgets
+}  // namespace glint::viewer::widgets

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 
-namespace glint::widgets {
+namespace glint::viewer::widgets {
 
 /// Sizes in window coordinates, from the content scale.
 struct Style {
@@ -55,4 +55,4 @@ bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& 
 std::string parameterTooltip(const std::string& help, std::string_view symbol,
                              const std::string& unit, double min, double max);
 
-}  // namespace glint::widgets
+}  // namespace glint::viewer::widgets

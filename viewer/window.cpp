@@ -11,7 +11,7 @@
 
 #include "glint/gl/context.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 std::atomic<bool> woken = false;
@@ -185,4 +185,4 @@ OffscreenContext::~OffscreenContext() { glfwDestroyWindow(window_); }
 void OffscreenContext::makeCurrent() { glfwMakeContextCurrent(window_); }
 void OffscreenContext::release() { glfwMakeContextCurrent(nullptr); }
 
-}  // namespace glint
+}  // namespace glint::viewer

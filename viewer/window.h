@@ -7,7 +7,7 @@
 
 struct GLFWwindow;
 
-namespace glint {
+namespace glint::viewer {
 
 /// A window with an OpenGL 3.3 core context, current on this thread, and what happened in it.
 class Window {
@@ -66,4 +66,4 @@ class OffscreenContext {
   GLFWwindow* window_ = nullptr;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

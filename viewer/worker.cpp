@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace glint {
+namespace glint::viewer {
 
 Worker::Worker(std::function<void()> begin, std::function<void()> end)
     : thread_([this, begin = std::move(begin), end = std::move(end)] { run(begin, end); }) {}
@@ -75,4 +75,4 @@ void Worker::run(const std::function<void()>& begin, const std::function<void()>
   if (end) end();
 }
 
-}  // namespace glint
+}  // namespace glint::viewer

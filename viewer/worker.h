@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-namespace glint {
+namespace glint::viewer {
 
 /// A thread that does what takes longer than a frame. Two kinds of jobs: those that are all done,
 /// in order (queue), and those of which only the newest counts (latest). A job must not throw.
@@ -45,4 +45,4 @@ class Worker {
   std::thread thread_;
 };
 
-}  // namespace glint
+}  // namespace glint::viewer

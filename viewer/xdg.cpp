@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 std::filesystem::path absolute(const char* variable) {
@@ -26,4 +26,4 @@ std::filesystem::path folder(const char* variable, const char* underHome) {
 std::filesystem::path configFolder() { return folder("XDG_CONFIG_HOME", ".config"); }
 std::filesystem::path stateFolder() { return folder("XDG_STATE_HOME", ".local/state"); }
 
-}  // namespace glint
+}  // namespace glint::viewer

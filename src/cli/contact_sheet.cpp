@@ -11,7 +11,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "interrupt.h"
 
 namespace glint {

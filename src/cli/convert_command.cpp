@@ -6,10 +6,10 @@
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/scene/gltf.h"
-#include "glint/scene/gltf_file.h"
-#include "glint/scene/gltf_patch.h"
-#include "glint/scene/parameters.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/gltf/file.h"
+#include "glint/gltf/patch.h"
+#include "glint/options/parameters.h"
 
 namespace glint {
 namespace {

@@ -15,7 +15,7 @@
 #include "diff_html.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "outputs.h"
+#include "glint/options/outputs.h"
 #include "progress.h"
 
 namespace glint {

@@ -6,10 +6,10 @@
 
 #include "commands.h"
 #include "glint/render/draw_list.h"
-#include "glint/render/error_budget.h"
-#include "glint/scene/gltf.h"
-#include "glint/scene/parameters.h"
-#include "outputs.h"
+#include "glint/budget/error_budget.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/scene/material_parameters.h"
+#include "glint/options/outputs.h"
 #include "report.h"
 
 namespace glint {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "commands.h"
-#include "exit_status.h"
-#include "heap.h"
-#include "help.h"
+#include "glint/options/exit_status.h"
+#include "glint/options/heap.h"
+#include "glint/options/help.h"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
-#include "glint/render/picture_text.h"
-#include "glint/scene/gltf.h"
-#include "glint/scene/model_hash.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/picture_text.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/gltf/model_hash.h"
+#include "glint/scene/material_parameters.h"
 #include "interrupt.h"
 
 namespace glint {

@@ -11,7 +11,7 @@
 
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 #include "picture_plan.h"
 
 namespace glint {

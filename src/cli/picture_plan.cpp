@@ -4,7 +4,7 @@
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
 #include "model_loader.h"
-#include "outputs.h"
+#include "glint/options/outputs.h"
 
 namespace glint {
 PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)

@@ -7,9 +7,9 @@
 #include "commands.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
-#include "glint/scene/parameters.h"
+#include "glint/options/parameters.h"
 #include "interrupt.h"
-#include "outputs.h"
+#include "glint/options/outputs.h"
 #include "render_pictures.h"
 
 namespace glint {

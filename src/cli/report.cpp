@@ -6,7 +6,7 @@
 
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
-#include "glint/scene/parameters.h"
+#include "glint/scene/material_parameters.h"
 
 namespace glint {
 

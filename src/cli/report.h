@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "glint/render/draw_list.h"
-#include "glint/render/error_budget.h"
+#include "glint/budget/error_budget.h"
 
 namespace glint {
 

@@ -12,11 +12,13 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/report_page.h"
-#include "glint/study/stability_plots.h"
-#include "glint/study/stability_profile.h"
-#include "glint/study/stability_search.h"
-#include "glint/study/stability_suite.h"
-#include "outputs.h"
+#include "glint/options/parameters.h"
+#include "glint/scene/look_text.h"
+#include "glint/stability/plots.h"
+#include "glint/stability/profile.h"
+#include "glint/stability/search.h"
+#include "glint/stability/suite.h"
+#include "glint/options/outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -41,7 +43,7 @@ Look formsOf(const StabilityOptions& options) {
       {"fresnel", &options.fresnel},
       {"schlick-exponent", &options.schlickExponent}};
   for (const auto& [name, text] : given)
-    if (!text->empty()) stability::setParameter(forms, name, *text);
+    if (!text->empty()) setParameter(forms, name, *text);
   return forms;
 }
 
@@ -76,14 +78,14 @@ int runStability(const StabilityOptions& options) {
   context->makeCurrent();
   if (!context->remark().empty()) printWarning(context->remark());
   const GlStrings gl = glStrings();
-  const std::string highlight = stability::parameterText(forms, "highlight"),
-                    fresnel = stability::parameterText(forms, "fresnel");
+  const std::string highlight = highlightText(forms.highlight),
+                    fresnel(fresnelText(forms.fresnel));
   std::vector<stability::CaseResult> results;
   std::vector<stability::Quality> profile;
   std::optional<stability::SearchReport> search;
   Json plots = Json::array();
   {
-    stability::Bench bench(forms, std::move(sources));
+    stability::Bench bench(forms, std::move(sources), setParameter);
     Progress progress("stability");
     results = stability::runCases(
         bench, options.selection, [&](double share, const stability::Case& item) {

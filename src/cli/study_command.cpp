@@ -9,13 +9,13 @@
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/scene/gltf.h"
-#include "glint/scene/parameters.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/options/parameters.h"
 #include "glint/study/cost_measurement.h"
-#include "glint/study/study_page.h"
-#include "glint/study/study_results.h"
+#include "glint/study/page.h"
+#include "glint/study/results.h"
 #include "interrupt.h"
-#include "outputs.h"
+#include "glint/options/outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -131,6 +131,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   head.backend = backendName(context->backend());
   head.quick = given.quick;
   head.look = options.look;
+  head.lookText = saveLook(options.look);
   head.rounds = options.rounds;
   head.warmUp = options.warmUp;
   head.builds = options.builds;

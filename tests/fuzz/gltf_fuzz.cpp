@@ -13,7 +13,7 @@
 #include <string>
 
 #include "glint/image/error.h"
-#include "glint/scene/gltf.h"
+#include "glint/gltf/scene_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const int file = memfd_create("model", MFD_CLOEXEC);

@@ -1,0 +1,119 @@
+#include "glint/budget/cost_file.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int version = 1;
+constexpr double mostCost = 1e6;
+
+// The one list of what is in a file: calls visit(group, name, where it stands in the table).
+template <class Table, class Visit>
+void forCosts(Table& table, const Visit& visit) {
+  visit("highlight", "exact", table.exact);
+  visit("highlight", "pow", table.pow);
+  visit("highlight", "integer", table.integer);
+  visit("highlight", "lyon", table.lyon);
+  visit("highlight", "lyon-cross", table.lyonCross);
+  visit("highlight", "pade", table.pade);
+  visit("highlight", "gaussian", table.gaussian);
+  for (const auto& [group, costs] : {std::pair("fresnel", &table.fresnel),
+                                     std::pair("fresnel-denser-side", &table.fresnelDenser)}) {
+    visit(group, "exact", costs->exact);
+    visit(group, "textbook", costs->textbook);
+    visit(group, "schlick", costs->schlick);
+    visit(group, "schlick-exponent", costs->schlickExponent);
+    visit(group, "schlick-exp2", costs->schlickExp2);
+    visit(group, "rational", costs->rational);
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path) {}
+
+  CostFile read() const {
+    const auto bytes = readFile(path_);
+    const Json json =
+        Json::parse(reinterpret_cast<const char*>(bytes.data()),
+                    reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
+    if (json.is_discarded()) fail("is not JSON");
+    if (!json.is_object() || !json.contains("glint-costs")) fail("is no table of costs");
+    if (json["glint-costs"] != version)
+      fail("is a table of version " + json["glint-costs"].dump() + ", and this glint reads " +
+           std::to_string(version));
+    CostFile file;
+    std::size_t known = 0;
+    forCosts(file.costs, [&](const char* group, const char* name, auto& cost) {
+      if (!json.contains(group) || !json[group].is_object() || !json[group].contains(name))
+        fail("lacks the cost of " + std::string(group) + " " + name);
+      set(json[group][name], std::string(group) + " " + name, cost);
+      ++known;
+    });
+    if (json["highlight"].size() + json["fresnel"].size() + json["fresnel-denser-side"].size() !=
+        known)
+      fail("holds the cost of a form that this glint does not know");
+    if (json.contains("noise")) set(json["noise"], "noise", file.noise);
+    const Json gl = json.value("gl", Json::object());
+    const auto text = [&](const char* key) {
+      return gl.is_object() && gl.contains(key) && gl[key].is_string() ? gl[key].get<std::string>()
+                                                                       : std::string();
+    };
+    file.gl = {text("vendor"), text("renderer"), text("version")};
+    return file;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(printablePath(path_) + ": " + what +
+                     ": make one by glint study --measure-costs FILE");
+  }
+
+  void set(const Json& json, const std::string& name, double& cost) const {
+    if (!json.is_number()) fail(name + " is not a number");
+    cost = json.get<double>();
+    if (!(cost >= 0 && cost <= mostCost)) fail(name + " is not from 0 to 1e6");
+  }
+
+  template <std::size_t Count>
+  void set(const Json& json, const std::string& name, std::array<double, Count>& costs) const {
+    if (!json.is_array() || json.size() != Count)
+      fail(name + " is not a list of " + std::to_string(Count) + " numbers");
+    for (std::size_t i = 0; i < Count; ++i) set(json[i], name, costs[i]);
+  }
+
+  const std::string& path_;
+};
+
+}  // namespace
+
+std::string costFileText(const CostFile& file) {
+  Json json{
+      {"glint-costs", version},
+      {"gl",
+       {{"vendor", file.gl.vendor}, {"renderer", file.gl.renderer}, {"version", file.gl.version}}},
+      {"noise", file.noise},
+      {"highlight", Json::object()},
+      {"fresnel", Json::object()},
+      {"fresnel-denser-side", Json::object()}};
+  forCosts(file.costs, [&](const char* group, const char* name, const auto& cost) {
+    json[group][name] = cost;
+  });
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+CostFile readCostFile(const std::string& path) { return Reader(path).read(); }
+
+CostTable costTableFor(const Look& look) {
+  return look.costTable.empty() ? CostTable() : readCostFile(look.costTable).costs;
+}
+
+}  // namespace glint

@@ -1,0 +1,375 @@
+#include "glint/budget/interpolation_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "glint/shading/safe.h"
+
+namespace glint {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double flatLimit = 1e-6;  // of the rounding of normals that are meant to be the face's
+constexpr double radians = std::numbers::pi / 180;
+const double bentDirection = 2 / std::sqrt(3.0);  // |L''| in l^2
+
+double squared(double x) { return x * x; }
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
+// The transform of normals: cofactors, the sign of a mirror taken out.
+glm::dmat3 normalTransform(const glm::dmat3& m) {
+  double size = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(m[i][j]));
+  if (!(size > 0)) return glm::dmat3(1.0);
+  const glm::dmat3 n = m * (1 / size);
+  const glm::dmat3 c(glm::cross(n[1], n[2]), glm::cross(n[2], n[0]), glm::cross(n[0], n[1]));
+  return glm::dot(n[0], c[0]) < 0 ? -1.0 * c : c;
+}
+
+// What a function of the points of a triangle and its derivatives along a way as long as an edge
+// are at most.
+struct Along {
+  double most = 1, slope = 0, bend = 0;
+};
+
+Along operator*(const Along& f, const Along& g) {
+  return {f.most * g.most, f.slope * g.most + f.most * g.slope,
+          f.bend * g.most + 2 * f.slope * g.slope + f.most * g.bend};
+}
+
+// sup over c in (0, 1] of what the derivatives of c^a are made of (4 of the header). With x = a (1
+// - c) each varies by less than a percent from one sample to the next.
+struct Steepness {
+  double bend = 1, slope = 0;
+  explicit Steepness(double a) {
+    for (int i = 0; i <= 1000; ++i) {
+      const double c = 1 - std::min(8.0 / a, 1.0) * i / 1000;
+      const double sin2 = std::max(1 - c * c, 0.0), less = std::pow(c, a - 1);
+      slope = std::max(slope, less * std::sqrt(sin2));
+      if (a >= 2 && c > 0)
+        bend = std::max(bend, less * (1 - c) / 2 + (a - 1) * std::pow(c, a - 2) * sin2);
+    }
+    bend *= 1.01;
+    slope *= 1.01;
+  }
+};
+
+// A triangle of corners that stand in arrays, and how far normal and view turn over it.
+struct Patch {
+  std::array<std::uint32_t, 3> corners{};
+  double edge = 0, chord = 0;
+  double shorter = 0;  // 1 - |n| at most
+  double turn = 0, bent = 0;
+  double view = 0;
+  bool known = true;  // otherwise only that everything lies between nothing and all
+};
+
+struct Mold {
+  std::vector<glm::dvec3> points, normals;  // world, points from the eye
+  std::vector<Patch> patches;
+  double offFace = 0;  // flat: how far the normals of a face are from its own
+};
+
+// Whether a triangle shows its back alone, and so nothing: seen from more than a degree behind its
+// plane, which rounding does not turn.
+bool isTurnedAway(const PlacedMesh& p, const Mold& mold, const Patch& patch, bool mirrored) {
+  const auto& [a, b, c] = patch.corners;
+  const glm::dvec3 across =
+      glm::cross(mold.points[b] - mold.points[a], mold.points[c] - mold.points[a]);
+  const glm::dvec3 toEye = p.camera.orthographic ? p.camera.axes[2] : -mold.points[a];
+  const double facing = (mirrored ? -1 : 1) * glm::dot(across, toEye);
+  return facing < -0.02 * glm::length(across) * glm::length(toEye);
+}
+
+// The corners as the program shades them: those of the mesh, or each face's own.
+Mold moldOf(const PlacedMesh& p, Shading program) {
+  Mold mold;
+  const Mesh& mesh = p.mesh;
+  const glm::dmat3 linear(p.world), toNormals = normalTransform(linear);
+  for (const glm::vec3& n : mesh.normals)
+    mold.normals.push_back(safeNormalize(toNormals * glm::dvec3(n)));
+  for (const glm::vec3& x : mesh.positions)
+    mold.points.push_back(linear * (glm::dvec3(x) + mesh.origin) + glm::dvec3(p.world[3]) -
+                          p.camera.eye);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    mold.patches.push_back({{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+  const bool mirrored = glm::determinant(linear) < 0;
+  if (!p.variant.twoSided)
+    std::erase_if(mold.patches,
+                  [&](const Patch& patch) { return isTurnedAway(p, mold, patch, mirrored); });
+  if (program == Shading::flat) {
+    Mold faces;
+    for (const Patch& patch : mold.patches) {
+      const auto& [a, b, c] = patch.corners;
+      const glm::dvec3 across =
+          glm::cross(mold.points[b] - mold.points[a], mold.points[c] - mold.points[a]);
+      const bool nothing = mesh.positions[a] == mesh.positions[b] ||
+                           mesh.positions[b] == mesh.positions[c] ||
+                           mesh.positions[c] == mesh.positions[a];
+      if (nothing) continue;
+      const glm::dvec3 normal = (mirrored ? -1.0 : 1.0) * safeNormalize(across);
+      Patch own;
+      for (int j = 0; j < 3; ++j) {
+        const std::uint32_t k = patch.corners[std::size_t(j)];
+        own.corners[std::size_t(j)] = std::uint32_t(faces.points.size());
+        faces.points.push_back(mold.points[k]);
+        faces.normals.push_back(normal);
+        faces.offFace = std::max(faces.offFace, glm::length(mold.normals[k] - normal));
+      }
+      if (faces.offFace > flatLimit) return faces;
+      faces.patches.push_back(own);
+    }
+    mold = std::move(faces);
+  }
+  for (Patch& patch : mold.patches) {
+    double near = unbounded;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::uint32_t a = patch.corners[j], b = patch.corners[(j + 1) % 3];
+      patch.chord = std::max(patch.chord, glm::length(mold.normals[a] - mold.normals[b]));
+      patch.edge = std::max(patch.edge, glm::length(mold.points[a] - mold.points[b]));
+      near = std::min(near, glm::length(mold.points[a]));
+      if (mold.normals[a] == glm::dvec3(0.0)) patch.known = false;
+    }
+    // 2. of the header asks for corners whose normals see each other.
+    if (!(patch.chord <= 1)) patch.known = false;
+    if (!patch.known) continue;
+    const double length = std::sqrt(1 - squared(patch.chord) / 3);
+    patch.shorter = 1 - length;
+    patch.turn = patch.chord / length;
+    patch.bent = 1.58 * patch.turn * patch.turn * patch.turn;
+    if (p.variant.constantView) continue;
+    const double least2 = squared(near) - squared(patch.edge) / 3;
+    if (least2 > 0)
+      patch.view = patch.edge / std::sqrt(least2);
+    else
+      patch.known = false;
+  }
+  return mold;
+}
+
+// One light at one corner.
+struct Corner {
+  double cosine = 0;    // N.L
+  double angle = 0;     // between R and V
+  double distance = 0;  // to the light
+  double axis = 0;      // -L.axis
+};
+
+// How one light reaches a patch: its intensity beside the full one, and how L turns.
+struct Reach {
+  Along share;
+  double cap = 1;   // the most that it is
+  double step = 0;  // what `share` is too large or too small by beyond the ramp of a spot
+  double turn = 0;
+  bool known = true;
+};
+
+using Corners = std::array<const Corner*, 3>;
+
+// Empty where nothing arrives; `cap` infinite where anything may.
+std::optional<Reach> reachOf(const Light& light, const Patch& patch, const Corners& corners,
+                             Shading program) {
+  Reach reach;
+  reach.known = patch.known;
+  if (light.type == Light::Type::directional || light.type == Light::Type::camera) return reach;
+  double near = unbounded, far = 0, low = 1, high = -1;
+  for (const Corner* c : corners) {
+    near = std::min(near, c->distance);
+    far = std::max(far, c->distance);
+    low = std::min(low, c->axis);
+    high = std::max(high, c->axis);
+  }
+  const double least2 = squared(near) - squared(patch.edge) / 3;
+  if (!(least2 > 0)) {
+    reach.known = false;
+    if (light.fallsOff) reach.cap = unbounded;
+    return reach;
+  }
+  const double least = std::sqrt(least2), edge = patch.edge;
+  reach.turn = edge / least;
+  if (light.fallsOff) {
+    const double r = light.range, window = r > 0 ? 1 / squared(squared(r)) : 0.0;
+    if (r > 0 && least >= r) return std::nullopt;
+    if (r > 0 && far > r) reach.known = false;
+    reach.share = {1 / least2 - least2 * window, 2 * edge * (1 / (least * least2) + far * window),
+                   2 * squared(edge) * (3 / squared(least2) + window)};
+    reach.cap = reach.share.most;
+  }
+  if (light.type != Light::Type::spot) return reach;
+  const double bend = bentDirection * squared(reach.turn);
+  // The least is that of a corner: what is linear over what is convex, where it is positive.
+  high = std::min(high + bend / 6, 1.0);
+  const double outer = std::cos(light.outerAngle * radians);
+  const double inner = std::cos(light.innerAngle * radians), range = inner - outer;
+  if (high <= outer) return std::nullopt;
+  if (low >= inner && low > outer) return reach;
+  if (!(range > 0)) {
+    reach.known = false;
+    return reach;
+  }
+  const double from = std::max((low - outer) / range, 0.0), to = (high - outer) / range;
+  const double beyond = std::max(to * to - 1, 0.0), missing = 1 - from * from;
+  const bool full = program == Shading::gouraud && missing < beyond;
+  if (program == Shading::gouraud) reach.step = reach.cap * std::min(beyond, missing);
+  reach.cap *= squared(std::min(to, 1.0));
+  if (full) return reach;
+  const double aside = std::sqrt(1 - squared(std::max(low, 0.0)));  // sine of the largest angle
+  const Along ramp{to, reach.turn * aside / range, bend / range};
+  reach.share = reach.share * (ramp * ramp);
+  return reach;
+}
+
+struct Errors {
+  double diffuse = 0, specular = 0;
+  double most = 0;  // that the light brings
+};
+
+struct Lobe {
+  double exponent;
+  Steepness steepness;
+
+  double value(double angle) const {
+    const double c = std::cos(angle);
+    return c > 0 ? std::pow(c, exponent) : 0.0;
+  }
+  // With `turn` of R and V and `bent` of their second derivatives; below an exponent of 2 `bend` is
+  // six times the error, and below 1 `slope` 3/2 of what 2/3 of an edge may change.
+  Along over(double most, double turn, double bent) const {
+    const double a = exponent;
+    if (turn == 0) return {most, 0, 0};
+    const double hoelder = 6 * std::pow(squared(turn) / 3, a / 2);
+    if (a < 1) return {most, 1.5 * std::pow(2 * turn / 3, a), hoelder};
+    const double slope = a * steepness.slope * turn;
+    if (a < 2) return {most, slope, a * (squared(turn) + bent) + hoelder};
+    return {most, slope, a * (steepness.bend * squared(turn) + steepness.slope * bent)};
+  }
+};
+
+double nearestAngle(const Corners& corners, double turn) {
+  double least = unbounded, most = 0;
+  for (const Corner* c : corners) {
+    least = std::min(least, c->angle);
+    most = std::max(most, c->angle);
+  }
+  return std::max({least - 2 * turn / 3, most - turn, 0.0});
+}
+
+Errors errorsOf(const Light& light, const Patch& patch, const Corners& corners, const Lobe& lobe,
+                double offFace, Shading program) {
+  const std::optional<Reach> found = reachOf(light, patch, corners, program);
+  if (!found) return {};
+  const Reach& reach = *found;
+  const double l = reach.turn, w = patch.turn, v = patch.view;
+  double low = 1, high = -1;
+  for (const Corner* c : corners) {
+    low = std::min(low, c->cosine);
+    high = std::max(high, c->cosine);
+  }
+  Errors e;
+  e.most = reach.cap;
+  e.diffuse = e.specular = reach.cap;
+  if (!reach.known) return e;
+  const double kink = high > 0 && low < 0 ? high * low / (low - high) : 0.0;
+  const double bent = 2 * patch.chord * l + bentDirection * l * l;
+  low -= bent / 6;
+  high += bent / 6;
+  if (high <= 0) return {};
+
+  const double facing = std::min(high / (1 - patch.shorter), 1.0);
+  const Along cosine{std::min(std::max(high, -low), 1.0), patch.chord + l, bent};
+  const double turn = 2 * w + l + v;
+  const double brightest = lobe.value(nearestAngle(corners, turn));
+  const Along highlight =
+      lobe.over(brightest, turn, 2 * w * w + 4 * w * l + l * l + v * v + 2 * patch.bent);
+  double diffuse = 0, specular = 0;
+  if (program == Shading::flat) {
+    diffuse = (reach.share * cosine).slope * 2 / 3 + reach.cap * offFace;
+    specular = low <= 0 ? reach.cap : (reach.share * highlight).slope * 2 / 3;
+    specular +=
+        reach.cap * (lobe.exponent < 1 ? std::pow(2 * offFace, lobe.exponent)
+                                       : 2 * offFace * lobe.exponent * lobe.steepness.slope);
+  } else {
+    diffuse = (reach.share * cosine).bend / 6 + reach.step * facing +
+              reach.share.most * std::max(kink, patch.shorter * facing);
+    specular = (reach.share * highlight).bend / 6 + reach.step * brightest;
+    if (low <= 0) {
+      double open = 0, closed = 0;
+      for (const Corner* c : corners)
+        (c->cosine > 0 ? open : closed) =
+            std::max(c->cosine > 0 ? open : closed, lobe.value(c->angle));
+      specular = std::max(specular + reach.cap * closed, reach.cap * open);
+    }
+  }
+  e.diffuse = std::min(diffuse, reach.cap * facing);
+  e.specular = std::min(specular, reach.cap * brightest);
+  return e;
+}
+
+std::vector<Corner> cornersOf(const Mold& mold, const Light& light, const Camera& camera,
+                              const Variant& v, double side) {
+  std::vector<Corner> corners(mold.points.size());
+  const bool placed = light.type == Light::Type::point || light.type == Light::Type::spot;
+  const glm::dvec3 from = light.position - camera.eye, axis = safeNormalize(light.direction);
+  const glm::dvec3 direction = light.type == Light::Type::camera ? camera.axes * axis : axis;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Corner& c = corners[i];
+    const glm::dvec3 way = from - mold.points[i];
+    const glm::dvec3 L = placed ? safeNormalize(way) : direction;
+    const glm::dvec3 V = v.constantView ? camera.axes[2] : safeNormalize(-mold.points[i]);
+    const glm::dvec3 N = side * mold.normals[i];
+    c.cosine = glm::dot(N, L);
+    if (v.specular) c.angle = std::acos(std::clamp(glm::dot(2 * c.cosine * N - L, V), -1.0, 1.0));
+    if (!placed) continue;
+    c.distance = glm::length(way);
+    c.axis = -glm::dot(L, axis);
+  }
+  return corners;
+}
+
+}  // namespace
+
+double interpolationBound(const PlacedMesh& p, Shading program) {
+  const Variant& v = p.variant;
+  if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
+  if (v.normalTexture) return unbounded;
+  const Mold mold = moldOf(p, program);
+  if (mold.offFace > flatLimit) return unbounded;
+  const ShadingParameters& m = p.material.shading;
+  const Lobe lobe{m.exponent, Steepness(std::max(m.exponent, 1.0))};
+  glm::vec4 most(1);
+  if (v.vertexColors) {
+    most = glm::vec4(0);
+    for (const glm::vec4& color : p.mesh.colors) most = glm::max(most, color);
+  }
+  const glm::dvec3 C = m.color * glm::dvec3(most), S = m.metalness * C + (1 - m.metalness);
+  const glm::dvec3 matte = v.diffuse ? m.diffuse * C : glm::dvec3(0.0);
+  const glm::dvec3 shine = v.specular ? m.specular * S : glm::dvec3(0.0);
+
+  double worst = 0;
+  for (const double side : {1.0, -1.0}) {
+    if (side < 0 && !v.twoSided) break;
+    // The driver interpolates what is carried: a few roundings of it.
+    const glm::dvec3 ambient = 4e-6 * m.ambient * C * p.look.ambientLight;
+    std::vector<glm::dvec3> errors(mold.patches.size(), ambient);
+    for (const Light& light : p.lights) {
+      const std::vector<Corner> corners = cornersOf(mold, light, p.camera, v, side);
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        const auto& [a, b, c] = mold.patches[i].corners;
+        const Errors e = errorsOf(light, mold.patches[i], {&corners[a], &corners[b], &corners[c]},
+                                  lobe, mold.offFace, program);
+        if (!(e.most < unbounded)) return unbounded;
+        errors[i] += light.intensity *
+                     (matte * (e.diffuse + 4e-6 * e.most) + shine * (e.specular + 4e-6 * e.most));
+      }
+    }
+    for (const glm::dvec3& error : errors) worst = std::max(worst, largest(error));
+  }
+  return worst;
+}
+
+}  // namespace glint

@@ -1,0 +1,173 @@
+#include "glint/gltf/accessor.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace glint::gltf {
+namespace {
+
+std::size_t bytesOf(int componentType) {
+  return static_cast<std::size_t>(
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
+}
+
+/// Calls `use` with a value of the C++ type of a glTF component type.
+template <typename Use>
+void withComponent(int componentType, const Use& use) {
+  if (componentType == 5120) use(std::int8_t());
+  if (componentType == 5121) use(std::uint8_t());
+  if (componentType == 5122) use(std::int16_t());
+  if (componentType == 5123) use(std::uint16_t());
+  if (componentType == 5125) use(std::uint32_t());
+  if (componentType == 5126) use(float());
+}
+
+/// The same for the types that indices have.
+template <typename Use>
+void withIndex(int componentType, const Use& use) {
+  if (componentType == 5121) use(std::uint8_t());
+  if (componentType == 5123) use(std::uint16_t());
+  if (componentType == 5125) use(std::uint32_t());
+}
+
+template <typename Component>
+Component load(const unsigned char* from) {
+  Component value;
+  std::memcpy(&value, from, sizeof value);  // elements need not be aligned
+  return value;
+}
+
+}  // namespace
+
+AccessorView openAccessor(const Document& document, int index, const std::string& label,
+                          Budget& budget, const Messages& messages) {
+  const tinygltf::Model& model = document.model;
+  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+  AccessorView view;
+  view.count = accessor.count;
+  view.componentType = accessor.componentType;
+  view.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  view.normalized = accessor.normalized;
+  const auto bytes = bytesOf(view.componentType) * static_cast<std::size_t>(view.components);
+  view.stride = bytes;
+
+  const auto dataOf = [&](int viewIndex, std::size_t offset) {
+    const auto& bufferView = model.bufferViews[static_cast<std::size_t>(viewIndex)];
+    return model.buffers[static_cast<std::size_t>(bufferView.buffer)].data.data() +
+           bufferView.byteOffset + offset;
+  };
+  if (accessor.bufferView >= 0) {
+    view.data = dataOf(accessor.bufferView, accessor.byteOffset);
+    const auto& bufferView = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    if (bufferView.byteStride) view.stride = bufferView.byteStride;
+  }
+  if (view.data && !accessor.sparse.isSparse) return view;
+
+  budget.read(view.count * bytes / 4);
+  view.owned.resize(view.count * bytes);
+  for (std::size_t i = 0; view.data && i < view.count; ++i) {
+    std::memcpy(&view.owned[i * bytes], view.data + i * view.stride, bytes);
+  }
+  view.data = view.owned.data();
+  view.stride = bytes;
+  if (!accessor.sparse.isSparse) return view;
+
+  const auto& sparse = accessor.sparse;
+  const unsigned char* indices =
+      dataOf(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
+  const unsigned char* values =
+      dataOf(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
+  withIndex(sparse.indices.componentType, [&](auto type) {
+    using Index = decltype(type);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
+      const auto target = static_cast<std::size_t>(load<Index>(indices + i * sizeof(Index)));
+      if (target >= view.count) {
+        messages.fail(label + ", accessors[" + std::to_string(index) + "].sparse has the index " +
+                      std::to_string(target) + " of " + std::to_string(view.count));
+      }
+      std::memcpy(&view.owned[target * bytes], values + i * bytes, bytes);
+    }
+  });
+  return view;
+}
+
+namespace {
+
+/// What a whole number is multiplied by: 1 or, as a fraction, that of its type.
+template <typename Component>
+double scaleOf(const AccessorView& view, bool normalize) {
+  if constexpr (!std::is_floating_point_v<Component>) {
+    // -128 and -127 both stand for -1.
+    if (normalize || view.normalized) return 1.0 / std::numeric_limits<Component>::max();
+  }
+  return 1;
+}
+
+}  // namespace
+
+template <typename Vector>
+std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices, bool normalize,
+                           const Vector& fallback) {
+  using Real = typename Vector::value_type;
+  std::vector<Vector> result(vertices.count, fallback);
+  const int length = std::min<int>(Vector::length(), view.components);
+  withComponent(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    const double scale = scaleOf<Component>(view, normalize);
+    const double least = scale != 1 ? -1.0 : std::numeric_limits<double>::lowest();
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+      const unsigned char* from = view.data + vertices[i] * view.stride;
+      for (int k = 0; k < length; ++k) {
+        const auto value = load<Component>(from + static_cast<std::size_t>(k) * sizeof(Component));
+        if constexpr (std::is_floating_point_v<Component>) {
+          result[i][k] = value;
+        } else {
+          result[i][k] = static_cast<Real>(std::max(value * scale, least));
+        }
+      }
+    }
+  });
+  return result;
+}
+
+template std::vector<glm::vec2> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec2&);
+template std::vector<glm::vec3> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec3&);
+template std::vector<glm::vec4> gather(const AccessorView&, const VertexList&, bool,
+                                       const glm::vec4&);
+template std::vector<glm::dvec3> gather(const AccessorView&, const VertexList&, bool,
+                                        const glm::dvec3&);
+template std::vector<glm::dvec4> gather(const AccessorView&, const VertexList&, bool,
+                                        const glm::dvec4&);
+
+std::vector<double> readFlat(const AccessorView& view, bool normalize) {
+  const auto width = static_cast<std::size_t>(view.components);
+  std::vector<double> numbers(view.count * width);
+  withComponent(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    const double scale = scaleOf<Component>(view, normalize);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const unsigned char* from =
+          view.data + i / width * view.stride + i % width * sizeof(Component);
+      const double value = static_cast<double>(load<Component>(from)) * scale;
+      numbers[i] = scale != 1 ? std::max(value, -1.0) : value;
+    }
+  });
+  return numbers;
+}
+
+std::vector<std::uint32_t> readIndices(const AccessorView& view) {
+  std::vector<std::uint32_t> indices(view.count);
+  withIndex(view.componentType, [&](auto type) {
+    using Component = decltype(type);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      indices[i] = static_cast<std::uint32_t>(load<Component>(view.data + i * view.stride));
+    }
+  });
+  return indices;
+}
+
+}  // namespace glint::gltf

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "glint/gltf/json.h"
+
+namespace glint::gltf {
+
+/// The structural check of a glTF document, done before anything else reads it: the version, the
+/// extensions it requires, types, and that every index, offset and count stays within what it
+/// points into, in 64-bit arithmetic; that the nodes are trees, each with one parent at most.
+/// tinygltf checks none of this and crashes on it.
+///
+/// Sections that nothing here reads (animations, extras, extensions' objects) are not looked at.
+/// Fails with a message that names the place; warns of extensions that are used but not known.
+void checkDocument(Json& document, Messages& messages);
+
+/// The part of it that looks at indices, offsets and counts; once more where those have changed.
+void checkStructure(Json& document, const Messages& messages);
+
+}  // namespace glint::gltf

@@ -1,0 +1,235 @@
+#include "glint/gltf/document.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "glint/gltf/check.h"
+#include "glint/gltf/compression.h"
+#include "glint/gltf/extensions.h"
+#include "glint/gltf/file.h"
+
+namespace glint::gltf {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+/// More than any GPU holds; many buffers may name the same large file.
+constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
+
+ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& container,
+                      const std::filesystem::path& folder, const Messages& messages) {
+  const char* const meshopt = "EXT_meshopt_compression";
+  const std::string label = "buffers[" + std::to_string(index) + "]";
+  const auto wanted =
+      static_cast<std::uint64_t>(buffer.member("byteLength").integer(0, 0, INT64_MAX));
+  ByteSource source;
+  if (const Cursor uri = buffer.member("uri"); uri.exists()) {
+    std::string error;
+    const std::string text = uri.text();
+    source = openUri(text, folder, error);
+    if (!error.empty()) {
+      messages.fail(label + ", the file \"" + printableUri(text) + "\", " + error,
+                    "put it there or export the model as .glb");
+    }
+  } else if (index == 0 && container.binary) {
+    source = *container.binary;
+  } else if (readsCompression(meshopt) && buffer.member("extensions").member(meshopt).exists()) {
+    return ByteSource(std::vector<unsigned char>());  // stands for what is compressed
+  } else {
+    messages.fail(label + " has neither a uri nor a binary GLB chunk");
+  }
+  if (source.size() < wanted) {
+    messages.fail(label + " tells " + std::to_string(wanted) + " bytes and has " +
+                  std::to_string(source.size()));
+  }
+  return source;
+}
+
+std::vector<ViewPlace> placeViews(Cursor root) {
+  const Cursor list = root.member("bufferViews");
+  std::vector<ViewPlace> views;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto number = [&](const char* key) {
+      return static_cast<std::uint64_t>(list.item(i).member(key).integer(0, 0, INT64_MAX));
+    };
+    views.push_back({number("buffer"), number("byteOffset"), number("byteLength")});
+  }
+  return views;
+}
+
+/// The buffer views that accessors refer to.
+std::vector<bool> viewsOfAccessors(Cursor root, std::size_t count) {
+  std::vector<bool> used(count, false);
+  const auto use = [&](Cursor owner) {
+    const int view = owner.member("bufferView").index(count);
+    if (view >= 0) used[static_cast<std::size_t>(view)] = true;
+  };
+  const Cursor list = root.member("accessors");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    use(list.item(i));
+    use(list.item(i).member("sparse").member("indices"));
+    use(list.item(i).member("sparse").member("values"));
+  }
+  return used;
+}
+
+/// Reads of each buffer the stretch in which the views lie that accessors use, and makes the
+/// document's buffer views relative to it.
+std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages& messages) {
+  const std::vector<bool> used = viewsOfAccessors(root, document.views.size());
+  struct Stretch {
+    std::uint64_t first = UINT64_MAX;
+    std::uint64_t end = 0;
+  };
+  std::vector<Stretch> stretches(document.buffers.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const ViewPlace& view = document.views[i];
+    Stretch& stretch = stretches[view.buffer];
+    stretch.first = std::min(stretch.first, view.offset);
+    stretch.end = std::max(stretch.end, view.offset + view.size);
+  }
+  const Cursor views = root.member("bufferViews");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const ViewPlace& view = document.views[i];
+    views.item(i).json()["byteOffset"] =
+        used[i] ? view.offset - stretches[view.buffer].first : std::uint64_t(0);
+  }
+  std::vector<Bytes> buffers(document.buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const Stretch stretch = stretches[i];
+    if (stretch.end > stretch.first) document.geometryBytes += stretch.end - stretch.first;
+    if (document.geometryBytes > maxGeometryBytes) {
+      messages.fail("its buffers hold more than 8 GiB", "split the model");
+    }
+    buffers[i].resize(stretch.end > stretch.first ? stretch.end - stretch.first : 0);
+    if (!document.buffers[i].read(buffers[i].data(), stretch.first, buffers[i].size()) &&
+        !buffers[i].empty()) {
+      messages.fail("buffers[" + std::to_string(i) + "] cannot be read", "check the disk");
+    }
+    if (buffers[i].empty()) buffers[i].push_back(0);  // tinygltf takes it for a missing file
+  }
+  return buffers;
+}
+
+std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
+  const Cursor nodes = root.member("nodes");
+  const std::size_t lights = lightsOf(root).size();
+  std::vector<Document::NodeExtension> result(nodes.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Cursor extensions = nodes.item(i).member("extensions");
+    result[i].light = extensions.member("KHR_lights_punctual").member("light").index(lights);
+    result[i].visible = extensions.member("KHR_node_visibility").member("visible").boolean(true);
+  }
+  return result;
+}
+
+/// What glint does not read, tinygltf need not either.
+void dropExtras(Json& json) {
+  if (json.is_object()) {
+    json.erase("extensions");
+    json.erase("extras");
+  }
+  if (!json.is_structured()) return;
+  for (Json& value : json) {
+    if (value.is_structured()) dropExtras(value);
+  }
+}
+
+/// The part of the document that tinygltf reads, taken out of `json`. Buffers are named by their
+/// number, under which the callbacks hand them over.
+std::string takeGeometry(Json& json, const std::vector<Bytes>& buffers) {
+  Json part = {{"asset", {{"version", "2.0"}}}};
+  for (const char* section : {"bufferViews", "accessors", "meshes", "nodes", "skins", "scenes"}) {
+    const auto found = json.find(section);
+    if (found == json.end()) continue;
+    part[section] = std::move(*found);
+    json.erase(found);
+    dropExtras(part[section]);
+  }
+  if (part.contains("accessors")) {
+    for (Json& accessor : part["accessors"]) {
+      accessor.erase("min");
+      accessor.erase("max");
+    }
+  }
+  if (const auto scene = json.find("scene"); scene != json.end()) part["scene"] = *scene;
+  json.erase("buffers");
+  Json& list = part["buffers"] = Json::array();
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    list.push_back({{"byteLength", buffers[i].size()}, {"uri", std::to_string(i)}});
+  }
+  return part.dump();
+}
+
+bool readNumberedBuffer(Bytes* out, std::string*, const std::string& name, void* user) {
+  auto& buffers = *static_cast<std::vector<Bytes>*>(user);
+  std::size_t index = buffers.size();
+  std::from_chars(name.data(), name.data() + name.size(), index);
+  if (index >= buffers.size()) return false;
+  out->swap(buffers[index]);
+  return true;
+}
+
+}  // namespace
+
+Cursor lightsOf(Cursor root) {
+  return root.member("extensions").member("KHR_lights_punctual").member("lights");
+}
+
+Document readDocument(const std::filesystem::path& path, Messages& messages) {
+  Container container = readContainer(path, messages);
+  Document document;
+  document.path = path;
+  document.json = parseJson(container.json, messages);
+  container.json = {};
+  checkDocument(document.json, messages);
+  const Cursor root(document.json, messages);
+  const Cursor list = root.member("buffers");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    document.buffers.push_back(
+        openBuffer(list.item(i), i, container, path.parent_path(), messages));
+  }
+  if (decompress(document, messages)) checkStructure(document.json, messages);
+  document.views = placeViews(root);
+  document.nodeExtensions = readNodeExtensions(root);
+  document.extensions = extensionsOf(root);
+  document.skins = skinsOf(root);
+  document.morphs = morphsOf(root);
+  std::vector<Bytes> buffers = readGeometry(root, document, messages);
+  const std::string geometry = takeGeometry(document.json, buffers);
+  tinygltf::TinyGLTF reader;
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  callbacks.ReadWholeFile = readNumberedBuffer;
+  callbacks.user_data = &buffers;
+  reader.SetFsCallbacks(callbacks);
+  std::string errors, warnings;
+  if (!reader.LoadASCIIFromString(&document.model, &errors, &warnings, geometry.data(),
+                                  static_cast<unsigned>(geometry.size()), "")) {
+    messages.fail("is not glTF 2.0, " + printable(errors));
+  }
+  return document;
+}
+
+Budget::Budget(std::uint64_t geometryBytes, const Messages& messages)
+    : readable_((std::uint64_t(1) << 25) + 64 * geometryBytes),
+      keepable_(std::min((std::uint64_t(1) << 22) + 4 * geometryBytes, std::uint64_t(1) << 28)),
+      messages_(&messages) {}
+
+void Budget::read(std::uint64_t elements) {
+  if (elements > readable_) exceeded();
+  readable_ -= elements;
+}
+
+void Budget::keep(std::uint64_t vertices) {
+  if (vertices > keepable_) exceeded();
+  keepable_ -= vertices;
+}
+
+void Budget::exceeded() const {
+  messages_->fail("unfolds to far more vertices than it holds data for", "split the model");
+}
+
+}  // namespace glint::gltf

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/gltf/messages.h"
+
+namespace glint::gltf {
+
+/// A file open for reading. Opens regular files only and never waits: a FIFO, a device or a folder
+/// that a model names must not hang or flood the viewer.
+class RegularFile {
+ public:
+  /// Where `error` is filled, the file is not open and `error` says why: "does not exist".
+  RegularFile(const std::filesystem::path& path, std::string& error);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  std::uint64_t size() const { return size_; }
+  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  bool read(void* to, std::uint64_t offset, std::size_t count) const;
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// Bytes that can be read in pieces: a part of a file, opened anew for each read so that a model of
+/// a thousand files does not hold them all open, or a block of memory.
+class ByteSource {
+ public:
+  ByteSource() = default;
+  explicit ByteSource(std::vector<unsigned char> bytes);
+  ByteSource(std::filesystem::path path, std::uint64_t start, std::uint64_t size);
+
+  std::uint64_t size() const { return size_; }
+  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  bool read(void* to, std::uint64_t offset, std::size_t count) const;
+
+ private:
+  std::filesystem::path path_;  ///< empty for memory
+  std::uint64_t start_ = 0;
+  std::uint64_t size_ = 0;
+  std::vector<unsigned char> bytes_;
+};
+
+/// A model file taken apart: its JSON text and, in a GLB file, where the binary chunk lies.
+struct Container {
+  std::string json;
+  std::optional<ByteSource> binary;
+};
+
+/// Reads a `.gltf` or `.glb` file, told apart by the first four bytes. Checks the GLB header, the
+/// chunks' lengths and types; tolerates chunks not aligned to four bytes, chunks of unknown type
+/// and bytes behind the end that the header tells.
+Container readContainer(const std::filesystem::path& path, const Messages& messages);
+
+/// What a URI stands for: the payload of a `data:` URI or the file named relative to `folder`,
+/// percent-decoded. Where there is none, `error` says why, without the URI.
+ByteSource openUri(const std::string& uri, const std::filesystem::path& folder, std::string& error);
+
+/// A URI with its %XX resolved.
+std::string percentDecoded(std::string_view text);
+
+/// The URI as it may stand in a message: data URIs are cut behind their media type.
+std::string printableUri(std::string_view uri);
+
+}  // namespace glint::gltf

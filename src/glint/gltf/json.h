@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "glint/gltf/messages.h"
+
+namespace glint::gltf {
+
+using Json = nlohmann::json;
+
+/// Parses a glTF file's JSON text; its root is an object. Fails on what is not JSON, on numbers
+/// beyond double and on nesting deeper than 64, which no glTF file needs and which would exhaust
+/// the stack of whoever walks the tree.
+Json parseJson(std::string_view text, const Messages& messages);
+
+/// A place in the JSON document that knows its path, so that every message can name it. The value
+/// may be absent; the readers then return their fallback. A value of the wrong type or out of range
+/// fails with the path, what was expected and what stands there.
+class Cursor {
+ public:
+  Cursor(Json& root, const Messages& messages) : json_(&root), messages_(&messages) {}
+
+  bool exists() const { return json_ != nullptr; }
+  Json& json() const { return *json_; }
+
+  /// The member of an object. `key` must outlive the cursor.
+  Cursor member(const char* key) const;
+  /// The same, failing where it is absent.
+  Cursor required(const char* key) const;
+  /// Calls `use` with each member of an object. Keys are not looked up again: one that holds a zero
+  /// byte would be mistaken for another.
+  template <typename Use>
+  void forEachMember(const Use& use) const {
+    checkObject();
+    if (!exists()) return;
+    for (auto it = json_->begin(); it != json_->end(); ++it) use(step(&*it, {it.key().c_str(), 0}));
+  }
+  /// The entry of an array, i < size().
+  Cursor item(std::size_t i) const;
+  /// Entries of an array, 0 where it is absent.
+  std::size_t size() const;
+
+  /// A whole number from `low` to `high`; 5.0 is taken too, and put right in the document.
+  std::int64_t integer(std::int64_t fallback, std::int64_t low, std::int64_t high) const;
+  /// An index into a list of `count` things, -1 where it is absent.
+  int index(std::size_t count) const;
+  double number(double fallback) const;
+  bool boolean(bool fallback) const;
+  std::string text(const std::string& fallback = {}) const;
+  /// Fails unless it is absent or an array of `count` numbers (of any length for 0).
+  void checkNumbers(std::size_t count) const;
+  void checkObject() const;
+
+  /// The member "name" where it is text, else nothing: a name is never worth failing for.
+  std::string name() const;
+  /// Of what forEachMember() gives: its key.
+  const char* key() const { return steps_[depth_ - 1].key; }
+  /// The path, as in `nodes[3].children`.
+  std::string path() const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  struct Step {
+    const char* key = nullptr;
+    std::size_t index = 0;
+  };
+  Cursor step(Json* json, Step step) const;
+  [[noreturn]] void expected(const std::string& what) const;
+
+  Json* json_;
+  const Messages* messages_;
+  std::array<Step, 10> steps_{};
+  std::size_t depth_ = 0;
+};
+
+}  // namespace glint::gltf

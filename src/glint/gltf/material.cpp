@@ -1,0 +1,151 @@
+#include "glint/gltf/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "glint/scene/material_parameters.h"
+#include "glint/gltf/pbr_conversion.h"
+
+namespace glint::gltf {
+namespace {
+
+constexpr double largestFactor = 1e6;
+
+ShadingParameters shadingFromPbr(const PbrParameters& pbr) {
+  const ConvertedParameters c = convertPbr(pbr);
+  return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1)};
+}
+
+/// Takes what `extras.glint` says. It is the user's own text, so that no fault in it is an error.
+void readExtras(const Json& material, const std::string& label, ShadingParameters& shading,
+                Messages& messages) {
+  const auto extras = material.find("extras");
+  if (extras == material.end() || !extras->is_object()) return;
+  const auto glint = extras->find("glint");
+  if (glint == extras->end()) return;
+  const std::string place = label + " extras.glint";
+  if (!glint->is_object()) {
+    messages.warn(place + " is not an object and is ignored");
+    return;
+  }
+  const auto take = [&](const std::string& name, const Json& from, double& to, double least,
+                        double most) {
+    if (!from.is_number()) {
+      messages.warn(place + "." + name + " is not a number and is ignored");
+      return;
+    }
+    const double value = from.get<double>();
+    to = std::clamp(value, least, most);
+    if (to != value) {
+      messages.warn(place + "." + name + " is out of range, " + Json(to).dump() + " is used");
+    }
+  };
+  for (auto it = glint->begin(); it != glint->end(); ++it) {
+    const std::string name = printable(it.key(), 40);
+    if (it.key() == "color") {
+      if (!it->is_array() || it->size() != 3) {
+        messages.warn(place + ".color is not three numbers and is ignored");
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        take("color", (*it)[k], shading.color[static_cast<int>(k)], 0, largestFactor);
+      }
+      continue;
+    }
+    const auto keys = materialParameters();
+    const auto key = std::ranges::find(keys, std::string_view(it.key()), &MaterialParameter::name);
+    if (key == keys.end()) {
+      messages.warn(
+          std::string(place).append(".").append(name).append(" is not known and is ignored"));
+    } else {
+      take(name, *it, shading.*key->value, key->min, key->max);
+    }
+  }
+}
+
+/// A colour of the file: `count` numbers clamped to [0, 1e6], or `fallback`.
+glm::dvec4 readColor(Cursor from, std::size_t count, const glm::dvec4& fallback) {
+  from.checkNumbers(count);
+  glm::dvec4 color = fallback;
+  for (std::size_t k = 0; from.exists() && k < count; ++k) {
+    color[static_cast<int>(k)] = std::clamp(from.item(k).number(0), 0.0, largestFactor);
+  }
+  return color;
+}
+
+double unit(Cursor from, double fallback) { return std::clamp(from.number(fallback), 0.0, 1.0); }
+
+Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) {
+  Material material;
+  from.checkObject();
+  material.name = from.name();
+  const Cursor pbr = from.member("pbrMetallicRoughness");
+  const Cursor extensions = from.member("extensions");
+
+  double metallic = unit(pbr.member("metallicFactor"), 1);
+  double roughness = unit(pbr.member("roughnessFactor"), 1);
+  if (pbr.member("metallicRoughnessTexture").exists()) {
+    metallic *= 0.5;
+    roughness *= 0.5;
+  }
+  const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
+  const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
+  material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
+
+  const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
+  material.shading.color = glm::dvec3(color);
+  material.alpha = std::min(color.a, 1.0);
+  material.colorTexture = textures.read(pbr.member("baseColorTexture"));
+
+  const double strength =
+      extensions.member("KHR_materials_emissive_strength").member("emissiveStrength").number(1);
+  const glm::dvec4 emission = readColor(from.member("emissiveFactor"), 3, glm::dvec4(0));
+  material.emission = glm::clamp(glm::dvec3(emission) * std::clamp(strength, 0.0, largestFactor),
+                                 0.0, largestFactor);
+  // A texture multiplied by nothing need not be read.
+  if (material.emission != glm::dvec3(0)) {
+    material.emissionTexture = textures.read(from.member("emissiveTexture"));
+  }
+  if (const Cursor normal = from.member("normalTexture"); normal.exists()) {
+    material.normalTexture = textures.read(normal, true);
+    material.normalScale =
+        std::clamp(normal.member("scale").number(1), -largestFactor, largestFactor);
+  }
+  material.transmission =
+      unit(extensions.member("KHR_materials_transmission").member("transmissionFactor"), 0);
+  material.unlit = extensions.member("KHR_materials_unlit").exists();
+  material.doubleSided = from.member("doubleSided").boolean(false);
+  material.alphaCutoff = std::max(from.member("alphaCutoff").number(0.5), 0.0);
+  const std::string mode = from.member("alphaMode").text("OPAQUE");
+  if (mode == "MASK") {
+    material.alphaMode = AlphaMode::mask;
+  } else if (mode == "BLEND") {
+    material.alphaMode = AlphaMode::blend;
+  } else if (mode != "OPAQUE") {
+    messages.warn(from.path() + " has the unknown alphaMode \"" + printable(mode, 20) +
+                  "\", drawn as OPAQUE");
+  }
+  readExtras(from.json(), from.path(), material.shading, messages);
+  return material;
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(Document& document, TextureReader& textures,
+                                    Messages& messages) {
+  std::vector<Material> materials;
+  const Cursor list = Cursor(document.json, messages).member("materials");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
+    // Every material needs a name by which it can be edited.
+    if (material.name.empty()) material.name = "#" + std::to_string(i);
+  }
+  Material& standard = materials.emplace_back();
+  standard.name = "#default";
+  standard.shading = shadingFromPbr({});
+  return materials;
+}
+
+}  // namespace glint::gltf

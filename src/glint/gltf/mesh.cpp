@@ -1,0 +1,352 @@
+#include "glint/gltf/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+#include "glint/gltf/accessor.h"
+#include "glint/gltf/normals.h"
+#include "glint/gltf/tangents.h"
+#include "glint/gltf/topology.h"
+
+namespace glint::gltf {
+namespace {
+
+/// Beyond this distance from its origin, measured in radii, a mesh is stored relative to its
+/// centre.
+constexpr double farAway = 8;
+
+template <typename Vector>
+bool fitsFloat(const Vector& v) {
+  for (int k = 0; k < Vector::length(); ++k) {
+    if (!std::isfinite(static_cast<float>(v[k]))) return false;
+  }
+  return true;
+}
+
+template <typename Value>
+void select(std::vector<Value>& values, const VertexList& list) {
+  if (values.empty() || list.all) return;
+  for (std::size_t i = 0; i < list.count; ++i) values[i] = values[list.ids[i]];  // ids ascend
+  values.resize(list.count);
+}
+
+class Builder {
+ public:
+  Builder(const Document& document, std::size_t mesh, std::size_t primitive, Budget& budget,
+          Messages& messages)
+      : document_(document),
+        primitive_(document.model.meshes[mesh].primitives[primitive]),
+        label_(named("meshes", mesh, document.model.meshes[mesh].name) + ", primitives[" +
+               std::to_string(primitive) + "]"),
+        budget_(budget),
+        messages_(messages) {}
+
+  std::optional<BuiltMesh> build(const Pose& pose, const std::vector<Material>& materials);
+
+ private:
+  using Attributes = std::map<std::string, int>;
+
+  bool readElements();
+  template <typename Vector>
+  std::vector<Vector> read(const Attributes& attributes, const std::string& name, int least,
+                           int most, bool normalize = false, const Vector& fallback = Vector(0));
+  void morph(const Pose& pose, const std::string& name, std::vector<glm::dvec3>& values);
+  void applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
+                 std::vector<glm::dvec3>& normals);
+  template <typename Vector>
+  void dropNonFinite(std::vector<Vector>& positions);
+  template <typename Vector>
+  void place(const std::vector<Vector>& positions);
+  void readColors();
+  void readTexcoords(const Material& material);
+  void finishNormals();
+  void readTangents(const Material& material, bool stale);
+  void warn(const std::string& what) { messages_.warn(label_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const { messages_.fail(label_ + ", " + what); }
+
+  const Document& document_;
+  const tinygltf::Primitive& primitive_;
+  const std::string label_;
+  Budget& budget_;
+  Messages& messages_;
+  std::size_t vertexCount_ = 0;  ///< of the file's accessors
+  VertexList list_;              ///< the vertices of the file that are drawn
+  BuiltMesh built_;
+};
+
+template <typename Vector>
+std::vector<Vector> Builder::read(const Attributes& attributes, const std::string& name, int least,
+                                  int most, bool normalize, const Vector& fallback) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
+  AccessorView view =
+      openAccessor(document_, found->second, label_ + " " + name, budget_, messages_);
+  if (view.components < least || view.components > most) {
+    fail(name + " must have " + std::to_string(least) +
+         (most > least ? " or " + std::to_string(most) : "") + " components a vertex, not " +
+         std::to_string(view.components));
+  }
+  if (view.count < vertexCount_) {
+    fail(name + " has " + std::to_string(view.count) + " entries for " +
+         std::to_string(vertexCount_) + " vertices");
+  }
+  if (name.starts_with("JOINTS_")) view.normalized = false;
+  budget_.read(list_.count);
+  return gather<Vector>(view, list_, normalize, fallback);
+}
+
+bool Builder::readElements() {
+  const auto position = primitive_.attributes.find("POSITION");
+  if (position == primitive_.attributes.end()) {
+    warn("has no POSITION and is not drawn");
+    return false;
+  }
+  vertexCount_ = document_.model.accessors[static_cast<std::size_t>(position->second)].count;
+
+  std::vector<std::uint32_t> indices;
+  if (primitive_.indices >= 0) {
+    const AccessorView view =
+        openAccessor(document_, primitive_.indices, label_ + " indices", budget_, messages_);
+    budget_.read(view.count);
+    indices = readIndices(view);
+    if (const auto largest = std::ranges::max_element(indices);
+        largest != indices.end() && *largest >= vertexCount_) {
+      const auto at = std::ranges::find_if(indices, [&](auto i) { return i >= vertexCount_; });
+      fail("index " + std::to_string(at - indices.begin()) + " is " + std::to_string(*at) +
+           " and there are " + std::to_string(vertexCount_) + " vertices");
+    }
+  } else {
+    budget_.read(vertexCount_);
+    indices.resize(vertexCount_);
+    std::iota(indices.begin(), indices.end(), 0u);
+  }
+  Elements elements = listElements(primitive_.mode, std::move(indices));
+  if (elements.rest > 0) {
+    warn("has " + std::to_string(elements.rest) +
+         " vertices at its end that make no whole line or triangle, left out");
+  }
+  built_.mesh.topology = elements.topology;
+  built_.mesh.indices = std::move(elements.indices);
+  if (built_.mesh.indices.empty()) return false;
+  list_ = useVertices(built_.mesh.indices, vertexCount_);
+  budget_.keep(list_.count);
+  return true;
+}
+
+void Builder::morph(const Pose& pose, const std::string& name, std::vector<glm::dvec3>& values) {
+  const std::size_t count = std::min(pose.weights.size(), primitive_.targets.size());
+  for (std::size_t t = 0; t < count && !values.empty(); ++t) {
+    if (pose.weights[t] == 0) continue;
+    const auto deltas = read<glm::dvec3>(primitive_.targets[t], name, 3, 3);
+    for (std::size_t i = 0; i < deltas.size(); ++i) values[i] += pose.weights[t] * deltas[i];
+  }
+}
+
+void Builder::applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
+                        std::vector<glm::dvec3>& normals) {
+  Bindings bindings;
+  for (int set = 0; set < 8; ++set) {
+    const std::string number = std::to_string(set);
+    auto joints = read<glm::dvec4>(primitive_.attributes, "JOINTS_" + number, 4, 4);
+    auto weights = read<glm::dvec4>(primitive_.attributes, "WEIGHTS_" + number, 4, 4, true);
+    if (joints.empty() || weights.empty()) break;
+    bindings.joints.push_back(std::move(joints));
+    bindings.weights.push_back(std::move(weights));
+  }
+  const SkinResult result = skin(bindings, pose.joints, positions, normals);
+  if (result.badJoint) {
+    fail("a vertex is bound to a joint beyond the " + std::to_string(pose.joints.size()) +
+         " of its skin");
+  }
+  if (result.badWeights > 0) {
+    warn(std::to_string(result.badWeights) +
+         " vertices have joint weights of sum 0, negative or "
+         "not finite ones, mended");
+  }
+  auto& indices = built_.mesh.indices;
+  if (result.mirrored && built_.mesh.topology == Topology::triangles) {
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+      std::swap(indices[i + 1], indices[i + 2]);
+  }
+}
+
+template <typename Vector>
+void Builder::dropNonFinite(std::vector<Vector>& positions) {
+  const auto good = [](const Vector& position) { return fitsFloat(position); };
+  if (std::ranges::all_of(positions, good)) return;
+  auto& indices = built_.mesh.indices;
+  const std::size_t corners = cornersOf(built_.mesh.topology);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < indices.size(); i += corners) {
+    bool whole = true;
+    for (std::size_t k = 0; k < corners; ++k) whole = whole && good(positions[indices[i + k]]);
+    if (!whole) continue;
+    for (std::size_t k = 0; k < corners; ++k) indices[kept++] = indices[i + k];
+  }
+  const char* const kind = corners == 1 ? "points" : corners == 2 ? "lines" : "triangles";
+  warn(std::to_string((indices.size() - kept) / corners) + " of " +
+       std::to_string(indices.size() / corners) + " " + kind +
+       " have a position that is not finite, left out");
+  indices.resize(kept);
+
+  const VertexList rest = useVertices(indices, positions.size());
+  select(positions, rest);
+  select(built_.mesh.normals, rest);
+  if (rest.all) return;
+  if (list_.all) {
+    list_ = rest;
+  } else {
+    select(list_.ids, rest);
+    list_.count = rest.count;
+  }
+}
+
+template <typename Vector>
+void Builder::place(const std::vector<Vector>& positions) {
+  glm::dvec3 low(positions.front()), high = low;
+  for (const Vector& position : positions) {
+    low = glm::min(low, glm::dvec3(position));
+    high = glm::max(high, glm::dvec3(position));
+  }
+  const glm::dvec3 centre = 0.5 * (low + high);
+  glm::dvec3& origin = built_.mesh.origin;
+  if (glm::length(centre) > farAway * glm::length(0.5 * (high - low))) origin = centre;
+  auto& stored = built_.mesh.positions;
+  stored.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    stored[i] = glm::vec3(glm::dvec3(positions[i]) - origin);
+  }
+}
+
+void Builder::readColors() {
+  auto& colors = built_.mesh.colors;
+  colors = read<glm::vec4>(primitive_.attributes, "COLOR_0", 3, 4, true, glm::vec4(1));
+  bool finite = true;
+  for (glm::vec4& color : colors) {
+    for (int k = 0; k < 4; ++k) {
+      if (!std::isfinite(color[k])) {
+        finite = false;
+        color[k] = 1;
+      }
+      color[k] = std::clamp(color[k], 0.0f, k == 3 ? 1.0f : 1e6f);
+    }
+  }
+  if (!finite) warn("has vertex colours that are not finite, replaced by 1");
+}
+
+void Builder::readTexcoords(const Material& material) {
+  for (const auto& texture :
+       {material.colorTexture, material.emissionTexture, material.normalTexture}) {
+    if (!texture) continue;
+    const auto set = static_cast<std::size_t>(texture->texcoord);
+    auto& sets = built_.mesh.texcoords;
+    if (set < sets.size() && !sets[set].empty()) continue;
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    auto values = read<glm::vec2>(primitive_.attributes, name, 2, 2);
+    if (values.empty()) {
+      warn("has no " + name + ", which its material reads, and is drawn without that texture");
+      continue;
+    }
+    bool finite = true;
+    for (glm::vec2& value : values) {
+      if (fitsFloat(value)) continue;
+      finite = false;
+      value = glm::vec2(0);
+    }
+    if (!finite) warn(name + " has values that are not finite, replaced by 0");
+    if (sets.size() <= set) sets.resize(set + 1);
+    sets[set] = std::move(values);
+  }
+}
+
+void Builder::finishNormals() {
+  Mesh& mesh = built_.mesh;
+  if (mesh.topology != Topology::triangles) {
+    mesh.normals.clear();
+  } else if (mesh.normals.empty()) {
+    budget_.keep(mesh.indices.size());
+    makeFlat(mesh);
+  } else if (const std::size_t mended = mendNormals(mesh); mended > 0) {
+    warn(std::to_string(mended) + " of " + std::to_string(mesh.normals.size()) +
+         " normals are zero or not finite, replaced by the faces' normals");
+  }
+  if (mesh.topology == Topology::triangles) mesh.normalsMayCancel = normalsMayCancel(mesh);
+}
+
+/// Those of the file, or made where it has none or they no longer fit the vertices.
+void Builder::readTangents(const Material& material, bool stale) {
+  Mesh& mesh = built_.mesh;
+  if (!material.normalTexture || mesh.topology != Topology::triangles) return;
+  const auto set = static_cast<std::size_t>(material.normalTexture->texcoord);
+  if (set >= mesh.texcoords.size() || mesh.texcoords[set].empty()) return;
+  if (!stale) mesh.tangents = read<glm::vec4>(primitive_.attributes, "TANGENT", 4, 4, true);
+  bool good = !mesh.tangents.empty();
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    glm::vec4& tangent = mesh.tangents[i];
+    const glm::dvec3 unit = direction(glm::dvec3(tangent));
+    good = good && glm::dot(unit, unit) > 0.5 && std::abs(tangent.w) > 0.5f;
+    tangent = glm::vec4(glm::vec3(unit), tangent.w < 0 ? -1.0f : 1.0f);
+  }
+  if (good) return;
+  if (!mesh.tangents.empty()) warn("has tangents of length 0 or without handedness, made anew");
+  budget_.keep(mesh.indices.size());
+  std::vector<glm::vec2> places = mesh.texcoords[set];
+  for (glm::vec2& place : places)
+    place = glm::vec2(material.normalTexture->transform * glm::dvec3(place, 1));
+  makeTangents(mesh, places);
+}
+
+std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Material>& materials) {
+  if (!readElements()) return std::nullopt;
+  Mesh& mesh = built_.mesh;
+  const Attributes& attributes = primitive_.attributes;
+  const int last = static_cast<int>(materials.size()) - 1;
+  mesh.material = primitive_.material >= 0 ? primitive_.material : last;
+
+  built_.skinned =
+      !pose.joints.empty() && attributes.contains("JOINTS_0") && attributes.contains("WEIGHTS_0");
+  const auto finish = [&](auto positions) {
+    dropNonFinite(positions);
+    if (mesh.indices.empty()) return false;
+    place(positions);
+    return true;
+  };
+  bool drawn = false;
+  const bool posed = built_.skinned || (pose.morphs() && !primitive_.targets.empty());
+  if (posed) {
+    auto positions = read<glm::dvec3>(attributes, "POSITION", 3, 3);
+    auto normals = read<glm::dvec3>(attributes, "NORMAL", 3, 3);
+    morph(pose, "POSITION", positions);
+    morph(pose, "NORMAL", normals);
+    if (built_.skinned) applySkin(pose, positions, normals);
+    mesh.normals.resize(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) mesh.normals[i] = direction(normals[i]);
+    drawn = finish(std::move(positions));
+  } else {
+    auto positions = read<glm::vec3>(attributes, "POSITION", 3, 3);
+    mesh.normals = read<glm::vec3>(attributes, "NORMAL", 3, 3);
+    drawn = finish(std::move(positions));
+  }
+  if (!drawn) return std::nullopt;
+  readColors();
+  const Material& material = materials[static_cast<std::size_t>(mesh.material)];
+  readTexcoords(material);
+  const bool flat = mesh.normals.empty();
+  finishNormals();
+  readTangents(material, posed || flat);
+  return std::move(built_);
+}
+
+}  // namespace
+
+std::optional<BuiltMesh> buildMesh(const Document& document, std::size_t mesh,
+                                   std::size_t primitive, const Pose& pose,
+                                   const std::vector<Material>& materials, Budget& budget,
+                                   Messages& messages) {
+  return Builder(document, mesh, primitive, budget, messages).build(pose, materials);
+}
+
+}  // namespace glint::gltf

@@ -1,0 +1,49 @@
+#include "glint/gltf/pbr_conversion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+constexpr double metalDiffuse = 0.6;
+constexpr double largestIor = 1e3;
+
+// NaN gives the lower bound.
+double clampTo(double x, double low, double high) { return x > low ? std::min(x, high) : low; }
+
+double interpolate(double a, double b, double t) { return a + (b - a) * t; }
+
+}  // namespace
+
+double exponentFromRoughness(double roughness) {
+  const double r = clampTo(roughness, smallestRoughness, 1.0);
+  return 0.5 / (r * r * r * r) - 0.5;
+}
+
+double roughnessFromExponent(double exponent) {
+  const double alpha = clampTo(exponent, 0.0, 1e6);
+  return clampTo(std::pow(2.0 / (4.0 * alpha + 2.0), 0.25), smallestRoughness, 1.0);
+}
+
+double highlightPeak(double f0, double exponent) {
+  const double blinn = 4.0 * clampTo(exponent, 0.0, 1e6);
+  const double x = clampTo(f0, 0.0, 1.0) * (blinn / 8.0) * (blinn / (blinn + 8.0));
+  return x / (1.0 + x);
+}
+
+ConvertedParameters convertPbr(const PbrParameters& pbr) {
+  const double metallic = clampTo(pbr.metallic, 0.0, 1.0);
+  ConvertedParameters out;
+  out.ior = pbr.ior == 0.0 ? largestIor : clampTo(pbr.ior, 1.0, largestIor);
+  out.exponent = exponentFromRoughness(pbr.roughness);
+  out.metalness = metallic;
+  const double amplitude = (out.ior - 1.0) / (out.ior + 1.0);
+  const double f0 = amplitude * amplitude * clampTo(pbr.specularFactor, 0.0, 1.0);
+  out.specular =
+      interpolate(highlightPeak(f0, out.exponent), highlightPeak(1.0, out.exponent), metallic);
+  out.diffuse = interpolate(1.0, metalDiffuse, metallic);
+  return out;
+}
+
+}  // namespace glint

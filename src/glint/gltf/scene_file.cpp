@@ -1,0 +1,272 @@
+#include "glint/gltf/scene_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <new>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "glint/image/error.h"
+#include "glint/gltf/animation.h"
+#include "glint/gltf/document.h"
+#include "glint/gltf/material.h"
+#include "glint/gltf/mesh.h"
+#include "glint/gltf/nodes.h"
+#include "glint/gltf/texture.h"
+#include "glint/scene/lights.h"
+
+namespace glint {
+namespace {
+
+using namespace gltf;
+
+/// More pieces than a picture can show; many nodes may share a mesh of many primitives.
+constexpr std::size_t maxInstances = std::size_t(1) << 22;
+
+std::size_t findAnimation(const Scene& scene, const std::string& text) {
+  if (text.empty()) return 0;
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    if (scene.animations[i].name == text) return i;
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() &&
+      number < scene.animations.size()) {
+    return number;
+  }
+  std::string known;
+  for (std::size_t i = 0; i < std::min<std::size_t>(scene.animations.size(), 20); ++i) {
+    const std::string& name = scene.animations[i].name;
+    known += (i ? ", " : "") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
+  }
+  throw InputError("--animation: " + scene.name + " has no animation '" + printable(text, 80) +
+                   "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
+}
+
+}  // namespace
+
+PoseRequest poseOf(const Look& look) { return {look.animationTime, look.animation}; }
+
+struct SceneFile::State {
+  explicit State(const std::filesystem::path& path)
+      : messages(path), document(readDocument(path, messages)) {
+    start.name = path.stem().string();
+    TextureReader textures(document, messages);
+    start.materials = readMaterials(document, textures, messages);
+    start.images = textures.takeImages();
+    Budget budget(document.geometryBytes, messages);
+    start.animations = listAnimations(document, budget, messages);
+    start.extensions = std::move(document.extensions);
+    start.skins = std::move(document.skins);
+    start.morphs = std::move(document.morphs);
+  }
+
+  struct Part {
+    int mesh = -1;
+    bool drawn = false;
+    bool skinned = false;
+  };
+  /// The primitives of a mesh in one shape.
+  struct Shape {
+    std::vector<Part> parts;
+    bool moves = false;  ///< another pose may give it other vertices
+    int pass = 0;        ///< the posing that made it
+  };
+  /// Mesh, skin, the node whose weights an animation moves (or -1) and other weights.
+  using Key = std::tuple<int, int, int, std::vector<double>>;
+
+  void applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget);
+  void place(std::size_t node, const NodeGraph& graph, Scene& scene, Budget& budget);
+  const std::vector<Part>& shape(const Key& key, Pose pose, const NodeGraph& graph, Scene& scene,
+                                 Budget& budget);
+  void build(const PoseRequest& request, Scene& scene);
+  void placeLights(const NodeGraph& graph, Scene& scene);
+
+  Messages messages;
+  Document document;
+  Scene start;
+  std::map<std::size_t, Animation> animations;    ///< those read so far
+  std::map<std::size_t, tinygltf::Node> atRest;   ///< nodes that an animation has moved
+  std::set<std::size_t> weightsMoved;             ///< by the animation of this pose
+  std::optional<std::set<std::size_t>> lightsOn;  ///< nodes of the lights in use
+  std::map<Key, Shape> shapes;
+  int pass = 0;
+  std::vector<int> changed;
+  std::set<std::string> told;
+};
+
+/// Sets the nodes of the document to the pose; everything else then goes by the document.
+void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget) {
+  for (const auto& [index, node] : atRest) document.model.nodes[index] = node;
+  weightsMoved.clear();
+  if (!request.animation.empty()) findAnimation(scene, request.animation);
+  if (!request.time) return;
+  if (scene.animations.empty()) {
+    messages.warn("has no animation, shown at rest");
+    return;
+  }
+  const std::size_t index = findAnimation(scene, request.animation);
+  auto found = animations.find(index);
+  if (found == animations.end()) {
+    found = animations.emplace(index, readAnimation(document, index, budget, messages)).first;
+  }
+  for (const Channel& channel : found->second.channels) {
+    tinygltf::Node& node = document.model.nodes[channel.node];
+    atRest.try_emplace(channel.node, node);
+    std::vector<double> value = valueAt(found->second.keys[channel.keys], channel.width,
+                                        channel.path == AnimatedPath::rotation, *request.time);
+    switch (channel.path) {
+      case AnimatedPath::translation:
+        node.translation = std::move(value);
+        break;
+      case AnimatedPath::rotation:
+        node.rotation = std::move(value);
+        break;
+      case AnimatedPath::scale:
+        node.scale = std::move(value);
+        break;
+      case AnimatedPath::weights:
+        node.weights = std::move(value);
+        weightsMoved.insert(channel.node);
+        break;
+    }
+  }
+}
+
+/// Makes a mesh once for each shape in which it stands.
+const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& key, Pose pose,
+                                                                   const NodeGraph& graph,
+                                                                   Scene& scene, Budget& budget) {
+  const auto [entry, isNew] = shapes.try_emplace(key);
+  Shape& result = entry->second;
+  if (!isNew && (!result.moves || result.pass == pass)) return result.parts;
+  const int mesh = std::get<0>(key), skin = std::get<1>(key);
+  result.moves = skin >= 0 || std::get<2>(key) >= 0;
+  result.pass = pass;
+  if (skin >= 0) {
+    pose.joints = jointMatrices(document, static_cast<std::size_t>(skin), graph, budget, messages);
+  }
+  const auto index = static_cast<std::size_t>(mesh);
+  const std::size_t count = document.model.meshes[index].primitives.size();
+  budget.read(count);
+  result.parts.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Part& part = result.parts[i];
+    std::optional<BuiltMesh> built =
+        buildMesh(document, index, i, pose, scene.materials, budget, messages);
+    part.drawn = built.has_value();
+    if (!built) continue;
+    part.skinned = built->skinned;
+    if (part.mesh < 0) {
+      part.mesh = static_cast<int>(scene.meshes.size());
+      scene.meshes.emplace_back();
+    }
+    scene.meshes[static_cast<std::size_t>(part.mesh)] = std::move(built->mesh);
+    changed.push_back(part.mesh);
+  }
+  return result.parts;
+}
+
+void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& scene,
+                             Budget& budget) {
+  const tinygltf::Node& node = document.model.nodes[index];
+  if (node.mesh < 0 || graph.hidden[index]) return;
+  const auto& mesh = document.model.meshes[static_cast<std::size_t>(node.mesh)];
+  Pose pose;
+  pose.weights = node.weights.empty() ? mesh.weights : node.weights;
+  budget.read(pose.weights.size());
+  if (!pose.morphs()) pose.weights.clear();
+  const bool moves = weightsMoved.contains(index);
+  const Key key(node.mesh, node.skin, moves ? static_cast<int>(index) : -1,
+                moves ? std::vector<double>() : pose.weights);
+  for (const Part& part : shape(key, std::move(pose), graph, scene, budget)) {
+    if (!part.drawn) continue;
+    if (scene.instances.size() == maxInstances) {
+      messages.fail("draws more than 4194304 pieces", "split the model");
+    }
+    scene.instances.push_back({part.mesh, part.skinned ? glm::dmat4(1) : graph.world[index]});
+  }
+}
+
+void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
+  scene.lights.clear();
+  std::vector<std::size_t> nodes;
+  for (auto& [node, light] : readLights(document, graph, messages)) {
+    if (lightsOn && !lightsOn->contains(node)) continue;
+    nodes.push_back(node);
+    scene.lights.push_back(std::move(light));
+  }
+  if (lightsOn || scene.lights.empty()) return;
+  const LightMeter meter = meterLights(scene);
+  scene.lightScale = meter.scale;
+  lightsOn.emplace(nodes.begin(), nodes.end());
+  if (nodes.size() <= maxLights) return;
+  messages.warn("has " + std::to_string(nodes.size()) + " lights: the " +
+                std::to_string(maxLights) + " that light it most are used");
+  std::vector<std::size_t> order(nodes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return meter.shares[i]; });
+  order.erase(order.begin() + std::ptrdiff_t(maxLights), order.end());
+  std::ranges::sort(order);
+  std::vector<FileLight> kept;
+  lightsOn->clear();
+  for (const std::size_t i : order) {
+    kept.push_back(std::move(scene.lights[i]));
+    lightsOn->insert(nodes[i]);
+  }
+  scene.lights = std::move(kept);
+}
+
+void SceneFile::State::build(const PoseRequest& request, Scene& scene) {
+  try {
+    Budget budget(document.geometryBytes, messages);
+    ++pass;
+    changed.clear();
+    applyAnimation(request, scene, budget);
+    const NodeGraph graph = readNodes(document, messages);
+    scene.cameras = readCameras(document, graph, messages);
+    scene.instances.clear();
+    for (const std::size_t node : graph.visible) place(node, graph, scene, budget);
+    if (scene.instances.empty()) messages.warn("nothing to draw");
+    placeLights(graph, scene);
+    for (std::string& warning : messages.take()) {
+      if (told.insert(warning).second) scene.warnings.push_back(std::move(warning));
+    }
+  } catch (const std::bad_alloc&) {
+    messages.fail("does not fit into memory", "split the model");
+  }
+}
+
+SceneFile::SceneFile(const std::filesystem::path& path) {
+  try {
+    state_ = std::make_unique<State>(path);
+  } catch (const std::bad_alloc&) {
+    gltf::Messages(path).fail("does not fit into memory", "split the model");
+  }
+}
+
+SceneFile::~SceneFile() = default;
+SceneFile::SceneFile(SceneFile&&) noexcept = default;
+SceneFile& SceneFile::operator=(SceneFile&&) noexcept = default;
+
+Scene SceneFile::take(const PoseRequest& request) {
+  Scene scene = std::move(state_->start);
+  // What the lights count as is measured at rest, so that it is the same at every time.
+  if (request.time && gltf::lightsOf(gltf::Cursor(state_->document.json, state_->messages)).size())
+    state_->build({}, scene);
+  state_->build(request, scene);
+  return scene;
+}
+
+std::vector<int> SceneFile::pose(Scene& scene, const PoseRequest& request) {
+  state_->build(request, scene);
+  return std::move(state_->changed);
+}
+
+Scene loadGltf(const std::filesystem::path& path, const PoseRequest& request) {
+  return SceneFile(path).take(request);
+}
+
+}  // namespace glint

@@ -1,0 +1,183 @@
+#include "glint/gltf/texture.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "glint/image/texture.h"
+#include "glint/gltf/file.h"
+
+namespace glint::gltf {
+namespace {
+
+constexpr std::uint64_t maxImageBytes = std::uint64_t(1) << 30;
+/// Texture coordinate sets that are read; the standard asks for two.
+constexpr std::int64_t maxTexcoord = 15;
+
+/// What the bytes are, told by their first ones: a mimeType is often wrong.
+const char* formatOf(const std::vector<std::byte>& bytes) {
+  const auto startsWith = [&](std::size_t offset, std::string_view magic) {
+    return bytes.size() >= offset + magic.size() &&
+           std::memcmp(bytes.data() + offset, magic.data(), magic.size()) == 0;
+  };
+  if (startsWith(0, "\x89PNG\r\n\x1a\n")) return "PNG";
+  if (startsWith(0, "\xff\xd8\xff")) return "JPEG";
+  if (startsWith(0, "RIFF") && startsWith(8, "WEBP")) return "WebP";
+  if (startsWith(0, "\xabKTX ")) return "KTX";
+  return "unknown";
+}
+
+Wrap wrapOf(std::int64_t value) {
+  return value == 33071 ? Wrap::clampToEdge : value == 33648 ? Wrap::mirroredRepeat : Wrap::repeat;
+}
+
+}  // namespace
+
+TextureReader::TextureReader(Document& document, Messages& messages)
+    : document_(document), messages_(messages), root_(document.json, messages) {}
+
+namespace {
+
+/// uv' = offset + rotation (scale uv); the rotation is counter-clockwise where v runs downwards.
+glm::dmat3x2 transformOf(Cursor from) {
+  const auto pair = [&](const char* key, double fallback) {
+    const Cursor list = from.member(key);
+    list.checkNumbers(2);
+    if (!list.exists()) return glm::dvec2(fallback);
+    return glm::dvec2(list.item(0).number(0), list.item(1).number(0));
+  };
+  const glm::dvec2 offset = pair("offset", 0), scale = pair("scale", 1);
+  const double angle = from.member("rotation").number(0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y, offset};
+}
+
+}  // namespace
+
+std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
+  if (!info.exists()) return std::nullopt;
+  const Cursor textures = root_.member("textures");
+  const auto index = static_cast<std::size_t>(info.required("index").index(textures.size()));
+  const Cursor transform = info.member("extensions").member("KHR_texture_transform");
+  const std::int64_t texcoord =
+      transform.member("texCoord")
+          .integer(info.member("texCoord").integer(0, 0, INT32_MAX), 0, INT32_MAX);
+  const Cursor texture = textures.item(index);
+  const std::size_t images = root_.member("images").size();
+  int image = texture.member("source").index(images);
+  if (canDecodeWebp()) {
+    const Cursor webp = texture.member("extensions").member("EXT_texture_webp").member("source");
+    if (webp.exists()) image = webp.index(images);
+  }
+  if (texcoord > maxTexcoord) {
+    messages_.warn(info.path() + " reads texture coordinates " + std::to_string(texcoord) +
+                   ", beyond " + std::to_string(maxTexcoord) + ", and is left out");
+    return std::nullopt;
+  }
+  if (image < 0) {
+    messages_.warn(texture.path() + " has no image that is read and is left out");
+    return std::nullopt;
+  }
+  Texture result;
+  result.image = imageSlot(static_cast<std::size_t>(image), isData);
+  result.texcoord = static_cast<int>(texcoord);
+  result.sampler = sampler(texture);
+  if (transform.exists()) result.transform = transformOf(transform);
+  if (result.image < 0) return std::nullopt;
+  return result;
+}
+
+int TextureReader::imageSlot(std::size_t index, bool isData) {
+  if (const auto known = slots_.find({index, isData}); known != slots_.end()) return known->second;
+  int& slot = slots_[{index, isData}];
+  slot = -1;
+  const Cursor image = root_.member("images").item(index);
+  // A data URI is its own source; as a key it would be a copy of the image.
+  const std::string uri = image.member("uri").text();
+  const int view = image.member("bufferView").index(document_.views.size());
+  std::string source = view >= 0                  ? "view " + std::to_string(view)
+                       : uri.starts_with("data:") ? "image " + std::to_string(index)
+                                                  : "file " + uri;
+  if (isData) source += " as data";
+  if (const auto known = slotsBySource_.find(source); known != slotsBySource_.end()) {
+    return slot = known->second;
+  }
+  std::string error;
+  EncodedImage loaded;
+  loaded.bytes = load(image, loaded.name, error);
+  if (error.empty()) {
+    const std::string_view format = formatOf(loaded.bytes);
+    if (format != "PNG" && format != "JPEG" && !(format == "WebP" && canDecodeWebp())) {
+      error = "is neither PNG nor JPEG (" + std::string(format) + ")";
+    }
+  }
+  if (error.empty()) {
+    slot = static_cast<int>(images_.size());
+    loaded.isData = isData;
+    images_.push_back(std::move(loaded));
+  } else {
+    messages_.warn("the image " + loaded.name + " " + error + ", drawn without it");
+  }
+  return slotsBySource_[source] = slot;
+}
+
+std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std::string& error) {
+  name = image.path();
+  const int viewIndex = image.member("bufferView").index(document_.views.size());
+  const Cursor uri = image.member("uri");
+  std::vector<std::byte> bytes;
+  const auto take = [&](const ByteSource& source, std::uint64_t offset, std::uint64_t size) {
+    if (size > maxImageBytes) {
+      error = "has more than 1 GiB";
+      return;
+    }
+    bytes.resize(size);
+    if (!source.read(bytes.data(), offset, bytes.size())) error = "cannot be read";
+  };
+  if (viewIndex >= 0) {
+    const ViewPlace& view = document_.views[static_cast<std::size_t>(viewIndex)];
+    take(document_.buffers[view.buffer], view.offset, view.size);
+  } else if (uri.exists()) {
+    const std::string text = uri.text();
+    if (!text.starts_with("data:")) name = printableUri(text);
+    const ByteSource source = openUri(text, document_.path.parent_path(), error);
+    if (error.empty()) take(source, 0, source.size());
+  } else {
+    error = "has neither a bufferView nor a uri";
+  }
+  return bytes;
+}
+
+Sampler TextureReader::sampler(Cursor texture) {
+  Sampler result;
+  const Cursor samplers = root_.member("samplers");
+  const int index = texture.member("sampler").index(samplers.size());
+  if (index < 0) return result;
+  const Cursor sampler = samplers.item(static_cast<std::size_t>(index));
+  if (sampler.member("magFilter").integer(9729, 0, INT32_MAX) == 9728) {
+    result.magnify = Filter::nearest;
+  }
+  switch (sampler.member("minFilter").integer(9987, 0, INT32_MAX)) {
+    case 9728:
+      result = {result.magnify, Filter::nearest, MipFilter::none};
+      break;
+    case 9729:
+      result = {result.magnify, Filter::linear, MipFilter::none};
+      break;
+    case 9984:
+      result = {result.magnify, Filter::nearest, MipFilter::nearest};
+      break;
+    case 9985:
+      result = {result.magnify, Filter::linear, MipFilter::nearest};
+      break;
+    case 9986:
+      result = {result.magnify, Filter::nearest, MipFilter::linear};
+      break;
+    default:
+      break;
+  }
+  result.wrapS = wrapOf(sampler.member("wrapS").integer(10497, 0, INT32_MAX));
+  result.wrapT = wrapOf(sampler.member("wrapT").integer(10497, 0, INT32_MAX));
+  return result;
+}
+
+}  // namespace glint::gltf

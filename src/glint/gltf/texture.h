@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glint/gltf/document.h"
+#include "glint/scene/scene.h"
+
+namespace glint::gltf {
+
+/// Collects the images that textures refer to, each once, as they stand in the file.
+class TextureReader {
+ public:
+  TextureReader(Document& document, Messages& messages);
+
+  /// Reads a textureInfo object (`baseColorTexture` and the like). Nothing where there is none, or,
+  /// with a warning, where the image is missing or of no format that is read. `isData`: numbers,
+  /// not colours.
+  std::optional<Texture> read(Cursor info, bool isData = false);
+
+  std::vector<EncodedImage> takeImages() { return std::move(images_); }
+
+ private:
+  int imageSlot(std::size_t image, bool isData);
+  std::vector<std::byte> load(Cursor image, std::string& name, std::string& error);
+  Sampler sampler(Cursor texture);
+
+  Document& document_;
+  Messages& messages_;
+  Cursor root_;
+  std::vector<EncodedImage> images_;
+  std::map<std::pair<std::size_t, bool>, int> slots_;  ///< by image and use; -1 is not usable
+  std::map<std::string, int> slotsBySource_;           ///< several images may name one file or view
+};
+
+}  // namespace glint::gltf

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "glint/gltf/accessor.h"
+#include "glint/scene/scene.h"
+
+namespace glint::gltf {
+
+/// Points, lines or triangles, as indices into the vertices of a primitive.
+struct Elements {
+  Topology topology = Topology::triangles;
+  std::vector<std::uint32_t> indices;
+  /// Indices at the end that are too few for one more line or triangle, left out.
+  std::size_t rest = 0;
+};
+
+/// Vertices of one element: 1, 2 or 3.
+constexpr std::size_t cornersOf(Topology topology) {
+  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+}
+
+/// Turns a glTF primitive of any mode (0 to 6) into a list, with the winding that section 3.7.2.1
+/// of the standard gives to strips and fans. Lines and triangles that name a vertex twice are left
+/// out: strips are joined with them.
+Elements listElements(int mode, std::vector<std::uint32_t> indices);
+
+/// The vertices that `indices` use, in ascending order; `indices` then point into that list.
+/// Every index is below `vertexCount`. Takes time by the number of indices, however many vertices
+/// there are: a file may draw a large accessor in many small pieces.
+VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCount);
+
+}  // namespace glint::gltf

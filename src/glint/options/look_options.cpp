@@ -1,0 +1,128 @@
+#include "glint/options/look_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "glint/image/error.h"
+#include "glint/budget/cost_file.h"
+#include "glint/options/outputs.h"
+#include "glint/options/parameters.h"
+
+namespace glint {
+namespace {
+
+std::string defaultText(const Parameter& p) {
+  const auto value = p.save(Look{});
+  if (value.is_null() || value == false) return {};
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  if (p.name == "background-color") text = "#333333";
+  return " [default: " + text + "]";
+}
+
+bool hasBudget(const Look& look) {
+  return look.maxError.has_value() || look.shading == Shading::automatic;
+}
+
+}  // namespace
+
+struct LookOptions {
+  std::vector<std::pair<const Parameter*, CLI::Option*>> options;
+  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
+  std::string lookFile, saveFile;
+};
+
+void mergeMaterials(Look& look, const Look& options) {
+  const auto all = options.material.find("");
+  if (all != options.material.end()) {
+    for (auto& [name, edit] : look.material) {
+      for (const auto& p : materialParameters())
+        if (all->second.*p.edit) (edit.*p.edit).reset();
+      if (all->second.color) edit.color.reset();
+      if (all->second.highlight) edit.highlight.reset();
+      if (all->second.fresnel) edit.fresnel.reset();
+    }
+  }
+  for (const auto& [name, from] : options.material) {
+    MaterialEdit& to = look.material[name];
+    for (const auto& p : materialParameters())
+      if (from.*p.edit) to.*p.edit = from.*p.edit;
+    if (from.color) to.color = from.color;
+    if (from.highlight) to.highlight = from.highlight;
+    if (from.fresnel) to.fresnel = from.fresnel;
+  }
+  std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
+}
+
+LookSource addLookOptions(CLI::App& app) {
+  auto state = std::make_shared<LookOptions>();
+  for (const Parameter& p : lookParameters()) {
+    CLI::Option* option = nullptr;
+    if (p.value.empty()) {
+      option = app.add_flag("--" + p.name, p.help);
+    } else {
+      option = app.add_option("--" + p.name, state->texts.emplace_back(), p.help + defaultText(p));
+      option->type_name(p.value);
+      option->expected(1)->allow_extra_args(false);
+      if (p.repeatable)
+        option->take_all();
+      else
+        option->take_last();
+    }
+    option->group(p.section);
+    state->options.emplace_back(&p, option);
+  }
+  app.add_option(
+         "--look", state->lookFile,
+         "begin with the look in this file (JSON), or with that of a picture that glint has drawn "
+         "(PNG or EXR)")
+      ->type_name("FILE")
+      ->group("Looks");
+  app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")
+      ->type_name("FILE")
+      ->group("Looks");
+  return LookSource(state);
+}
+
+Look LookSource::operator()() const {
+  Look look;
+  if (!options_->lookFile.empty()) readLookFile(look, options_->lookFile);
+  Look materials;
+  const auto given = [&](const char* name) {
+    return std::ranges::any_of(options_->options, [&](const auto& each) {
+      return each.first->name == name && each.second->count() > 0;
+    });
+  };
+  if (given("light") && given("no-lights"))
+    throw InputError("--light and --no-lights: give one of them");
+  for (const auto& [p, option] : options_->options) {
+    if (option->count() == 0) continue;
+    if (p->name == "light") {  // in place of the file's, and of its having none
+      look.light.reset();
+      look.noLights = false;
+    }
+    if (p->name == "environment") look.hdriFile.clear();
+    Look& target = p->name == "material" ? materials : look;
+    for (const std::string& text : option->results()) p->read(target, text);
+  }
+  mergeMaterials(look, materials);
+  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
+  if (!options_->saveFile.empty() && !hasBudget(look))
+    writeText(options_->saveFile, saveLook(look));
+  return look;
+}
+
+const std::string& LookSource::saveFile() const { return options_->saveFile; }
+
+bool LookSource::savesResolved(const Look& look) const {
+  return !options_->saveFile.empty() && hasBudget(look);
+}
+
+void LookSource::saveResolved(const Look& resolved) const {
+  writeText(options_->saveFile, saveLook(resolved));
+}
+
+}  // namespace glint

@@ -1,0 +1,416 @@
+#include "glint/options/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "glint/image/error.h"
+#include "glint/scene/look_text.h"
+
+namespace glint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+// The kinds of parameters. Each takes the member of Look that it reads and saves.
+
+template <typename Value>
+void finish(Parameter& p, ParameterKind kind, Value Look::*member) {
+  p.kind = kind;
+  p.reset = [=](Look& look) { look.*member = Look{}.*member; };
+}
+
+template <typename Value>
+Json toJson(const std::optional<Value>& v) {
+  if (!v) return Json();
+  if constexpr (std::is_same_v<Value, glm::dvec3>)
+    return toJson(*v);
+  else
+    return Json(*v);
+}
+
+Parameter parameter(std::string name, std::string value, std::string help,
+                    std::function<void(Look&, const std::string&)> read,
+                    std::function<Json(const Look&)> save, double min = 0, double max = 0) {
+  return {std::move(name), {}, std::move(value), std::move(help), false, min, max, std::move(read),
+          std::move(save)};
+}
+
+// Value is double or std::optional<double>.
+template <typename Value>
+Parameter number(std::string name, std::string unit, double min, double max, Value Look::*member,
+                 std::string help) {
+  auto read = [=](Look& look, const std::string& text) {
+    look.*member = parseNumber(text, min, max, "--" + name);
+  };
+  auto save = [=](const Look& look) { return Json(toJson(std::optional(look.*member))); };
+  Parameter p = parameter(name, unit, help, read, save, min, max);
+  finish(p, ParameterKind::number, member);
+  p.slider = {min, max, false};
+  return p;
+}
+
+Parameter flag(std::string name, bool Look::*member, std::string help) {
+  auto read = [=](Look& look, const std::string& text) {
+    if (text != "true" && text != "false")
+      throw InputError("--" + name + ": '" + text + "' is not true or false");
+    look.*member = text == "true";
+  };
+  Parameter p =
+      parameter(name, {}, help, read, [=](const Look& look) { return Json(look.*member); });
+  finish(p, ParameterKind::flag, member);
+  return p;
+}
+
+template <typename Enum>
+Parameter choice(std::string name, std::span<const std::string_view> names, Enum Look::*member,
+                 std::string help) {
+  std::string value;
+  for (const auto& each : names) value += (value.empty() ? "" : "|") + std::string(each);
+  auto read = [=](Look& look, const std::string& text) {
+    look.*member = Enum(parseChoice(text, names, "--" + name));
+  };
+  Parameter p = parameter(name, value, help, read,
+                          [=](const Look& look) { return Json(names[std::size_t(look.*member)]); });
+  finish(p, ParameterKind::choice, member);
+  return p;
+}
+
+Parameter vector(std::string name, double limit, std::optional<glm::dvec3> Look::*member,
+                 std::string help) {
+  auto read = [=](Look& look, const std::string& text) {
+    look.*member = parseVector(text, -limit, limit, "--" + name);
+  };
+  Parameter p = parameter(
+      name, "x,y,z", help, read, [=](const Look& look) { return toJson(look.*member); }, -limit,
+      limit);
+  finish(p, ParameterKind::vector, member);
+  return p;
+}
+
+Parameter direction(std::string name, std::optional<glm::dvec3> Look::*member, std::string help) {
+  Parameter p = vector(std::move(name), 1e6, member, std::move(help));
+  p.kind = ParameterKind::direction;
+  p.read = [read = p.read, name = p.name, member](Look& look, const std::string& text) {
+    read(look, text);
+    if (*(look.*member) == glm::dvec3(0.0))
+      throw InputError("--" + name + ": '" + text + "' has no direction: give another than 0,0,0");
+  };
+  return p;
+}
+
+Parameter color(std::string name, glm::dvec3 Look::*member, std::string help) {
+  auto read = [=](Look& look, const std::string& text) {
+    look.*member = parseColor(text, "--" + name);
+  };
+  Parameter p = parameter(
+      name, "r,g,b|#rrggbb", help, read, [=](const Look& look) { return toJson(look.*member); }, 0,
+      1e6);
+  finish(p, ParameterKind::color, member);
+  return p;
+}
+
+Parameter slider(Parameter p, double min, double max, bool logarithmic, double unset = 0,
+                 std::string_view symbol = {}) {
+  p.slider = {min, max, logarithmic};
+  p.unset = unset;
+  p.symbol = symbol;
+  return p;
+}
+
+Parameter custom(std::string name, std::string value, std::string help,
+                 std::function<void(Look&, const std::string&)> read,
+                 std::function<Json(const Look&)> save) {
+  return parameter(std::move(name), std::move(value), std::move(help), std::move(read),
+                   std::move(save));
+}
+
+Parameter lights() {
+  Parameter p = custom(
+      "light", "TYPE:...",
+      "a light; repeatable; replaces the default one. directional:x,y,z[:r,g,b] (x,y,z points TO "
+      "the light), point:x,y,z[:r,g,b], spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines "
+      "along d; degrees), camera[:r,g,b] (shines along the view); point and spot are constant over "
+      "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
+      "at RANGE",
+      [](Look& look, const std::string& text) {
+        const Light light = parseLight(text);
+        if (!look.light) look.light.emplace();
+        if (look.light->size() == maxLights)
+          throw InputError("--light: more than " + std::to_string(maxLights) +
+                           " lights: give fewer");
+        look.light->push_back(light);
+      },
+      [](const Look& look) {
+        if (!look.light) return Json();
+        Json list = Json::array();
+        for (const Light& light : *look.light) list.push_back(lightText(light));
+        return list;
+      });
+  p.repeatable = true;
+  p.reset = [](Look& look) { look.light.reset(); };
+  return p;
+}
+
+std::string nonEmpty(const std::string& text, const std::string& what) {
+  if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
+  return text;
+}
+
+Parameter lightScale() {
+  Parameter p = custom(
+      "light-scale", "auto|FACTOR",
+      "what the lights of the model file are multiplied by; auto measures the model so that white "
+      "paint stays within the picture, whatever lux and candela the file names",
+      [](Look& look, const std::string& text) {
+        look.lightScale.reset();
+        if (text != "auto") look.lightScale = parseNumber(text, 0, 1e30, "--light-scale");
+      },
+      [](const Look& look) { return look.lightScale ? Json(*look.lightScale) : Json(); });
+  p.reset = [](Look& look) { look.lightScale.reset(); };
+  return p;
+}
+
+Parameter highlight() {
+  Parameter p = custom(
+      "highlight", "FORM[/N,FORM...]",
+      "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
+      "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
+      "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
+      "powers G = 1, 2, 4, ... 64 by squaring; gaussian; none; exact/2,lyon:8 draws those of the "
+      "two brightest lights by the first form",
+      [](Look& look, const std::string& text) {
+        look.highlight = parseHighlights(text, "--highlight");
+      },
+      [](const Look& look) { return Json(highlightText(look.highlight)); });
+  finish(p, ParameterKind::choice, &Look::highlight);
+  p.words = highlightTexts();
+  return p;
+}
+
+Json materialEdits(const Look& look) {
+  Json all = Json::object();
+  for (const auto& [name, edit] : look.material) {
+    Json one = Json::object();
+    for (const auto& p : materialParameters())
+      if (edit.*p.edit) one[std::string(p.name)] = *(edit.*p.edit);
+    if (edit.color) one["color"] = toJson(*edit.color);
+    if (edit.highlight) one["highlight"] = highlightText(*edit.highlight);
+    if (edit.fresnel) one["fresnel"] = fresnelText(*edit.fresnel);
+    all[name] = one;
+  }
+  return all.empty() ? Json() : all;
+}
+
+Parameter materials() {
+  Parameter p = custom(
+      "material", "[NAME:]key=value,...",
+      "sets parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
+      "metalness (1: highlight in the material's colour, as real metals have it; 0: white; "
+      "the notes' words say the opposite of their formula, which stands here), ior, color, and "
+      "the forms highlight and fresnel; repeatable",
+      [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
+  p.repeatable = true;
+  p.reset = [](Look& look) { look.material.clear(); };
+  return p;
+}
+
+template <typename Value>
+Parameter resetting(Parameter p, Value Look::*member) {
+  finish(p, ParameterKind::text, member);
+  return p;
+}
+
+Parameter costTable() {
+  Parameter p = custom(
+      "cost-table", "FILE",
+      "what forms cost on a machine's driver, as glint study --measure-costs writes it: what "
+      "--max-error goes by in place of the table that comes with glint",
+      [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
+      [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
+  return resetting(std::move(p), &Look::costTable);
+}
+
+constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
+constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
+
+std::vector<Parameter> makeTable() {
+  std::vector<Parameter> table;
+  auto section = [&](const char* name, std::vector<Parameter> parameters) {
+    for (Parameter& p : parameters) {
+      p.section = name;
+      table.push_back(std::move(p));
+    }
+  };
+  section(
+      "Shading",
+      {choice("shading", shadingTexts(), &Look::shading,
+              "what is computed where: once per face, per vertex, or per pixel by Phong or "
+              "Blinn-Phong; environment adds reflection and refraction to Blinn-Phong; auto is "
+              "phong, or flat or gouraud where --max-error allows"),
+       highlight(),
+       choice("fresnel", fresnelTexts(), &Look::fresnel,
+              "form of the reflectance in environment: exact without cancellation, the textbook's, "
+              "Schlick's approximation, the same with its power by exp2, or a rational square "
+              "fitted to the index"),
+       slider(number("max-error", "E", 0, 1e6, &Look::maxError,
+                     "takes the cheapest forms of lobe and reflectance whose proven bound for this "
+                     "scene is within E, in linear light; where none is, the exact ones"),
+              1e-5, 1, true),
+       costTable(),
+       slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
+                     "Blinn's exponent as a multiple of Phong's"),
+              0, 16, false),
+       slider(number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
+                     "exponent of Schlick's approximation"),
+              0, 20, false),
+       materials(),
+       flag("two-sided", &Look::twoSided,
+            "draw the back faces of every material, lit by the normal turned to the viewer; "
+            "otherwise only those of doubleSided materials")});
+  section("Lights and environment",
+          {color("ambient-light", &Look::ambientLight,
+                 "light from everywhere, whatever lights there are"),
+           lights(), flag("no-lights", &Look::noLights, "ambient light alone"), lightScale(),
+           choice("viewer", viewerNames, &Look::viewer,
+                  "infinite: one direction to the viewer for the whole picture, as in the notes"),
+           slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
+                         "index of refraction of what the viewer is in (the notes' n1)"),
+                  1, 3, false, 1, "n1"),
+           choice("environment", environmentNames, &Look::environment,
+                  "what the program environment reflects and refracts"),
+           resetting(custom(
+                         "hdri-file", "FILE",
+                         "a picture of the environment in place of --environment: Radiance .hdr, "
+                         "OpenEXR, PNG or JPEG, equirectangular with -Z in the middle",
+                         [](Look& look, const std::string& text) {
+                           look.hdriFile = nonEmpty(text, "--hdri-file");
+                         },
+                         [](const Look& look) {
+                           return look.hdriFile.empty() ? Json() : Json(look.hdriFile);
+                         }),
+                     &Look::hdriFile),
+           slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
+                         "turns the environment about +Y"),
+                  -180, 180, false),
+           flag("environment-background", &Look::environmentBackground,
+                "show the environment behind the model")});
+  section(
+      "Camera",
+      {vector("camera-position", 1e30, &Look::cameraPosition, "where the eye is"),
+       vector("camera-focal-point", 1e30, &Look::cameraFocalPoint, "what the camera looks at"),
+       direction("camera-view-up", &Look::cameraViewUp, "which way is up; +Y unless given"),
+       slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
+                     "vertical; 30 unless given"),
+              1, 120, false, 30),
+       direction("camera-direction", &Look::cameraDirection,
+                 "the way the camera looks, if not given by position and focal point"),
+       slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
+                     "then turns the camera about the focal point, to its right"),
+              -180, 180, false),
+       slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
+                     "then turns the camera about the focal point, upwards"),
+              -90, 90, false),
+       slider(
+           number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
+                  "share of the picture that the model's bounding sphere fills, where the camera's "
+                  "position is not given"),
+           0.05, 20, true),
+       flag("camera-orthographic", &Look::cameraOrthographic,
+            "parallel projection; the picture's half height is the distance to the focal point "
+            "times tan(view angle / 2)"),
+       resetting(custom(
+                     "camera-index", "N", "use camera N of the file, from 0",
+                     [](Look& look, const std::string& text) {
+                       look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
+                     },
+                     [](const Look& look) {
+                       return look.cameraIndex ? Json(*look.cameraIndex) : Json();
+                     }),
+                 &Look::cameraIndex),
+       resetting(
+           custom(
+               "clipping-range", "NEAR,FAR",
+               "distances along the view between which things are drawn; from the scene unless "
+               "given",
+               [](Look& look, const std::string& text) { look.clippingRange = parseRange(text); },
+               [](const Look& look) {
+                 return look.clippingRange
+                            ? Json::array({look.clippingRange->x, look.clippingRange->y})
+                            : Json();
+               }),
+           &Look::clippingRange)});
+  section(
+      "Animation",
+      {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
+                     "the moment of the animation that is drawn, held after its end; without "
+                     "it the pose in which the file stands"),
+              0, 10, false),
+       resetting(custom(
+                     "animation", "NAME|N", "which animation of the file; the first unless given",
+                     [](Look& look, const std::string& text) {
+                       look.animation = nonEmpty(text, "--animation");
+                     },
+                     [](const Look& look) {
+                       return look.animation.empty() ? Json() : Json(look.animation);
+                     }),
+                 &Look::animation)});
+  section("Picture",
+          {resetting(custom(
+                         "resolution", "W,H", "width and height in pixels",
+                         [](Look& look, const std::string& text) {
+                           look.resolution = parseResolution(text);
+                         },
+                         [](const Look& look) {
+                           return Json::array({look.resolution.x, look.resolution.y});
+                         }),
+                     &Look::resolution),
+           resetting(
+               custom(
+                   "anti-aliasing", "none|msaa:N|ssaa:N",
+                   "msaa: N samples of coverage a pixel; ssaa: N x N pixels shaded for each of the "
+                   "picture's; resolved in linear light",
+                   [](Look& look, const std::string& text) {
+                     look.antiAliasing = parseAntiAliasing(text);
+                   },
+                   [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
+               &Look::antiAliasing),
+           color("background-color", &Look::backgroundColor, "behind the model"),
+           flag("no-background", &Look::noBackground, "transparent instead"),
+           slider(number("exposure", "EV", -64, 64, &Look::exposure,
+                         "multiplies the picture by 2^EV before it is encoded"),
+                  -8, 8, false)});
+  return table;
+}
+
+}  // namespace
+
+std::span<const Parameter> lookParameters() {
+  static const std::vector<Parameter> table = makeTable();
+  return table;
+}
+
+void setParameter(Look& look, std::string_view name, const std::string& text) {
+  for (const Parameter& p : lookParameters())
+    if (p.name == name) return p.read(look, text);
+  throw Error("no parameter '" + std::string(name) + "'");
+}
+
+std::vector<std::string> Parameter::choices() const {
+  if (!words.empty()) return words;
+  std::vector<std::string> parts(1);
+  for (char c : value) {
+    if (c == '|')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+}  // namespace glint

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/scene/look.h"
+#include "glint/scene/material_parameters.h"
+
+namespace glint {
+
+/// How a panel edits a parameter.
+enum class ParameterKind {
+  number,     ///< a slider
+  flag,       ///< a tick
+  choice,     ///< one of Parameter::choices()
+  vector,     ///< three numbers
+  direction,  ///< three numbers, not all zero
+  color,      ///< linear
+  text,       ///< the option's text
+};
+
+/// One parameter of a look. This table is the only place that knows a parameter's name, unit,
+/// range, default and help: command line, look files, help and panel are made from it.
+struct Parameter {
+  std::string name;     ///< of the option and of the key in a look file
+  std::string section;  ///< heading in help and panel
+  std::string value;    ///< what stands for the value in help, such as "x,y,z"; empty for a flag
+  std::string help;
+  bool repeatable = false;
+  double min = 0.0, max = 0.0;  ///< of numbers and of each component; both 0 if it has none
+  /// Reads the option's text into a look; throws InputError saying what is expected. Of a
+  /// repeatable parameter each call adds one.
+  std::function<void(Look&, const std::string& text)> read;
+  /// The value for a look file; null where the look leaves it open.
+  std::function<nlohmann::ordered_json(const Look&)> save;
+  ParameterKind kind = ParameterKind::text;
+  SliderRange slider = {};       ///< of a number
+  double unset = 0.0;            ///< of a number that a look may leave open: what stands then
+  std::string_view symbol = {};  ///< in the notes; empty if they have none
+  /// Sets the default in a look.
+  std::function<void(Look&)> reset = {};
+  std::vector<std::string> words = {};  ///< of a choice, where `value` does not list them all
+
+  /// The words of a choice: `words`, or those of `value`.
+  std::vector<std::string> choices() const;
+};
+
+/// All parameters of a look, in the order of help.
+std::span<const Parameter> lookParameters();
+
+/// Sets one parameter by its option's name and text; throws InputError as the option does.
+void setParameter(Look&, std::string_view name, const std::string& text);
+
+/// Sets in `look` what a look file's text holds. Unknown keys and wrong types are InputErrors that
+/// name `source`.
+void readLook(Look& look, const std::string& json, const std::string& source);
+
+/// The same from a look file, or from a picture (PNG or EXR) that glint has written.
+/// Throws InputError if the file cannot be read or holds no look.
+void readLookFile(Look& look, const std::string& path);
+
+/// The text of a look file that gives the same look again.
+std::string saveLook(const Look&);
+
+}  // namespace glint

@@ -1,0 +1,168 @@
+#include "glint/reference/pixel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "glint/shading/safe.h"
+
+namespace glint::reference {
+namespace {
+
+// The perspective-correct mean of a vertex attribute.
+template <typename Get>
+auto mean(const Footprint& f, Get get) {
+  const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
+  auto sum = f.weights[0] * get(f.vertex[0]);
+  if (f.weights[1] != 0) sum += f.weights[1] * get(f.vertex[1]);
+  if (f.weights[2] != 0) sum += f.weights[2] * get(f.vertex[2]);
+  return w * sum;
+}
+
+glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::dvec2> texcoords,
+                         const Footprint& f) {
+  const auto get = [&](std::uint32_t i) { return texcoords[i]; };
+  const glm::dvec2 uv = mean(f, get);
+  // d(sum / weight) = (d sum - uv d weight) / weight
+  const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
+  glm::dvec2 dx(0.0), dy(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec2 from = get(f.vertex[std::size_t(i)]) - uv;
+    dx += f.dx[i] * w * from;
+    dy += f.dy[i] * w * from;
+  }
+  return sampler.sample(uv, dx, dy);
+}
+
+glm::dvec3 emissionOf(const Item& item, const Footprint& f) {
+  if (!item.emissionTexture) return item.emission;
+  return item.emission *
+         glm::dvec3(sampleTexture(*item.emissionTexture, item.emissionTexcoords, f));
+}
+
+// The interpolated normal, bent by the normal map: its texel is the direction in the frame of
+// tangent, bitangent and normal, none of which is renormalised.
+glm::dvec3 normalOf(const Item& item, const Vertices& v, const Footprint& f,
+                    const glm::dvec3& faceNormal) {
+  glm::dvec3 N = mean(f, [&](std::uint32_t i) { return v.normals[i]; });
+  if (!item.normalTexture) return N;
+  if (!(glm::dot(N, N) > 1e-6)) N = faceNormal;
+  const glm::dvec4 tangent = mean(f, [&](std::uint32_t i) { return v.tangents[i]; });
+  const glm::dvec3 T(tangent), B = tangent.w * glm::cross(N, T);
+  const glm::dvec3 texel(sampleTexture(*item.normalTexture, item.normalTexcoords, f));
+  const glm::dvec3 m = (texel * 2.0 - 1.0) * glm::dvec3(item.normalScale, item.normalScale, 1);
+  const glm::dvec3 bent = m.x * T + m.y * B + m.z * N;
+  return glm::dot(bent, bent) > 1e-12 ? bent : N;
+}
+
+double edgeDistanceOf(const Footprint& f) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+    nearest = std::min(nearest, f.weights[i] / std::hypot(f.dx[i], f.dy[i]));
+  return nearest;
+}
+
+bool carriesLight(const Surface& s) {
+  return !s.unlit && (s.program == Program::flat || s.program == Program::gouraud);
+}
+
+}  // namespace
+
+glm::dvec4 baseColor(const Item& item, const Footprint& f) {
+  glm::dvec4 base = item.color;
+  if (!item.mesh->colors.empty())
+    base *= mean(f, [&](std::uint32_t i) { return glm::dvec4(item.mesh->colors[i]); });
+  if (item.colorTexture) base *= sampleTexture(*item.colorTexture, item.colorTexcoords, f);
+  return base;
+}
+
+void PixelShader::select(int item, std::uint32_t number) {
+  if (item == item_ && number == number_) return;
+  item_ = item;
+  number_ = number;
+  const Item& it = stage_.items[std::size_t(item)];
+  const Vertices& v = stage_.vertices[it.vertices];
+  primitive_ = makePrimitive(it, v, number).value_or(Primitive{});
+  if (primitive_.topology != Topology::triangles || it.surface.unlit) return;
+  // From model space, where differences of positions are exact.
+  const auto& t = primitive_.vertex;
+  const glm::dvec3 a(it.mesh->positions[t[0]]);
+  const glm::dvec3 ab = v.eyeFromModel * (glm::dvec3(it.mesh->positions[t[1]]) - a);
+  const glm::dvec3 ac = v.eyeFromModel * (glm::dvec3(it.mesh->positions[t[2]]) - a);
+  faceNormal_ = safeNormalize(glm::cross(ab, ac));
+  if (it.mirrored) faceNormal_ = -faceNormal_;
+  if (faceNormal_ == glm::dvec3(0.0)) faceNormal_ = v.normals[t[2]];
+  if (carriesLight(it.surface)) light();
+}
+
+// What flat shading carries from the face's centroid, and Gouraud shading from the vertices: the
+// light on the side that is seen.
+void PixelShader::light() {
+  const Item& item = stage_.items[std::size_t(item_)];
+  const Vertices& v = stage_.vertices[item.vertices];
+  const auto& t = primitive_.vertex;
+  const double side = item.surface.twoSided && !primitive_.front ? -1 : 1;
+  if (item.surface.program == Program::flat) {
+    const glm::dvec3 centroid = (v.eye[t[0]] + v.eye[t[1]] + v.eye[t[2]]) / 3.0;
+    carried_[0] = lightAt(stage_.frame, item.surface, centroid, side * faceNormal_);
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    carried_[i] = lightAt(stage_.frame, item.surface, v.eye[t[i]], side * v.normals[t[i]]);
+}
+
+Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int column, int row) {
+  select(itemNumber, number);
+  const Item& item = stage_.items[std::size_t(itemNumber)];
+  const Vertices& v = stage_.vertices[item.vertices];
+  const Footprint f = primitive_.footprint(column + 0.5, stage_.grid.y - row - 0.5);
+  Attributes a;
+  a.item = itemNumber;
+  a.primitive = number;
+  a.front = primitive_.front;
+  a.depth = f.depth;
+  if (primitive_.topology == Topology::triangles) a.edgeDistance = edgeDistanceOf(f);
+  const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
+  a.barycentrics = f.weights * w;
+  a.base = baseColor(item, f);
+  const auto positionAt = [&](const Footprint& at) {
+    return mean(at, [&](std::uint32_t i) { return v.eye[i]; });
+  };
+  const auto normalAt = [&](const Footprint& at) { return normalOf(item, v, at, faceNormal_); };
+  a.position = positionAt(f);
+  if (item.surface.unlit) return a;
+  a.emission = emissionOf(item, f);
+  a.faceNormal = faceNormal_;
+  a.normal = normalAt(f);
+  if (stage_.frame.image && item.surface.program == Program::environment) {
+    const auto place = [&](int x, int y) {
+      return primitive_.footprint(x + 0.5, stage_.grid.y - y - 0.5);
+    };
+    // GL takes differences within squares of 2 x 2 pixels, which begin at the lower left.
+    const int below = (stage_.grid.y - 1 - row) % 2 == 0 ? row - 1 : row + 1;
+    const Footprint across = place(column ^ 1, row), along = place(column, below);
+    a.positionAcross = positionAt(across) - a.position;
+    a.normalAcross = normalAt(across) - a.normal;
+    a.positionAlong = positionAt(along) - a.position;
+    a.normalAlong = normalAt(along) - a.normal;
+  }
+  if (item.surface.program == Program::flat) {
+    a.matte = carried_[0].matte;
+    a.specular = carried_[0].specular;
+  } else if (item.surface.program == Program::gouraud) {
+    for (int i = 0; i < 3; ++i) {
+      a.matte += a.barycentrics[i] * carried_[std::size_t(i)].matte;
+      a.specular += a.barycentrics[i] * carried_[std::size_t(i)].specular;
+    }
+  }
+  return a;
+}
+
+glm::dvec4 PixelShader::fragment(int itemNumber, std::uint32_t number, int column, int row) {
+  const Attributes a = attributes(itemNumber, number, column, row);
+  const Item& item = stage_.items[std::size_t(itemNumber)];
+  const Terms terms = shade(stage_.frame, item.surface, a);
+  return {terms.radiance, item.blended ? a.base.a : 1.0};
+}
+
+}  // namespace glint::reference

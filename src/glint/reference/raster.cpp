@@ -1,0 +1,171 @@
+#include "glint/reference/raster.h"
+
+#include <limits>
+
+namespace glint::reference {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A vertex in window and clip space; what lies between two of them is linear.
+struct Corner {
+  glm::dvec3 window;
+  double depth;
+  double toNear() const { return window.z - depth; }  // >= 0 beyond the near plane
+  double toFar() const { return depth; }              // >= 0 before the far plane
+};
+
+Corner mix(const Corner& a, const Corner& b, double t) {
+  return {a.window + t * (b.window - a.window), a.depth + t * (b.depth - a.depth)};
+}
+
+void include(Primitive& p, const glm::dvec3& window) {
+  const glm::dvec2 place = glm::dvec2(window) / window.z;
+  p.low = glm::min(p.low, place);
+  p.high = glm::max(p.high, place);
+}
+
+// The box around the part between near and far plane; false if there is none.
+bool findBounds(Primitive& p, const std::array<Corner, 3>& corners) {
+  p.low = glm::dvec2(infinity);
+  p.high = glm::dvec2(-infinity);
+  bool allInside = true;
+  for (const Corner& c : corners) allInside = allInside && c.toNear() >= 0 && c.window.z > 0;
+  if (allInside) {
+    for (const Corner& c : corners) include(p, c.window);
+    return true;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner &a = corners[i], &b = corners[(i + 1) % 3];
+    if (a.toNear() >= 0 && a.window.z > 0) include(p, a.window);
+    if ((a.toNear() >= 0) != (b.toNear() >= 0)) {
+      const Corner cut = mix(a, b, a.toNear() / (a.toNear() - b.toNear()));
+      if (cut.window.z > 0) include(p, cut.window);
+    }
+  }
+  return p.low.x <= p.high.x;
+}
+
+bool makeTriangle(Primitive& p, const std::array<Corner, 3>& c, const Item& item) {
+  for (std::size_t i = 0; i < 3; ++i)
+    p.edges[i] = glm::cross(c[(i + 1) % 3].window, c[(i + 2) % 3].window);
+  const double size = glm::dot(c[0].window, p.edges[0]);
+  if (!(std::abs(size) > 0) || !std::isfinite(size)) return false;
+  p.front = (size > 0) != item.mirrored;
+  if (item.faces == FaceSide::front && !p.front) return false;
+  if (item.faces == FaceSide::back && p.front) return false;
+  if (size < 0)
+    for (glm::dvec3& edge : p.edges) edge = -edge;
+  p.scale = 1 / std::abs(size);
+  return findBounds(p, c);
+}
+
+// Narrows [low, high] to where f0 + t (f1 - f0) >= 0; false if nowhere.
+bool cut(double f0, double f1, double& low, double& high) {
+  if (f0 < 0 && f1 < 0) return false;
+  if (f0 < 0) low = std::max(low, f0 / (f0 - f1));
+  if (f1 < 0) high = std::min(high, f0 / (f0 - f1));
+  return low <= high;
+}
+
+bool makeLine(Primitive& p, const Corner& a, const Corner& b) {
+  double low = 0, high = 1;
+  if (!cut(a.toNear(), b.toNear(), low, high) || !cut(a.toFar(), b.toFar(), low, high))
+    return false;
+  const Corner first = mix(a, b, low), last = mix(a, b, high);
+  if (!(first.window.z > 0) || !(last.window.z > 0)) return false;
+  p.from = glm::dvec2(first.window) / first.window.z;
+  p.to = glm::dvec2(last.window) / last.window.z;
+  p.low = glm::min(p.from, p.to);
+  p.high = glm::max(p.from, p.to);
+  // t, the place along the line on the screen, as a function of (x, y, 1).
+  const glm::dvec2 way = p.to - p.from;
+  const double square = glm::dot(way, way);
+  glm::dvec3 t(0.0);
+  if (square > 0) t = glm::dvec3(way, -glm::dot(way, p.from)) / square;
+  const glm::dvec3 begin = (glm::dvec3(0, 0, 1) - t) / first.window.z, end = t / last.window.z;
+  p.edges[0] = begin * (1 - low) + end * (1 - high);
+  p.edges[1] = begin * low + end * high;
+  return square > 0;
+}
+
+bool makePoint(Primitive& p, const Corner& a) {
+  if (a.toNear() < 0 || a.toFar() < 0 || !(a.window.z > 0)) return false;
+  p.from = p.to = p.low = p.high = glm::dvec2(a.window) / a.window.z;
+  p.edges[0] = {0, 0, 1 / a.window.z};
+  return true;
+}
+
+std::size_t cornersOf(Topology topology) {
+  return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+}
+
+}  // namespace
+
+Footprint Primitive::footprint(double x, double y) const {
+  Footprint f;
+  f.vertex = vertex;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 edge = edges[std::size_t(i)] * scale;
+    f.weights[i] = at(edges[std::size_t(i)], x, y) * scale;
+    f.dx[i] = edge.x;
+    f.dy[i] = edge.y;
+  }
+  // The weights times w sum up to 1 but for rounding, which a tiny triangle magnifies.
+  f.depth = glm::dot(f.weights, vertexDepth) / glm::dot(f.weights, vertexW);
+  return f;
+}
+
+std::size_t primitiveCount(const Mesh& mesh) {
+  return mesh.indices.size() / cornersOf(mesh.topology);
+}
+
+std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertices,
+                                       std::uint32_t number) {
+  Primitive p;
+  p.topology = item.mesh->topology;
+  const std::size_t count = cornersOf(p.topology);
+  std::array<Corner, 3> corners{};
+  for (std::size_t i = 0; i < count; ++i) {
+    p.vertex[i] = item.mesh->indices[count * number + i];
+    corners[i] = {vertices.window[p.vertex[i]], vertices.depth[p.vertex[i]]};
+    p.vertexDepth[int(i)] = corners[i].depth;
+    p.vertexW[int(i)] = corners[i].window.z;
+  }
+  const bool made = p.topology == Topology::triangles ? makeTriangle(p, corners, item)
+                    : p.topology == Topology::lines   ? makeLine(p, corners[0], corners[1])
+                                                      : makePoint(p, corners[0]);
+  if (!made) return std::nullopt;
+  return p;
+}
+
+Columns columnsAt(const Primitive& p, double y, int width) {
+  double low = p.low.x - 1, high = p.high.x;
+  for (const glm::dvec3& edge : p.edges) {
+    // One column more on either side: the test of each sample decides.
+    if (edge.x > 0)
+      low = std::max(low, -(edge.y * y + edge.z) / edge.x - 1.5);
+    else if (edge.x < 0)
+      high = std::min(high, -(edge.y * y + edge.z) / edge.x + 0.5);
+  }
+  return {int(std::clamp(std::floor(low), 0.0, double(width))),
+          int(std::clamp(std::floor(high), -1.0, double(width - 1)))};
+}
+
+std::optional<int> lineSample(const Primitive& line, int along) {
+  const bool steep = isSteep(line);
+  const auto turned = [steep](const glm::dvec2& v) { return steep ? glm::dvec2(v.y, v.x) : v; };
+  const glm::dvec2 from = turned(line.from), to = turned(line.to);
+  const double center = along + 0.5, t = (center - from.x) / (to.x - from.x);
+  const double across = std::floor(from.y + t * (to.y - from.y));
+  if (!(std::abs(across) < 1e9)) return std::nullopt;
+  const auto inDiamond = [&](const glm::dvec2& v) {
+    return std::abs(v.x - center) + std::abs(v.y - (across + 0.5)) < 0.5;
+  };
+  const bool begins = t >= 0 || inDiamond(from);
+  const bool leaves = t < 1 && !inDiamond(to);
+  if (!begins || !leaves) return std::nullopt;
+  return int(across);
+}
+
+}  // namespace glint::reference

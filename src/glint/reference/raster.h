@@ -1,0 +1,110 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "glint/reference/scene.h"
+
+// GL's rasterisation in double, without snapping vertices to a subpixel grid: a driver that snaps
+// to 1/256 of a pixel covers other samples where an edge passes a centre more closely than that.
+namespace glint::reference {
+
+/// Where a sample lies in its primitive: the weights of the vertices over w (their sum is 1 / w, so
+/// that an attribute is the mean by these weights), and their change from sample to sample.
+struct Footprint {
+  std::array<std::uint32_t, 3> vertex{};
+  glm::dvec3 weights{0.0}, dx{0.0}, dy{0.0};
+  double depth = 0;  ///< 1 at the near plane, 0 at the far one
+};
+
+/// A point, line or triangle made ready for the grid. Triangles are rasterised in homogeneous
+/// coordinates (Olano and Greer 1997): the three edge functions hold where w changes its sign too,
+/// so that nothing is clipped but by the depth of each sample.
+struct Primitive {
+  Topology topology = Topology::triangles;
+  std::array<std::uint32_t, 3> vertex{};
+  std::array<glm::dvec3, 3> edges{};  ///< weights * size as functions of (x, y, 1)
+  double scale = 1;                   ///< 1 / size
+  glm::dvec3 vertexDepth{0.0}, vertexW{0.0};
+  bool front = true;               ///< of triangles: which side is seen
+  glm::dvec2 low{0.0}, high{0.0};  ///< around all samples that it may cover
+  glm::dvec2 from{0.0}, to{0.0};   ///< of lines and points: the ends, within the depth range
+
+  Footprint footprint(double x, double y) const;
+};
+
+/// Nothing if it is culled, without area, or beyond the near or the far plane as a whole.
+std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertices,
+                                       std::uint32_t number);
+
+std::size_t primitiveCount(const Mesh& mesh);
+
+/// Whether a sample on an edge belongs to the triangle on the side where the edge's function is
+/// positive. GL leaves it to the driver, as long as one of two triangles gets it. Here: edges on
+/// the left, and level ones at the bottom of the picture (their inside is above), as llvmpipe has
+/// it in framebuffer objects: its top-left rule counts rows as they lie in memory, bottom first.
+inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0 && edge.y > 0); }
+
+inline double at(const glm::dvec3& f, double x, double y) { return f.x * x + f.y * y + f.z; }
+
+/// The samples from column first to column last that the triangle may cover in the row at height y.
+struct Columns {
+  int first, last;
+};
+Columns columnsAt(const Primitive&, double y, int width);
+
+/// Whether a line's fragment lies in this column (of a steep line: in this row), and where across.
+/// GL's diamond-exit rule: the sample next to the line counts unless the line begins beyond its
+/// middle and outside of its diamond, or ends inside of its diamond.
+std::optional<int> lineSample(const Primitive& line, int along);
+inline bool isSteep(const Primitive& line) {
+  return std::abs(line.to.y - line.from.y) > std::abs(line.to.x - line.from.x);
+}
+
+/// Calls visit(column, row) for each sample covered, rows counted from the top, in [firstRow,
+/// endRow); row by row.
+template <typename Visit>
+void forEachSample(const Primitive& p, const glm::ivec2& grid, int firstRow, int endRow,
+                   Visit visit) {
+  const auto place = [](double x, int low, int high) {  // floor, within [low, high]
+    return int(std::clamp(std::floor(x), double(low), double(high)));
+  };
+  const int top = place(grid.y - p.high.y - 1, firstRow, endRow);
+  const int bottom = place(grid.y - p.low.y + 1, firstRow - 1, endRow - 1);
+  if (p.topology == Topology::lines) {
+    const bool steep = isSteep(p);
+    const int first = steep ? top : place(p.low.x - 1, 0, grid.x);
+    const int last = steep ? bottom : place(p.high.x + 1, -1, grid.x - 1);
+    for (int i = first; i <= last; ++i) {
+      const auto across = lineSample(p, steep ? grid.y - 1 - i : i);
+      if (!across) continue;
+      const int column = steep ? *across : i, row = steep ? i : grid.y - 1 - *across;
+      if (column >= 0 && column < grid.x && row >= firstRow && row < endRow) visit(column, row);
+    }
+    return;
+  }
+  for (int row = top; row <= bottom; ++row) {
+    const double y = grid.y - row - 0.5;
+    if (p.topology == Topology::points) {
+      const double column = std::floor(p.from.x);
+      if (std::floor(p.from.y) == y - 0.5 && column >= 0 && column < grid.x)
+        visit(int(column), row);
+      continue;
+    }
+    const Columns columns = columnsAt(p, y, grid.x);
+    for (int column = columns.first; column <= columns.last; ++column) {
+      bool inside = true;
+      for (const glm::dvec3& edge : p.edges) {
+        const double e = at(edge, column + 0.5, y);
+        inside = inside && (e > 0 || (e == 0 && ownsEdge(edge)));
+      }
+      if (inside) visit(column, row);
+    }
+  }
+}
+
+}  // namespace glint::reference

@@ -1,0 +1,229 @@
+#include "glint/reference/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "glint/image/error.h"
+#include "glint/reference/pixel.h"
+#include "glint/reference/raster.h"
+#include "glint/shading/safe.h"
+
+namespace glint {
+namespace {
+
+using reference::PixelShader;
+
+// Depths that differ by less are the same surface, computed from vertices in another order.
+constexpr double sameDepth = 1e-12;
+
+constexpr int maxStripSamples = 1 << 16;
+
+int scaleOf(const AntiAliasing& antiAliasing) {
+  checkReferenceAntiAliasing(antiAliasing);
+  return antiAliasing.mode == AntiAliasing::Mode::ssaa ? antiAliasing.count : 1;
+}
+
+int threadsFor(int asked) {
+  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+void checkReferenceAntiAliasing(const AntiAliasing& antiAliasing) {
+  if (antiAliasing.mode == AntiAliasing::Mode::msaa && antiAliasing.count > 1)
+    throw InputError("--anti-aliasing msaa:" + std::to_string(antiAliasing.count) +
+                     ": the reference draws none or ssaa:N: give --anti-aliasing ssaa:" +
+                     std::to_string(antiAliasing.count));
+}
+
+ReferenceRenderer::ReferenceRenderer(const Scene& scene, const DecodedImages& images,
+                                     const Bounds& bounds, const Look& look, int threads)
+    : look_(look),
+      scale_(scaleOf(look.antiAliasing)),
+      threads_(threadsFor(threads)),
+      list_(makeDrawList(scene, bounds, look)),
+      stage_(scene, images, list_, look) {
+  const int pictureRows = maxStripSamples / (stage_.grid.x * scale_);
+  stripRows_ = std::clamp(pictureRows, 1, 16) * scale_;
+  sortIntoStrips();
+}
+
+void ReferenceRenderer::sortIntoStrips() {
+  strips_.resize(stripOf(stage_.grid.y - 1) + 1);
+  const double rows = stage_.grid.y;
+  for (std::size_t i = 0; i < stage_.items.size(); ++i) {
+    const reference::Item& item = stage_.items[i];
+    const std::size_t count = reference::primitiveCount(*item.mesh);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const auto p = reference::makePrimitive(item, stage_.vertices[item.vertices], k);
+      if (!p || !(p->high.x >= -1) || !(p->low.x <= stage_.grid.x + 1)) continue;
+      const double top = std::floor(rows - p->high.y) - 1, bottom = rows - p->low.y + 1;
+      if (!(bottom >= 0) || !(top < rows)) continue;
+      const std::size_t first = stripOf(int(std::max(top, 0.0)));
+      const std::size_t last = stripOf(int(std::min(bottom, rows - 1)));
+      for (std::size_t s = first; s <= last; ++s) strips_[s].push_back({std::uint32_t(i), k});
+    }
+  }
+}
+
+void ReferenceRenderer::findVisible(int firstRow, int endRow, Strip& strip) const {
+  const std::size_t width = std::size_t(stage_.grid.x);
+  const std::size_t samples = width * std::size_t(endRow - firstRow);
+  strip.depth.assign(samples, 0.0);
+  strip.visible.assign(samples, 0);
+  const auto& primitives = strips_[stripOf(firstRow)];
+  for (std::size_t k = 0; k < primitives.size(); ++k) {
+    const reference::Item& item = stage_.items[primitives[k].item];
+    if (item.blended) break;  // those are the last
+    const auto p =
+        reference::makePrimitive(item, stage_.vertices[item.vertices], primitives[k].primitive);
+    if (!p) continue;
+    reference::forEachSample(*p, stage_.grid, firstRow, endRow, [&](int column, int row) {
+      const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
+      const auto footprint = p->footprint(column + 0.5, stage_.grid.y - row - 0.5);
+      if (!(footprint.depth > strip.depth[at] * (1 + sameDepth)) || footprint.depth > 1) return;
+      if (item.mask && reference::baseColor(item, footprint).a < item.alphaCutoff) return;
+      strip.depth[at] = footprint.depth;
+      strip.visible[at] = std::uint32_t(k + 1);
+    });
+  }
+}
+
+glm::dvec4 ReferenceRenderer::background(int column, int row) const {
+  if (look_.noBackground) return glm::dvec4(0.0);
+  if (!look_.environmentBackground) return {look_.backgroundColor, 1.0};
+  const auto ray = [&](int x, int y) {
+    return safeNormalize(stage_.ray(x + 0.5, stage_.grid.y - y - 0.5));
+  };
+  const glm::dvec3 here = ray(column, row);
+  const double spread =
+      std::max(glm::length(ray(column + 1, row) - here), glm::length(ray(column, row + 1) - here));
+  return {environmentToward(stage_.frame, here, spread), 1.0};
+}
+
+void ReferenceRenderer::drawStrip(int firstRow, int endRow, Strip& strip) const {
+  findVisible(firstRow, endRow, strip);
+  strip.color.resize(strip.visible.size());
+  const auto& primitives = strips_[stripOf(firstRow)];
+  PixelShader shader(stage_);
+  std::size_t at = 0;
+  for (int row = firstRow; row < endRow; ++row)
+    for (int column = 0; column < stage_.grid.x; ++column, ++at) {
+      if (strip.visible[at] == 0) {
+        strip.color[at] = background(column, row);
+        continue;
+      }
+      const Entry& seen = primitives[strip.visible[at] - 1];
+      strip.color[at] = shader.fragment(int(seen.item), seen.primitive, column, row);
+    }
+  blend(firstRow, endRow, strip);
+}
+
+void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
+  const std::size_t width = std::size_t(stage_.grid.x);
+  const auto& primitives = strips_[stripOf(firstRow)];
+  auto from = std::find_if(primitives.begin(), primitives.end(),
+                           [&](const Entry& r) { return stage_.items[r.item].blended; });
+  PixelShader shader(stage_);
+  for (; from != primitives.end(); ++from) {
+    const reference::Item& item = stage_.items[from->item];
+    const auto p = reference::makePrimitive(item, stage_.vertices[item.vertices], from->primitive);
+    if (!p) continue;
+    reference::forEachSample(*p, stage_.grid, firstRow, endRow, [&](int column, int row) {
+      const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
+      const double depth = p->footprint(column + 0.5, stage_.grid.y - row - 0.5).depth;
+      if (!(depth > strip.depth[at] * (1 + sameDepth)) || depth > 1) return;
+      const glm::dvec4 over = shader.fragment(int(from->item), from->primitive, column, row);
+      strip.color[at] =
+          glm::dvec4(glm::dvec3(over) * over.a, over.a) + (1 - over.a) * strip.color[at];
+    });
+  }
+}
+
+void ReferenceRenderer::inParallel(int count, const std::function<void(int, Strip&)>& task) const {
+  std::atomic<int> next = 0;
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&] {
+    try {
+      Strip strip;
+      for (int i = next++; i < count; i = next++) task(i, strip);
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      failure = std::current_exception();
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < std::min(threads_, count); ++i) others.emplace_back(work);
+  work();
+  others.clear();
+  if (failure) std::rethrow_exception(failure);
+}
+
+int ReferenceRenderer::bandRows() const {
+  return std::min(look_.resolution.y, stripRows_ / scale_ * threads_ * 4);
+}
+
+void ReferenceRenderer::drawRows(int y0, int rows, Image& out) {
+  out.width = look_.resolution.x;
+  out.height = rows;
+  out.values.resize(std::size_t(4) * out.width * rows);
+  const int first = y0 * scale_, end = (y0 + rows) * scale_;
+  const int firstStrip = first / stripRows_, lastStrip = (end - 1) / stripRows_;
+  inParallel(lastStrip - firstStrip + 1, [&](int i, Strip& strip) {
+    const int from = std::max(first, (firstStrip + i) * stripRows_);
+    const int to = std::min(end, (firstStrip + i + 1) * stripRows_);
+    drawStrip(from, to, strip);
+    const double share = 1.0 / (double(scale_) * scale_);
+    for (int y = from / scale_; y < to / scale_; ++y)
+      for (int x = 0; x < out.width; ++x) {
+        glm::dvec4 sum(0.0);
+        for (int sy = 0; sy < scale_; ++sy) {
+          const std::size_t row = std::size_t(y * scale_ + sy - from);
+          const std::size_t at = row * std::size_t(stage_.grid.x) + std::size_t(x) * scale_;
+          for (int sx = 0; sx < scale_; ++sx) sum += strip.color[at + std::size_t(sx)];
+        }
+        float* pixel = out.row(y - y0) + std::size_t(4) * x;
+        for (int c = 0; c < 4; ++c) pixel[c] = float(sum[c] * share);
+      }
+    rowsDone_ += (to - from) / scale_;
+  });
+}
+
+Image ReferenceRenderer::draw() {
+  Image image;
+  drawRows(0, look_.resolution.y, image);
+  return image;
+}
+
+std::vector<reference::Attributes> ReferenceRenderer::attributes(int y0, int rows) const {
+  const std::size_t width = std::size_t(stage_.grid.x);
+  std::vector<reference::Attributes> all(width * std::size_t(rows));
+  const int end = y0 + rows, firstStrip = y0 / stripRows_, lastStrip = (end - 1) / stripRows_;
+  inParallel(lastStrip - firstStrip + 1, [&](int i, Strip& strip) {
+    const int from = std::max(y0, (firstStrip + i) * stripRows_);
+    const int to = std::min(end, (firstStrip + i + 1) * stripRows_);
+    findVisible(from, to, strip);
+    PixelShader shader(stage_);
+    std::size_t at = 0;
+    for (int row = from; row < to; ++row)
+      for (int column = 0; column < stage_.grid.x; ++column, ++at) {
+        if (strip.visible[at] == 0) continue;
+        const Entry& seen = strips_[stripOf(from)][strip.visible[at] - 1];
+        all[width * std::size_t(row - y0) + std::size_t(column)] =
+            shader.attributes(int(seen.item), seen.primitive, column, row);
+      }
+  });
+  return all;
+}
+
+reference::Terms ReferenceRenderer::shade(const reference::Attributes& a) const {
+  if (a.item < 0) return {};
+  return reference::shade(stage_.frame, stage_.items[std::size_t(a.item)].surface, a);
+}
+
+}  // namespace glint

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "glint/image/image.h"
+#include "glint/render/picture_terms.h"
+#include "glint/reference/scene.h"
+
+namespace glint {
+
+/// Draws a scene and look on the CPU in double precision, without GL: the truth for every error
+/// figure. The same picture whatever the number of threads and however the rows are asked for.
+///
+/// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
+/// perspective-correct interpolation, samples between the near and the far plane) but does not snap
+/// vertices to a subpixel grid. Where depths agree to 1e-12 the first drawn stays in front.
+/// Alpha-blended items follow the others from back to front, as in GL.
+class ReferenceRenderer {
+ public:
+  /// Transforms and sorts by strips of rows; draws nothing yet. Scene and images must outlive it.
+  /// `threads` 0: as many as the processor has. Throws InputError for multisampling, and for a
+  /// camera or a material that the scene does not have.
+  ReferenceRenderer(const Scene& scene, const DecodedImages& images, const Bounds& bounds,
+                    const Look& look, int threads = 0);
+
+  /// Before anything is drawn: leaves one term of the picture (see picture_terms.h) to be drawn.
+  void keep(const PictureTerm& term);
+
+  /// Rows y0 to y0 + rows - 1 from the top: linear, premultiplied by alpha over the background,
+  /// before exposure. The image is reused if it has room.
+  void drawRows(int y0, int rows, Image& out);
+  Image draw();
+
+  /// A number of rows that keeps all threads busy and memory small.
+  int bandRows() const;
+
+  /// Rows done so far by drawRows, all calls together; may be asked from another thread.
+  int rowsDone() const { return rowsDone_; }
+
+  /// What is seen at the pixels of these rows, row by row: the front-most that is not blended. With
+  /// ssaa, of the samples of the grid (`rows` are then rows of samples).
+  std::vector<reference::Attributes> attributes(int y0, int rows) const;
+
+  /// The parts of the radiance for given attributes.
+  reference::Terms shade(const reference::Attributes& attributes) const;
+
+  const DrawList& list() const { return list_; }
+  const reference::Stage& stage() const { return stage_; }
+
+ private:
+  struct Entry {
+    std::uint32_t item, primitive;
+  };
+  struct Strip {
+    std::vector<glm::dvec4> color;
+    std::vector<double> depth;
+    std::vector<std::uint32_t> visible;  ///< 1 + index into the strip's primitives; 0 is none
+  };
+  void sortIntoStrips();
+  std::size_t stripOf(int sampleRow) const { return std::size_t(sampleRow / stripRows_); }
+  void findVisible(int firstRow, int endRow, Strip& strip) const;
+  void drawStrip(int firstRow, int endRow, Strip& strip) const;
+  void blend(int firstRow, int endRow, Strip& strip) const;
+  glm::dvec4 background(int column, int row) const;
+  void inParallel(int count, const std::function<void(int, Strip&)>& task) const;
+
+  Look look_;
+  int scale_, threads_;
+  int stripRows_ = 1;  ///< rows of samples; a multiple of scale_
+  DrawList list_;
+  reference::Stage stage_;
+  std::vector<std::vector<Entry>> strips_;  ///< what may touch each, in drawing order
+  std::atomic<int> rowsDone_ = 0;
+};
+
+/// Throws InputError if the reference cannot draw with this anti-aliasing: it has no multisampling.
+void checkReferenceAntiAliasing(const AntiAliasing&);
+
+}  // namespace glint

@@ -1,0 +1,255 @@
+#include "glint/reference/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "glint/scene/lights.h"
+#include "glint/scene/material_parameters.h"
+#include "glint/shading/safe.h"
+
+namespace glint::reference {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
+  const glm::dmat3 turn = glm::transpose(camera.axes);
+  std::vector<Light> lights;
+  // Lengths are in units of camera.unit, and so is what falls with their square.
+  const std::vector<glint::Light> given = lightsOf(look);
+  const std::vector<std::size_t> shining = shiningLights(given);
+  for (std::size_t rank = 0; rank < shining.size(); ++rank) {
+    const glint::Light& from = given[shining[rank]];
+    Light light;
+    light.number = int(shining[rank]);
+    light.rank = int(rank);
+    light.intensity = from.intensity;
+    if (from.fallsOff) {
+      light.fallsOff = true;
+      light.range = from.range / camera.unit;
+      light.intensity /= camera.unit * camera.unit;
+    }
+    switch (from.type) {
+      case glint::Light::Type::camera:
+        light.place = safeNormalize(from.direction);
+        break;
+      case glint::Light::Type::directional:
+        light.place = turn * safeNormalize(from.direction);
+        break;
+      case glint::Light::Type::spot:
+        light.axis = turn * safeNormalize(from.direction);
+        light.cosInner = std::cos(from.innerAngle * radians);
+        light.cosOuter = std::cos(from.outerAngle * radians);
+        [[fallthrough]];
+      case glint::Light::Type::point:
+        light.type = from.type == glint::Light::Type::spot ? Light::Type::spot : Light::Type::point;
+        light.place = turn * (from.position - camera.eye) / camera.unit;
+        break;
+    }
+    lights.push_back(light);
+  }
+  std::ranges::sort(lights, {}, &Light::number);
+  return lights;
+}
+
+Frame frameFor(const Look& look, const Camera& camera) {
+  Frame frame;
+  frame.lights = lightsFor(look, camera);
+  frame.ambientLight = look.ambientLight;
+  frame.constantView = camera.orthographic || look.viewer == Viewer::infinite;
+  frame.environment = look.environment == Environment::studio ? BuiltinEnvironment::studio
+                      : look.environment == Environment::sky  ? BuiltinEnvironment::sky
+                                                              : BuiltinEnvironment::white;
+  // The environment turns by +angle about +Y, so a direction is looked up turned by -angle.
+  const double angle = look.environmentRotation * radians, c = std::cos(angle), s = std::sin(angle);
+  const glm::dmat3 back(glm::dvec3(c, 0, s), glm::dvec3(0, 1, 0), glm::dvec3(-s, 0, c));
+  frame.environmentFromEye = back * camera.axes;
+  return frame;
+}
+
+// n is perpendicular to what (M^-1)^T n is perpendicular to after M; the cofactors are that times
+// the determinant, whose sign is taken out again, and are finite where M has no inverse.
+glm::dmat3 normalMatrix(const glm::dmat3& m) {
+  double size = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(m[i][j]));
+  if (!(size > 0)) return glm::dmat3(1.0);
+  const glm::dmat3 n = m * (1 / size);
+  const glm::dmat3 cofactors(glm::cross(n[1], n[2]), glm::cross(n[2], n[0]),
+                             glm::cross(n[0], n[1]));
+  return glm::dot(n[0], cofactors[0]) < 0 ? -1.0 * cofactors : cofactors;
+}
+
+Vertices verticesOf(const Mesh& mesh, const glm::dmat4& world, const Camera& camera,
+                    const glm::dmat4& toClip, const glm::ivec2& grid) {
+  Vertices v;
+  const glm::dmat3 linear(world), rotation = eyeRotation(camera);
+  v.eyeFromModel = rotation * linear;
+  const glm::dvec3 offset = rotation * (linear * mesh.origin + (glm::dvec3(world[3]) - camera.eye));
+  const std::size_t count = mesh.positions.size();
+  v.window.resize(count);
+  v.depth.resize(count);
+  v.eye.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    v.eye[i] = v.eyeFromModel * glm::dvec3(mesh.positions[i]) + offset;
+    const glm::dvec4 clip = toClip * glm::dvec4(v.eye[i], 1.0);
+    v.window[i] = {(clip.x + clip.w) * (0.5 * grid.x), (clip.y + clip.w) * (0.5 * grid.y), clip.w};
+    v.depth[i] = clip.z;
+  }
+  const glm::dmat3 normals = normalMatrix(v.eyeFromModel);
+  v.normals.reserve(mesh.normals.size());
+  for (const glm::vec3& n : mesh.normals)
+    v.normals.push_back(safeNormalize(normals * glm::dvec3(n)));
+  // Seen in a mirror, a right-handed frame is left-handed.
+  const double hand =
+      glm::determinant(v.eyeFromModel / glm::length(v.eyeFromModel[0])) < 0 ? -1 : 1;
+  v.tangents.reserve(mesh.tangents.size());
+  for (const glm::vec4& t : mesh.tangents)
+    v.tangents.emplace_back(safeNormalize(v.eyeFromModel * glm::dvec3(t)), hand * t.w);
+  return v;
+}
+
+LobeForm lobeForm(Highlight form) {
+  switch (form) {
+    case Highlight::exact:
+      return LobeForm::exact;
+    case Highlight::pow:
+      return LobeForm::pow;
+    case Highlight::integer:
+      return LobeForm::integer;
+    case Highlight::lyon:
+      return LobeForm::lyon;
+    case Highlight::lyonTuned:
+      return LobeForm::lyonTuned;
+    case Highlight::lyonCross:
+      return LobeForm::lyonCross;
+    case Highlight::pade:
+      return LobeForm::pade;
+    case Highlight::gaussian:
+      return LobeForm::gaussian;
+    case Highlight::none:
+      return LobeForm::none;
+  }
+  return LobeForm::exact;
+}
+
+FresnelForm fresnelForm(Fresnel form) {
+  switch (form) {
+    case Fresnel::exact:
+      return FresnelForm::exact;
+    case Fresnel::textbook:
+      return FresnelForm::textbook;
+    case Fresnel::schlick:
+      return FresnelForm::schlick;
+    case Fresnel::schlickExp2:
+      return FresnelForm::schlickExp2;
+    case Fresnel::rational:
+      return FresnelForm::rational;
+  }
+  return FresnelForm::exact;
+}
+
+Surface surfaceFor(const Material& material, const Variant& variant, const Look& look) {
+  Surface s;
+  s.program = Program(int(programOf(look)));
+  s.unlit = variant.unlit;
+  s.twoSided = material.doubleSided || look.twoSided;
+  const HighlightForms highlight = material.highlight.value_or(look.highlight);
+  const auto lobe = [](const HighlightForm& form, int from) {
+    return Surface::Lobe{lobeForm(form.form), std::max(form.gamma, 1), from};
+  };
+  s.lobes = {lobe(highlight.brightest, 0)};
+  for (const HighlightForms::Dimmer& each : highlight.dimmer)
+    s.lobes.push_back(lobe(each.form, each.from));
+  s.fresnel = fresnelForm(material.fresnel.value_or(look.fresnel));
+  s.ambient = material.shading.ambient;
+  s.diffuse = material.shading.diffuse;
+  s.specular = material.shading.specular;
+  s.exponent = material.shading.exponent;
+  s.metalness = material.shading.metalness;
+  s.blinnFactor = look.blinnFactor;
+  s.schlickExponent = look.schlickExponent;
+  s.ior = material.shading.ior;
+  s.mediumIor = look.mediumIor;
+  s.sides = fresnelSides(s.ior, s.mediumIor);
+  if (s.fresnel == FresnelForm::rational) s.rationalSlope = rationalMinimax(s.mediumIor, s.ior);
+  s.transmission = material.transmission;
+  s.blend = material.alphaMode == AlphaMode::blend;
+  return s;
+}
+
+std::vector<glm::dvec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
+  std::vector<glm::dvec2> places;
+  if (std::size_t(texture.texcoord) >= mesh.texcoords.size()) return places;
+  const glm::dmat3x2& t = texture.transform;
+  for (const glm::vec2& place : mesh.texcoords[std::size_t(texture.texcoord)])
+    places.push_back(double(place.x) * t[0] + double(place.y) * t[1] + t[2]);
+  return places;
+}
+
+TextureSampler samplerFor(const Texture& texture, const Scene& scene, const DecodedImages& images) {
+  const DecodedImage& decoded = images.at(texture.image);
+  return {decoded.image, decoded.mipLevels, texture.sampler,
+          scene.images[std::size_t(texture.image)].isData};
+}
+
+Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& images,
+             const Look& look) {
+  const Material material = editedMaterial(scene.materials[std::size_t(from.material)], look);
+  Item item;
+  item.mesh = &scene.meshes[std::size_t(from.mesh)];
+  item.surface = surfaceFor(material, from.variant, look);
+  item.color = glm::dvec4(material.shading.color, material.alpha);
+  item.mask = material.alphaMode == AlphaMode::mask;
+  item.alphaCutoff = material.alphaCutoff;
+  item.blended = from.blended;
+  item.mirrored = from.mirrored;
+  item.faces = from.faces;
+  // The variant says what is read, and so decoded: no texture without coordinates for it.
+  if (from.variant.colorTexture) {
+    item.colorTexture = samplerFor(*material.colorTexture, scene, images);
+    item.colorTexcoords = texcoordsOf(*item.mesh, *material.colorTexture);
+  }
+  if (item.surface.unlit) return item;
+  item.emission = material.emission;
+  if (from.variant.emissionTexture) {
+    item.emissionTexture = samplerFor(*material.emissionTexture, scene, images);
+    item.emissionTexcoords = texcoordsOf(*item.mesh, *material.emissionTexture);
+  }
+  if (from.variant.normalTexture) {
+    item.normalTexture = samplerFor(*material.normalTexture, scene, images);
+    item.normalTexcoords = texcoordsOf(*item.mesh, *material.normalTexture);
+    item.normalScale = material.normalScale;
+  }
+  return item;
+}
+
+}  // namespace
+
+Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& list,
+             const Look& look)
+    : frame(frameFor(withFileLights(scene, look), list.camera)), camera(list.camera) {
+  frame.image = list.environment.get();
+  const bool ssaa = look.antiAliasing.mode == AntiAliasing::Mode::ssaa;
+  grid = look.resolution * (ssaa ? look.antiAliasing.count : 1);
+  const glm::dmat4 toClip = projection(camera, glm::dvec2(0.0), glm::dvec2(1.0), true);
+  std::map<int, std::size_t> placed;  // by instance: blended items stand in the list twice
+  for (const DrawItem& from : list.items) {
+    Item& item = items.emplace_back(itemFor(from, scene, images, look));
+    const auto [place, isNew] = placed.try_emplace(from.instance, vertices.size());
+    item.vertices = place->second;
+    if (!isNew) continue;
+    const glm::dmat4& world = scene.instances[std::size_t(from.instance)].world;
+    vertices.push_back(verticesOf(*item.mesh, world, camera, toClip, grid));
+  }
+}
+
+glm::dvec3 Stage::ray(double x, double y) const {
+  if (camera.orthographic) return {0, 0, -1};
+  const double up = 2 * y / grid.y - 1, right = 2 * x / grid.x - 1;
+  return {right * camera.halfHeight * camera.aspect, up * camera.halfHeight, -1};
+}
+
+}  // namespace glint::reference

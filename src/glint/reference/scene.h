@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "glint/render/draw_list.h"
+#include "glint/render/decode.h"
+#include "glint/reference/shade.h"
+#include "glint/reference/texture.h"
+
+namespace glint::reference {
+
+/// The vertices of an instance. Window space is in samples of the picture, y upwards from the lower
+/// edge, homogeneous: the sample at (x / w, y / w).
+struct Vertices {
+  std::vector<glm::dvec3> window;  ///< x, y, w
+  std::vector<double> depth;       ///< z of clip space: depth times w
+  std::vector<glm::dvec3> eye;
+  std::vector<glm::dvec3> normals;  ///< unit, eye space; empty unless triangles
+  /// Unit, eye space, and handedness; empty unless the mesh has them.
+  std::vector<glm::dvec4> tangents;
+  glm::dmat3 eyeFromModel{1.0};  ///< without translation
+};
+
+/// An item of the draw list with all that the reference reads of it.
+struct Item {
+  const Mesh* mesh = nullptr;
+  std::size_t vertices = 0;  ///< index into Stage::vertices
+  Surface surface;
+  glm::dvec4 color{1.0};  ///< C and alpha of the material
+  glm::dvec3 emission{0.0};
+  bool mask = false, blended = false, mirrored = false;
+  double alphaCutoff = 0;
+  FaceSide faces = FaceSide::both;
+  std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
+  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of those
+  double normalScale = 1;
+};
+
+/// A scene before the camera, in double throughout. Of the draw list it takes the order, the
+/// camera, which faces show and which textures are read. Scene and images must outlive it.
+struct Stage {
+  Stage(const Scene& scene, const DecodedImages& images, const DrawList& list, const Look& look);
+
+  glm::ivec2 grid{0};  ///< samples across and down
+  Frame frame;
+  std::vector<Vertices> vertices;
+  std::vector<Item> items;
+  Camera camera;
+
+  /// To where the ray through a place of the grid goes, eye space; not unit.
+  glm::dvec3 ray(double x, double y) const;
+};
+
+}  // namespace glint::reference

@@ -1,0 +1,158 @@
+#include "glint/reference/shade.h"
+
+#include <algorithm>
+
+#include "glint/shading/safe.h"
+#include "glint/shading/sum.h"
+
+namespace glint::reference {
+namespace {
+
+bool usesBlinn(Program program) {
+  return program == Program::blinnPhong || program == Program::environment;
+}
+
+double dielectricReflectance(const Surface& surface, const FresnelConstants& boundary,
+                             bool entering, double cosine) {
+  switch (surface.fresnel) {
+    case FresnelForm::exact:
+      return fresnelExact(cosine, boundary);
+    case FresnelForm::textbook:
+      return entering ? fresnelTextbook(cosine, surface.mediumIor, surface.ior)
+                      : fresnelTextbook(cosine, surface.ior, surface.mediumIor);
+    case FresnelForm::schlick:
+      return schlick(cosine, boundary, surface.schlickExponent);
+    case FresnelForm::schlickExp2:
+      return schlickExp2(cosine, boundary);
+    case FresnelForm::rational:
+      return schlickRational(cosine, boundary, surface.rationalSlope);
+  }
+  return 0.0;
+}
+
+void addEnvironment(const Frame& frame, const Surface& surface, const Attributes& a,
+                    const glm::dvec3& N, Terms& terms) {
+  const glm::dvec3 V = toViewer(frame, a.position), C(a.base);
+  const double cosine = glm::dot(N, V);
+  const bool entering = a.front || !surface.twoSided;
+  const FresnelConstants& boundary = entering ? surface.sides.entering : surface.sides.leaving;
+  const double m = surface.metalness;
+  glm::dvec3 F(0.0);
+  if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
+  if (m > 0) F += m * metalReflectance(cosine, C);
+  // A picture is looked up over the angle by which the direction turns from pixel to pixel.
+  const auto spread = [&](const auto& directionAt) {
+    const auto turn = [&](const glm::dvec3& position, const glm::dvec3& normal) {
+      Attributes other = a;
+      other.position += position;
+      other.normal += normal;
+      return directionAt(other);
+    };
+    const glm::dvec3 here = directionAt(a);
+    return std::max(glm::length(turn(a.positionAcross, a.normalAcross) - here),
+                    glm::length(turn(a.positionAlong, a.normalAlong) - here));
+  };
+  const auto mirrored = [&](const Attributes& at) {
+    return safeNormalize(reflect(-toViewer(frame, at.position), shadingNormal(surface, at)));
+  };
+  terms.reflection = F * environmentToward(frame, mirrored(a), frame.image ? spread(mirrored) : 0);
+  const double opacity = surface.blend ? a.base.a : 1.0;
+  terms.transparency = 1 - (1 - surface.transmission) * opacity;
+  if (terms.transparency == 0) return;
+  const double n1 = entering ? surface.mediumIor : surface.ior;
+  const double n2 = entering ? surface.ior : surface.mediumIor;
+  const auto refracted = [&](const Attributes& at) {
+    const auto direction =
+        refract(-toViewer(frame, at.position), shadingNormal(surface, at), n1, n2);
+    return direction ? safeNormalize(*direction) : glm::dvec3(0.0);
+  };
+  if (const auto direction = refract(-V, N, n1, n2))
+    terms.refraction = terms.transparency * (1.0 - F) * C *
+                       environmentToward(frame, *direction, frame.image ? spread(refracted) : 0);
+}
+
+}  // namespace
+
+glm::dvec3 environmentToward(const Frame& frame, const glm::dvec3& direction, double spread) {
+  const glm::dvec3 world = frame.environmentFromEye * direction;
+  return frame.image ? frame.image->radiance(world, spread)
+                     : environmentRadiance(frame.environment, world);
+}
+
+glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position) {
+  const glm::dvec3 V = frame.constantView ? glm::dvec3(0, 0, 1) : safeNormalize(-position);
+  return V == glm::dvec3(0.0) ? glm::dvec3(0, 0, 1) : V;
+}
+
+Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& position,
+              const glm::dvec3& normal) {
+  SumParameters p;
+  p.ambient = surface.ambient;
+  p.diffuse = surface.diffuse;
+  p.specular = surface.specular;
+  p.exponent = surface.exponent;
+  p.blinnFactor = surface.blinnFactor;
+  const glm::dvec3 V = toViewer(frame, position);
+  const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
+  LightTerms sum = ambientLight(p, frame.ambientLight);
+  for (const Light& light : frame.lights) {
+    for (const Surface::Lobe& lobe : surface.lobes)
+      if (light.rank >= lobe.from) p.highlight = lobe.form, p.gamma = lobe.gamma;
+    if (light.type == Light::Type::directional) {
+      sum += oneLight(p, normal, light.place, V, light.intensity);
+      continue;
+    }
+    const glm::dvec3 L = safeNormalize(light.place - position);
+    double share = 1;
+    if (light.type == Light::Type::spot)
+      share = spotFalloff(glm::dot(-L, light.axis), light.cosInner, light.cosOuter);
+    if (light.fallsOff) share *= distanceFalloff(glm::length(light.place - position), light.range);
+    if (share > 0) sum += oneLight(p, normal, L, V, share * light.intensity);
+  }
+  Terms terms;
+  terms.matte = sum.matte;
+  terms.specular = sum.specular;
+  return terms;
+}
+
+glm::dvec3 shadingNormal(const Surface& surface, const Attributes& a) {
+  const glm::dvec3 N = glm::dot(a.normal, a.normal) > 1e-6 ? safeNormalize(a.normal) : a.faceNormal;
+  return surface.twoSided && !a.front ? -N : N;
+}
+
+Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
+  Terms terms;
+  const glm::dvec3 C(a.base);
+  if (surface.unlit) {
+    terms.radiance = C;
+    return terms;
+  }
+  const bool carried = surface.program == Program::flat || surface.program == Program::gouraud;
+  const glm::dvec3 N = carried ? glm::dvec3(0.0) : shadingNormal(surface, a);
+  if (carried) {
+    terms.matte = a.matte;
+    terms.specular = a.specular;
+  } else {
+    terms = lightAt(frame, surface, a.position, N);
+  }
+  terms.sum = sumColor({terms.matte, terms.specular}, C, surface.metalness);
+  if (surface.program == Program::environment) addEnvironment(frame, surface, a, N, terms);
+  const glm::dvec3 sum = (1 - terms.transparency) * terms.sum;
+  switch (surface.part) {
+    case Part::all:
+      terms.radiance = sum + terms.reflection + terms.refraction + a.emission;
+      break;
+    case Part::sum:
+      terms.radiance = sum + a.emission;
+      break;
+    case Part::reflection:
+      terms.radiance = terms.reflection;
+      break;
+    case Part::refraction:
+      terms.radiance = terms.refraction;
+      break;
+  }
+  return terms;
+}
+
+}  // namespace glint::reference

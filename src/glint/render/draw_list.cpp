@@ -1,0 +1,250 @@
+#include "glint/render/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "glint/scene/lights.h"
+#include "glint/scene/material_parameters.h"
+#include "glint/shading/fresnel.h"
+#include "glint/shading/lobe.h"
+
+namespace glint {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+glm::dvec3 unit(const glm::dvec3& v) {
+  const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(size > 0)) return glm::dvec3(0.0);
+  const glm::dvec3 w = v / size;
+  return w / std::sqrt(glm::dot(w, w));
+}
+
+// Eye-space positions far beyond what float can square would only turn into infinities: the
+// direction is what counts there.
+glm::vec3 eyePosition(const glm::dvec3& world, const Camera& camera, const glm::dmat3& rotation) {
+  const glm::dvec3 p = rotation * (world - camera.eye);
+  const double limit = 1e15;
+  const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return glm::vec3(size > limit ? p * (limit / size) : p);
+}
+
+int order(Light::Type type) {
+  return type == Light::Type::point ? 1 : type == Light::Type::spot ? 2 : 0;
+}
+
+void addLights(DrawList& list, const Look& look) {
+  const Camera& camera = list.camera;
+  const std::vector<Light> lights = lightsOf(look);
+  for (const std::size_t number : shiningLights(lights)) list.lightNumbers.push_back(int(number));
+  std::ranges::stable_sort(list.lightNumbers, {},
+                           [&](int number) { return order(lights[std::size_t(number)].type); });
+  const glm::dmat3 rotation = eyeRotation(camera), directions = glm::transpose(camera.axes);
+  const bool blinn = usesBlinn(look.shading);
+  for (const int number : list.lightNumbers) {
+    const Light& light = lights[std::size_t(number)];
+    LightEntry e;
+    e.intensity = glm::vec4(glm::vec3(light.intensity), 0);
+    if (order(light.type) == 0) {
+      const glm::dvec3 l = light.type == Light::Type::camera ? unit(light.direction)
+                                                             : directions * unit(light.direction);
+      e.position = glm::vec4(glm::vec3(l), 0);
+      // L + V for the one direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
+      const glm::dvec3 between = l + glm::dvec3(0, 0, 1);
+      const bool opposed = !(glm::dot(between, between) > 1e-12);
+      const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
+      e.constant = glm::vec4(glm::vec3(blinn ? half : between), 0);
+    } else {
+      e.position = glm::vec4(eyePosition(light.position, camera, rotation), 0);
+    }
+    if (light.fallsOff) {  // distances are in units of the camera's unit
+      const double square = camera.unit * camera.unit;
+      e.intensity = glm::vec4(glm::vec3(glm::min(light.intensity / square, 1e30)), 1);
+      e.position.w = light.range > 0 ? float(std::min(camera.unit / light.range, 1e15)) : 0;
+    }
+    if (light.type == Light::Type::spot) {
+      const double outer = std::cos(light.outerAngle * radians);
+      e.axis = glm::vec4(glm::vec3(directions * unit(light.direction)), float(outer));
+      e.constant.w = float(1 / (std::cos(light.innerAngle * radians) - outer));
+    }
+    list.lights.push_back(e);
+  }
+}
+
+glm::vec4 boundary(const FresnelConstants& c) {
+  const double critical = c.e < 0 ? std::sqrt(-c.e) : 0.0;
+  return {float(c.e), float(c.nSquared), float(critical), float(critical - float(critical))};
+}
+
+// What a form of the lobe reads in place of the exponent (glsl/lobe.glsl).
+glm::vec2 lobeConstants(const HighlightForm& form, double exponent) {
+  const double gamma = form.gamma;
+  switch (form.form) {
+    case Highlight::exact:
+    case Highlight::pow:
+    case Highlight::integer:
+    case Highlight::none:
+      break;
+    case Highlight::lyon:
+      return {exponent / gamma, 0};
+    case Highlight::lyonTuned:
+      return {tunedSlope(exponent, form.gamma), 0};
+    case Highlight::lyonCross:
+      return {0.5 * exponent / gamma, 0};
+    case Highlight::pade:
+      return {1 + exponent / gamma, exponent / gamma - 1};
+    case Highlight::gaussian:
+      return {(exponent + gaussianShift) / std::numbers::ln2, 0};
+  }
+  return glm::vec2(0);
+}
+
+MaterialBlock materialBlock(const Material& material, const Variant& variant, const Look& look) {
+  const ShadingParameters& s = material.shading;
+  MaterialBlock block;
+  block.color = glm::vec4(glm::vec3(s.color), float(material.alpha));
+  block.emission = glm::vec4(glm::vec3(material.emission), float(material.alphaCutoff));
+  const double exponent = lobeExponent(material, look);
+  block.strength = glm::vec4(s.ambient, s.diffuse, s.specular, exponent);
+  glm::vec2 dimmer[HighlightForms::mostDimmer] = {};
+  for (std::size_t i = 0; i < variant.dimmer.size(); ++i)
+    dimmer[i] = lobeConstants(variant.dimmer[i].form, exponent);
+  block.lobe = glm::vec4(lobeConstants(variant.highlight, exponent), dimmer[0]);
+  block.dimmerLobe = glm::vec4(dimmer[1], dimmer[2]);
+  const FresnelSides sides = fresnelSides(s.ior, look.mediumIor);
+  const double k =
+      variant.fresnel == Fresnel::rational ? rationalMinimax(look.mediumIor, s.ior) : 0.0;
+  block.surface = glm::vec4(s.metalness, material.transmission, sides.entering.r0, k);
+  block.entering = boundary(sides.entering);
+  block.leaving = boundary(sides.leaving);
+  return block;
+}
+
+// Model to eye space in double up to the last step, and the matrix for normals: the rotation itself
+// where there is one scale, else the cofactors, both scaled to entries of about 1.
+DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& camera) {
+  const glm::dmat3 rotation = eyeRotation(camera), linear(world);
+  const glm::dmat3 toEye = rotation * linear;
+  const glm::dvec3 offset = rotation * (linear * mesh.origin + (glm::dvec3(world[3]) - camera.eye));
+  DrawBlock block;
+  block.eyeFromModel = glm::mat4(glm::mat3(toEye));
+  block.eyeFromModel[3] = glm::vec4(glm::vec3(offset), 1);
+
+  double size = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(toEye[i][j]));
+  if (!(size > 0)) return block;
+  const glm::dmat3 m = toEye * (1 / size);
+  glm::dmat3 normals;
+  if (isSimilarity(m)) {
+    normals = m * (1 / glm::length(m[0]));
+  } else {
+    normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    if (glm::dot(m[0], normals[0]) < 0) normals = -normals;
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(normals[i][j]));
+    if (largest > 0) normals *= 1 / largest;
+  }
+  block.normalMatrix = glm::mat4(glm::mat3(normals));
+  return block;
+}
+
+// The sign of the determinant, of columns scaled so that their product neither under- nor
+// overflows.
+bool isMirrored(const glm::dmat4& world) {
+  return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
+}
+
+double depthOf(const Mesh& mesh, const DrawBlock& block) {
+  glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  for (std::uint32_t i : mesh.indices) {
+    low = glm::min(low, mesh.positions[i]);
+    high = glm::max(high, mesh.positions[i]);
+  }
+  return -(glm::dmat4(block.eyeFromModel) *
+           glm::dvec4((glm::dvec3(low) + glm::dvec3(high)) * 0.5, 1))
+              .z;
+}
+
+bool finite(const glm::mat4& m) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (!std::isfinite(m[i][j])) return false;
+  return true;
+}
+
+}  // namespace
+
+DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& given) {
+  const Look look = withFileLights(scene, given);
+  checkMaterialNames(scene, look);
+  DrawList list;
+  list.camera = cameraFor(scene, bounds, look);
+  list.environment = environmentImageFor(look);
+  addLights(list, look);
+  const double turn = -look.environmentRotation * radians, c = std::cos(turn), s = std::sin(turn);
+  const glm::dmat3 rotation(c, 0, -s, 0, 1, 0, s, 0, c);
+  list.frame.worldFromEye = glm::mat4(glm::mat3(rotation * list.camera.axes));
+  list.frame.view = {0, 0, 1, float(look.schlickExponent)};
+  list.frame.ambientLight = glm::vec4(glm::vec3(look.ambientLight), 0);
+
+  std::vector<Material> materials;
+  for (const Material& material : scene.materials)
+    materials.push_back(editedMaterial(material, look));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const Material& material = materials[std::size_t(mesh.material)];
+    DrawItem item;
+    item.mesh = instance.mesh;
+    item.material = mesh.material;
+    item.instance = int(i);
+    item.draw = drawBlock(mesh, instance.world, list.camera);
+    if (!finite(item.draw.eyeFromModel)) continue;  // beyond what float can place
+    item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
+    item.materialBlock = materialBlock(material, item.variant, look);
+    item.mirrored = isMirrored(instance.world);
+    item.draw.normalMatrix[3] = {float(material.normalScale), 0, 0, item.mirrored ? -1 : 1};
+    const bool both = material.doubleSided || look.twoSided || mesh.topology != Topology::triangles;
+    item.faces = both ? FaceSide::both : FaceSide::front;
+    // Seen through a surface, the program environment shows refraction: nothing is left to blend.
+    item.blended =
+        item.variant.alphaBlend && (item.variant.unlit || look.shading != Shading::environment);
+    if (item.blended) {
+      item.depth = depthOf(mesh, item.draw);
+      if (both && mesh.topology == Topology::triangles) {  // far sides first
+        DrawItem back = item;
+        back.faces = FaceSide::back;
+        item.faces = FaceSide::front;
+        list.items.push_back(back);
+      }
+    }
+    list.items.push_back(item);
+  }
+  std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
+    if (a.blended != b.blended) return b.blended;
+    return a.blended && a.depth > b.depth;
+  });
+  return list;
+}
+
+std::vector<int> imagesRead(const Scene& scene, const Look& given) {
+  const Look look = withFileLights(scene, given);
+  std::set<int> images;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const Material material = editedMaterial(scene.materials[std::size_t(mesh.material)], look);
+    // Whether a texture is read does not depend on the camera.
+    const Variant v = variantFor(mesh, material, instance.world, look, false);
+    if (v.colorTexture) images.insert(material.colorTexture->image);
+    if (v.emissionTexture) images.insert(material.emissionTexture->image);
+    if (v.normalTexture) images.insert(material.normalTexture->image);
+  }
+  return {images.begin(), images.end()};
+}
+
+}  // namespace glint

@@ -1,0 +1,180 @@
+#include "glint/render/gpu_scene.h"
+
+#include <algorithm>
+#include <span>
+
+#include "glint/image/error.h"
+#include "glint/render/face_mesh.h"
+
+namespace glint {
+namespace {
+
+// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at
+// it.
+class VertexLayout {
+ public:
+  template <typename Vector>
+  void add(GLuint location, std::span<const Vector> values) {
+    if (values.empty()) return;
+    const auto* bytes = reinterpret_cast<const char*>(values.data());
+    attributes_.push_back({location, Vector::length(), bytes, values.size_bytes(), size_});
+    size_ += values.size_bytes();
+  }
+  // With `source`, vertex i is a copy of source[i].
+  template <typename Vector>
+  void add(GLuint location, std::span<const Vector> values, std::span<const std::uint32_t> source) {
+    if (values.empty() || source.empty()) return add(location, values);
+    std::vector<char>& copy = copies_.emplace_back(source.size() * sizeof(Vector));
+    auto* to = reinterpret_cast<Vector*>(copy.data());
+    for (std::size_t i = 0; i < source.size(); ++i) to[i] = values[source[i]];
+    add(location, std::span<const Vector>(to, source.size()));
+  }
+  void upload() const {
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(size_), nullptr, GL_STATIC_DRAW);
+    for (const Attribute& a : attributes_) {
+      glBufferSubData(GL_ARRAY_BUFFER, GLintptr(a.offset), GLsizeiptr(a.size), a.bytes);
+      glVertexAttribPointer(a.location, a.components, GL_FLOAT, GL_FALSE, 0,
+                            reinterpret_cast<const void*>(a.offset));
+      glEnableVertexAttribArray(a.location);
+    }
+  }
+
+ private:
+  struct Attribute {
+    GLuint location;
+    GLint components;
+    const char* bytes;
+    std::size_t size, offset;
+  };
+  std::vector<Attribute> attributes_;
+  std::vector<std::vector<char>> copies_;
+  std::size_t size_ = 0;
+};
+
+// The coordinates by which a texture is looked up, with its transform.
+std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
+  if (!texture || std::size_t(texture->texcoord) >= mesh.texcoords.size()) return {};
+  std::vector<glm::vec2> places = mesh.texcoords[std::size_t(texture->texcoord)];
+  if (texture->transform != glm::dmat3x2(1.0))
+    for (glm::vec2& place : places) place = glm::vec2(texture->transform * glm::dvec3(place, 1));
+  return places;
+}
+
+GLenum modeOf(Topology topology) {
+  return topology == Topology::points  ? GL_POINTS
+         : topology == Topology::lines ? GL_LINES
+                                       : GL_TRIANGLES;
+}
+
+GLint minifyFilter(const Sampler& s) {
+  const bool linear = s.minify == Filter::linear;
+  if (s.mip == MipFilter::none) return linear ? GL_LINEAR : GL_NEAREST;
+  if (s.mip == MipFilter::nearest)
+    return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+  return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+}
+
+GLint wrapMode(Wrap wrap) {
+  return wrap == Wrap::repeat        ? GL_REPEAT
+         : wrap == Wrap::clampToEdge ? GL_CLAMP_TO_EDGE
+                                     : GL_MIRRORED_REPEAT;
+}
+
+TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name, bool isData) {
+  const ByteImage& image = decoded.image;
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (image.width > limit || image.height > limit)
+    throw InputError(name + ": " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + " pixels are more than this driver's " +
+                     std::to_string(limit) + ": make the texture smaller");
+  TextureHandle texture = TextureHandle::make();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const GLint format = isData ? GL_RGBA8 : GL_SRGB8_ALPHA8;
+  const auto upload = [&](GLint level, const ByteImage& from) {
+    glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, from.values.data());
+  };
+  upload(0, image);
+  for (std::size_t i = 0; i < decoded.mipLevels.size(); ++i)
+    upload(GLint(i + 1), decoded.mipLevels[i]);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
+  return texture;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, DecodedImages images)
+    : scene_(&scene), images_(std::move(images)) {}
+
+void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
+  scene_ = &scene;
+  for (const int mesh : changed) {
+    geometries_.erase({mesh, false});
+    geometries_.erase({mesh, true});
+  }
+}
+
+const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
+  const Mesh& mesh = scene_->meshes[std::size_t(index)];
+  faces = faces && mesh.topology == Topology::triangles;
+  const auto [place, isNew] = geometries_.try_emplace({index, faces});
+  Geometry& g = place->second;
+  if (!isNew) return g;
+
+  g.array = VertexArray::make();
+  g.vertices = Buffer::make();
+  g.indices = Buffer::make();
+  glBindVertexArray(g.array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, g.vertices.id());
+  const FaceMesh faceMesh = faces ? makeFaceMesh(mesh) : FaceMesh{};
+  const std::span<const std::uint32_t> source = faceMesh.source;
+  const Material& material = scene_->materials[std::size_t(mesh.material)];
+  VertexLayout layout;
+  layout.add(0, std::span(mesh.positions), source);
+  layout.add(1, faces ? std::span(faceMesh.normals) : std::span(mesh.normals));
+  layout.add(2, std::span(mesh.colors), source);
+  const auto colorPlaces = texcoordsOf(mesh, material.colorTexture);
+  const auto emissionPlaces = texcoordsOf(mesh, material.emissionTexture);
+  const auto normalPlaces = texcoordsOf(mesh, material.normalTexture);
+  layout.add(3, std::span(colorPlaces), source);
+  layout.add(4, std::span(emissionPlaces), source);
+  if (!faces && !mesh.tangents.empty()) {
+    layout.add(6, std::span(mesh.tangents));
+    layout.add(7, std::span(normalPlaces));
+  }
+  if (faces) layout.add(5, std::span(faceMesh.centers));
+  layout.upload();
+  const auto& indices = faces ? faceMesh.indices : mesh.indices;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof indices[0]),
+               indices.data(), GL_STATIC_DRAW);
+  g.mode = modeOf(mesh.topology);
+  g.count = GLsizei(indices.size());
+  return g;
+}
+
+void GpuScene::bindTexture(const Texture& use, GLuint unit) {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  TextureHandle& texture = textures_[use.image];
+  if (!texture) {
+    const EncodedImage& image = scene_->images[std::size_t(use.image)];
+    texture = uploadTexture(images_.at(use.image), image.name, image.isData);
+    images_.erase(use.image);
+  }
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  const Sampler& s = use.sampler;
+  SamplerHandle& sampler = samplers_[{s.magnify, s.minify, s.mip, s.wrapS, s.wrapT}];
+  if (!sampler) {
+    sampler = SamplerHandle::make();
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER,
+                        s.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST);
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, minifyFilter(s));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_S, wrapMode(s.wrapS));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_T, wrapMode(s.wrapT));
+  }
+  glBindSampler(unit, sampler.id());
+}
+
+}  // namespace glint

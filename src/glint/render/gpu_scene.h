@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "glint/gl/handles.h"
+#include "glint/render/decode.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// A scene's meshes and textures in the driver's memory, each put there when first needed. Lives
+/// and dies in one context; the scene must outlive it.
+class GpuScene {
+ public:
+  GpuScene(const Scene& scene, DecodedImages images);
+
+  /// Goes on with the same scene in another pose, in which the vertices of `changed` meshes are
+  /// others.
+  void pose(const Scene& scene, std::span<const int> changed);
+
+  struct Geometry {
+    VertexArray array;
+    Buffer vertices, indices;
+    GLenum mode = 0;
+    GLsizei count = 0;
+  };
+
+  /// The mesh, or for the program `flat` its faces.
+  const Geometry& geometry(int mesh, bool faces);
+
+  /// Binds the texture and its sampler to a unit.
+  void bindTexture(const Texture&, GLuint unit);
+
+  /// Whether an image has been given, be it that it was not uploaded yet.
+  bool hasImage(int image) const { return images_.contains(image) || textures_.contains(image); }
+  void addImages(DecodedImages images) { images_.merge(images); }
+
+  const Scene& scene() const { return *scene_; }
+
+ private:
+  using SamplerKey = std::tuple<Filter, Filter, MipFilter, Wrap, Wrap>;
+  const Scene* scene_;
+  DecodedImages images_;
+  std::map<std::pair<int, bool>, Geometry> geometries_;
+  std::map<int, TextureHandle> textures_;
+  std::map<SamplerKey, SamplerHandle> samplers_;
+};
+
+}  // namespace glint

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <compare>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/scene/look.h"
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// What a pixel's value is: the picture's radiance, or what went into it, so that the error of a
+/// picture can be split into that of interpolation, of texture filtering and of shading.
+enum class PixelOutput {
+  radiance,
+  position,  ///< xyz: eye space, w: 1
+  normal,  ///< xyz: as interpolated, before renormalising; w: 1 on a front face, -1 on a back face
+  color,   ///< C of the pixel and alpha: factor, vertex colour and texture
+  emission,       ///< rgb, w: 1
+  depth,          ///< x: the depth buffer's, y: 1 / w of clip space
+  shadingNormal,  ///< xyz: eye space, unit, turned as shading turns it; w: 1
+  // Parts of what the program environment shows; alpha as in the picture:
+  sum,         ///< (1 - t) times the sum over the lights, and emission
+  reflection,  ///< F E(reflect), where there are neither lights nor ambient light
+  refraction,  ///< t (1 - F) C E(refract), likewise
+};
+
+/// What a shader holds: the program and only the features that the scene needs of it. Equal
+/// variants are one GLSL program. A pure function of scene and look; needs no GL.
+struct Variant {
+  Shading program = Shading::phong;
+  bool unlit = false;  ///< colour alone: points, lines and unlit materials; all below it is off
+  int directionalLights = 0, pointLights = 0, spotLights = 0;
+  bool lightFalloff = false;  ///< points and spots weaken with distance
+  bool diffuse = false;       ///< some light and m_d > 0
+  bool specular = false;      ///< some light and m_s > 0
+  /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
+  HighlightForm highlight;
+  /// Lights that have another form, the same as ever from a light of each type on.
+  struct Dimmer {
+    HighlightForm form;
+    int directional = 0, point = 0, spot = 0;  ///< the first of them, counted by type
+    auto operator<=>(const Dimmer&) const = default;
+  };
+  std::vector<Dimmer> dimmer;    ///< at most HighlightForms::mostDimmer
+  bool constantView = false;     ///< one direction to the viewer: H, V and L + V once per draw
+  bool unevenScale = false;      ///< normals need renormalising per vertex
+  bool pixelPosition = false;    ///< per-pixel programs read the interpolated position
+  bool vanishingNormal = false;  ///< interpolated normals may cancel
+  bool twoSided = false;         ///< back faces are drawn, lit from their side
+  bool vertexColors = false, colorTexture = false;
+  bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
+  bool emission = false, emissionTexture = false;
+  bool alphaMask = false, alphaBlend = false;
+  // The program environment alone:
+  Environment environment = Environment::studio;
+  Fresnel fresnel = Fresnel::exact;
+  bool schlickFifth = false;  ///< Schlick's exponent is 5: products in place of pow
+  bool dielectric = false, metal = false, refraction = false;
+  bool denserSide = false;  ///< some side that shows is seen from the denser medium
+  bool centroid = false;    ///< multisampled: varyings stay within the triangle
+  PixelOutput output = PixelOutput::radiance;
+
+  auto operator<=>(const Variant&) const = default;
+};
+
+/// A feature that a variant has or does without, and why.
+struct FeatureReason {
+  std::string feature;
+  bool present = false;
+  std::string reason;
+};
+
+/// The variant of one mesh under one world transform, with `material` as the look has edited it.
+/// `orthographic` is that of the camera in use.
+Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
+                   bool orthographic);
+
+/// The program that a look is drawn by as it stands.
+Shading programOf(const Look&);
+
+/// Whether a program computes the lobe of Blinn-Phong; the others have Phong's.
+bool usesBlinn(Shading);
+
+/// The exponent of the material's lobe under this look: Phong's, or Blinn-Phong's.
+double lobeExponent(const Material&, const Look&);
+
+/// The forms that draw a material's highlight: those asked for, except that `integer` becomes
+/// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
+/// `none` does where the exponent is 0. Of `integer`, gamma is the exponent.
+HighlightForms highlightOf(const Material&, const Look&);
+
+/// The form of a material's reflectance.
+Fresnel fresnelOf(const Material&, const Look&);
+
+/// The variant that writes an attribute of the same pixels; per-pixel programs only have normals
+/// and positions.
+Variant attributeVariant(Variant, PixelOutput);
+
+/// Why a variant is as it is, in the order of its members.
+std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Material&, const Look&,
+                                      bool orthographic);
+
+/// The names of the features that a variant has.
+std::vector<std::string> featureNames(const Variant&);
+
+/// The lights of a look: those given, or the default one, or none. Those of a file are in the look
+/// that withFileLights() gives; every function here takes that one.
+std::vector<Light> lightsOf(const Look&);
+
+/// The lights that shine, as indices of `lights`: the brightest first, by the largest channel of
+/// the intensity; equally bright ones as they are given.
+std::vector<std::size_t> shiningLights(const std::vector<Light>& lights);
+
+/// Whether a 3x3 transform is a rotation (with or without mirror) and one scale, to 1e-6.
+bool isSimilarity(const glm::dmat3&);
+
+}  // namespace glint

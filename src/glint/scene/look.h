@@ -1,0 +1,143 @@
+#pragma once
+
+#include <compare>
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glint {
+
+/// `automatic` is a choice by error budget (glint/budget/error_budget.h); drawn as it stands,
+/// phong.
+enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
+enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian, none };
+enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
+enum class Viewer { local, infinite };
+/// `image` is what `hdriFile` names; it cannot be chosen by name.
+enum class Environment { studio, sky, white, image };
+
+/// A form of the lobe (glint/shading/lobe.h) with its gamma.
+struct HighlightForm {
+  Highlight form = Highlight::exact;
+  int gamma = 0;  ///< of lyon, lyonTuned, lyonCross and pade: a power of two, [1, 64]; otherwise 0
+  constexpr HighlightForm(Highlight f = Highlight::exact, int g = 0) : form(f), gamma(g) {}
+  auto operator<=>(const HighlightForm&) const = default;
+};
+
+/// By which forms the lights of a picture draw their highlights: the brightest by `brightest`,
+/// those that are dimmer perhaps by forms that are less exact and cost less. Lights are counted in
+/// the order of shiningLights().
+struct HighlightForms {
+  struct Dimmer {
+    HighlightForm form;
+    int from = 0;  ///< the first light, from 0, that has this form; rises from one to the next
+    auto operator<=>(const Dimmer&) const = default;
+  };
+  static constexpr std::size_t mostDimmer = 3;
+  HighlightForm brightest;
+  std::vector<Dimmer> dimmer;  ///< at most mostDimmer
+  HighlightForms(HighlightForm form = {}) : brightest(form) {}
+  HighlightForms(Highlight form, int gamma = 0) : brightest(form, gamma) {}
+  /// The form of the light at a place in the order.
+  HighlightForm of(int light) const {
+    HighlightForm form = brightest;
+    for (const Dimmer& each : dimmer)
+      if (light >= each.from) form = each.form;
+    return form;
+  }
+  /// From the light `from` on, which may not be before those given so far: this form.
+  void add(HighlightForm form, int from) {
+    if (of(from) != form) dimmer.push_back({form, from});
+  }
+  bool operator==(const HighlightForms&) const = default;
+};
+
+/// Lights that a picture may have; a uniform block of GL's least size holds them.
+inline constexpr std::size_t maxLights = 128;
+
+/// A light as `--light` gives it, or a model file. Intensities are linear.
+struct Light {
+  enum class Type { directional, point, spot, camera };
+  Type type = Type::directional;
+  glm::dvec3 position{0.0};   ///< world; point and spot
+  glm::dvec3 direction{0.0};  ///< directional: TO the light (the notes' L), world; camera:
+                              ///< likewise, eye space; spot: along it
+  double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
+  double outerAngle = 45.0;   ///< degrees from the spot's axis: none outside
+  glm::dvec3 intensity{1.0};  ///< I_m, linear RGB, components [0, 1e6]
+  /// Point and spot: `intensity` is that at the distance of one world unit and falls with the
+  /// square of the distance, to 0 at `range` (world units; 0 for no such end).
+  bool fallsOff = false;
+  double range = 0.0;
+  bool operator==(const Light&) const = default;
+};
+
+struct AntiAliasing {
+  enum class Mode { none, msaa, ssaa };
+  Mode mode = Mode::msaa;
+  int count = 4;  ///< msaa: samples a pixel; ssaa: count x count samples a pixel
+  bool operator==(const AntiAliasing&) const = default;
+};
+
+/// What `--material` sets of a material; what is empty stays as the model has it.
+struct MaterialEdit {
+  std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
+  std::optional<glm::dvec3> color;  ///< linear
+  std::optional<HighlightForms> highlight = {};
+  std::optional<Fresnel> fresnel = {};
+  bool operator==(const MaterialEdit&) const = default;
+};
+
+/// How a scene is looked at: every option that shapes a picture, as a value. The table of
+/// parameters.h says of each its name, unit, range, default and help.
+struct Look {
+  Shading shading = Shading::phong;
+  HighlightForms highlight;
+  Fresnel fresnel = Fresnel::exact;
+  /// What error the forms may cost in linear radiance; read by resolveLook alone.
+  std::optional<double> maxError;
+  std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
+  double blinnFactor = 4.0;
+  double schlickExponent = 5.0;
+  std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material
+
+  glm::dvec3 ambientLight{0.1};
+  std::optional<std::vector<Light>> light;  ///< empty: the default light
+  bool noLights = false;
+  std::optional<double> lightScale;  ///< of the file's lights; empty: measured (lights.h)
+  Viewer viewer = Viewer::local;
+  double mediumIor = 1.0;
+  Environment environment = Environment::studio;
+  std::string hdriFile;              ///< a picture that takes the environment's place; may be empty
+  double environmentRotation = 0.0;  ///< degrees about +Y
+  bool environmentBackground = false;
+  bool twoSided = false;
+
+  std::optional<glm::dvec3> cameraPosition, cameraFocalPoint, cameraDirection;
+  std::optional<glm::dvec3> cameraViewUp;
+  std::optional<double> cameraViewAngle;                        ///< degrees, vertical
+  double cameraAzimuthAngle = 0.0, cameraElevationAngle = 0.0;  ///< degrees
+  double cameraZoomFactor = 0.9;
+  bool cameraOrthographic = false;
+  std::optional<int> cameraIndex;
+  std::optional<double> animationTime;      ///< seconds; empty: the pose the file stands in
+  std::string animation;                    ///< name or number; empty: the first
+  std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
+
+  glm::ivec2 resolution{1024, 1024};
+  AntiAliasing antiAliasing;
+  glm::dvec3 backgroundColor{0.033104766570885055};  ///< linear; #333333
+  bool noBackground = false;
+  double exposure = 0.0;  ///< EV: the picture is multiplied by 2^exposure before encoding
+
+  bool operator==(const Look&) const = default;
+};
+
+/// What stands around the model: a picture if the look names one.
+inline Environment environmentOf(const Look& look) {
+  return look.hdriFile.empty() ? look.environment : Environment::image;
+}
+
+}  // namespace glint

@@ -1,0 +1,356 @@
+#include "glint/scene/look_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "glint/image/error.h"
+#include "glint/image/srgb.h"
+#include "glint/scene/material_parameters.h"
+
+namespace glint {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (char c : text) {
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& text,
+                         const std::string& expected) {
+  throw InputError(what + ": '" + text + "' is not " + expected);
+}
+
+template <typename Number>
+bool readAll(const std::string& text, Number& value) {
+  const char *begin = text.data(), *end = begin + text.size();
+  if (begin != end && *begin == '+') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && stop == end;
+}
+
+std::string rangeText(double min, double max) {
+  return "from " + numberText(min) + " to " + numberText(max);
+}
+
+constexpr std::array<std::string_view, 4> lightNames{"directional", "point", "spot", "camera"};
+constexpr std::array<std::string_view, 9> highlightNames{
+    "exact", "pow", "integer", "lyon", "lyon-tuned", "lyon-cross", "pade", "gaussian", "none"};
+constexpr std::array<std::string_view, 6> shadingNames{"flat",        "gouraud",     "phong",
+                                                       "blinn-phong", "environment", "auto"};
+constexpr std::array<std::string_view, 5> fresnelNames{"exact", "textbook", "schlick",
+                                                       "schlick-exp2", "rational"};
+
+bool hasGamma(Highlight form) { return form >= Highlight::lyon && form <= Highlight::pade; }
+
+}  // namespace
+
+std::string numberText(double value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+double parseNumber(const std::string& text, double min, double max, const std::string& what) {
+  double value = 0;
+  if (!readAll(text, value) || !(value >= min && value <= max))
+    refuse(what, text, "a number " + rangeText(min, max));
+  return value;
+}
+
+std::int64_t parseInteger(const std::string& text, std::int64_t min, std::int64_t max,
+                          const std::string& what) {
+  std::int64_t value = 0;
+  if (!readAll(text, value) || value < min || value > max)
+    refuse(what, text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+  return value;
+}
+
+std::size_t parseChoice(const std::string& text, std::span<const std::string_view> names,
+                        const std::string& what) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return std::size_t(found - names.begin());
+  std::string expected;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    expected += (i == 0 ? "one of " : ", ") + std::string(names[i]);
+  refuse(what, text, expected);
+}
+
+glm::dvec3 parseVector(const std::string& text, double min, double max, const std::string& what) {
+  const auto parts = split(text, ',');
+  glm::dvec3 v;
+  bool good = parts.size() == 3;
+  for (int i = 0; good && i < 3; ++i)
+    good = readAll(parts[std::size_t(i)], v[i]) && v[i] >= min && v[i] <= max;
+  if (!good) refuse(what, text, "three numbers x,y,z " + rangeText(min, max));
+  return v;
+}
+
+glm::dvec3 parseColor(const std::string& text, const std::string& what) {
+  if (text.size() == 7 && text[0] == '#') {
+    std::uint32_t code = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, code, 16);
+    if (error == std::errc() && end == text.data() + 7)
+      return {decodeSrgb8(std::uint8_t(code >> 16)), decodeSrgb8(std::uint8_t(code >> 8)),
+              decodeSrgb8(std::uint8_t(code))};
+  }
+  const auto parts = split(text, ',');
+  glm::dvec3 v;
+  bool good = parts.size() == 3;
+  for (int i = 0; good && i < 3; ++i)
+    good = readAll(parts[std::size_t(i)], v[i]) && v[i] >= 0 && v[i] <= 1e6;
+  if (!good) refuse(what, text, "a colour r,g,b (linear, from 0 to 1e6) or #rrggbb");
+  return v;
+}
+
+glm::dvec2 parseRange(const std::string& text) {
+  const auto parts = split(text, ',');
+  glm::dvec2 v;
+  if (parts.size() != 2 || !readAll(parts[0], v.x) || !readAll(parts[1], v.y) || !(v.x > 0) ||
+      !(v.y > v.x) || v.y > 1e30)
+    refuse("--clipping-range", text, "NEAR,FAR with 0 < NEAR < FAR");
+  return v;
+}
+
+glm::ivec2 parseResolution(const std::string& text) {
+  const auto parts = split(text, ',');
+  glm::ivec2 v;
+  if (parts.size() != 2 || !readAll(parts[0], v.x) || !readAll(parts[1], v.y) || v.x < 1 ||
+      v.y < 1 || v.x > 65535 || v.y > 65535)
+    refuse("--resolution", text, "W,H with each from 1 to 65535");
+  return v;
+}
+
+AntiAliasing parseAntiAliasing(const std::string& text) {
+  if (text == "none") return {AntiAliasing::Mode::none, 1};
+  const auto parts = split(text, ':');
+  int n = 0;
+  if (parts.size() == 2 && readAll(parts[1], n)) {
+    if (parts[0] == "msaa" && n >= 1 && n <= 64) return {AntiAliasing::Mode::msaa, n};
+    if (parts[0] == "ssaa" && n >= 1 && n <= 16) return {AntiAliasing::Mode::ssaa, n};
+  }
+  refuse("--anti-aliasing", text, "none, msaa:N (N from 1 to 64) or ssaa:N (N from 1 to 16)");
+}
+
+std::string antiAliasingText(const AntiAliasing& a) {
+  if (a.mode == AntiAliasing::Mode::none) return "none";
+  return (a.mode == AntiAliasing::Mode::msaa ? "msaa:" : "ssaa:") + std::to_string(a.count);
+}
+
+namespace {
+
+HighlightForm parseHighlight(const std::string& name, const std::string& what,
+                             const std::string& whole) {
+  const auto parts = split(name, ':');
+  const auto found = std::find(highlightNames.begin(), highlightNames.end(), parts[0]);
+  if (found != highlightNames.end()) {
+    HighlightForm form(Highlight(found - highlightNames.begin()));
+    if (!hasGamma(form.form) && parts.size() == 1) return form;
+    const bool number = parts.size() == 2 && readAll(parts[1], form.gamma);
+    if (hasGamma(form.form) && number && form.gamma >= 1 && form.gamma <= 64 &&
+        (form.gamma & (form.gamma - 1)) == 0)
+      return form;
+    if (hasGamma(form.form))
+      refuse(what, whole,
+             parts[0] + ":G with G one of 1, 2, 4, 8, 16, 32, 64, such as " + parts[0] + ":8");
+  }
+  std::string expected;
+  for (std::size_t i = 0; i < highlightNames.size(); ++i)
+    expected += (i == 0 ? "one of " : ", ") + std::string(highlightNames[i]) +
+                (hasGamma(Highlight(i)) ? ":G" : "");
+  refuse(what, whole, expected);
+}
+
+}  // namespace
+
+HighlightForms parseHighlights(const std::string& text, const std::string& what) {
+  constexpr const char* list =
+      "forms for so many lights each, the brightest first, and at the end one for all others, such "
+      "as exact/2,lyon:8 (at most four forms)";
+  const auto parts = split(text, ',');
+  if (parts.size() > HighlightForms::mostDimmer + 1) refuse(what, text, list);
+  HighlightForms forms;
+  int lights = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto halves = split(parts[i], '/');
+    const HighlightForm form = parseHighlight(halves[0], what, text);
+    if (i == 0)
+      forms.brightest = form;
+    else
+      forms.add(form, lights);
+    const bool last = i + 1 == parts.size();
+    int count = 0;
+    if (last ? halves.size() != 1
+             : halves.size() != 2 || !readAll(halves[1], count) || count < 1 ||
+                   count > int(maxLights))
+      refuse(what, text, list);
+    lights += count;
+  }
+  return forms;
+}
+
+std::string highlightText(const HighlightForm& form) {
+  std::string text(highlightNames[std::size_t(form.form)]);
+  if (hasGamma(form.form)) text += ":" + std::to_string(form.gamma);
+  return text;
+}
+
+std::string highlightText(const HighlightForms& forms) {
+  std::string text = highlightText(forms.brightest);
+  int from = 0;
+  for (const HighlightForms::Dimmer& each : forms.dimmer) {
+    text += "/" + std::to_string(each.from - from) + "," + highlightText(each.form);
+    from = each.from;
+  }
+  return text;
+}
+
+std::vector<std::string> highlightTexts() {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < highlightNames.size(); ++i)
+    for (int gamma = 1; gamma <= (hasGamma(Highlight(i)) ? 64 : 1); gamma *= 2)
+      texts.push_back(highlightText(HighlightForm(Highlight(i), gamma)));
+  return texts;
+}
+
+Shading parseShading(const std::string& text, const std::string& what) {
+  return Shading(parseChoice(text, shadingNames, what));
+}
+
+std::string_view shadingName(Shading shading) { return shadingNames[std::size_t(shading)]; }
+
+std::span<const std::string_view> shadingTexts() { return shadingNames; }
+
+Fresnel parseFresnel(const std::string& text, const std::string& what) {
+  return Fresnel(parseChoice(text, fresnelNames, what));
+}
+
+std::string_view fresnelText(Fresnel form) { return fresnelNames[std::size_t(form)]; }
+
+std::span<const std::string_view> fresnelTexts() { return fresnelNames; }
+
+namespace {
+
+Light parseSteadyLight(const std::string& text) {
+  const std::string what = "--light";
+  const auto parts = split(text, ':');
+  Light light;
+  light.type = Light::Type(parseChoice(parts[0], lightNames, what));
+  // Fields before the colour, the type's name among them.
+  const std::size_t fields = std::array<std::size_t, 4>{2, 2, 4, 1}[std::size_t(light.type)];
+  if (parts.size() != fields && parts.size() != fields + 1)
+    refuse(what, text,
+           std::array<const char*, 4>{"directional:x,y,z[:r,g,b]",
+                                      "point:x,y,z[:r,g,b][:falloff[,RANGE]]",
+                                      "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b][:falloff[,RANGE]]",
+                                      "camera[:r,g,b]"}[std::size_t(light.type)]);
+  if (parts.size() == fields + 1) light.intensity = parseColor(parts[fields], what);
+  if (light.type == Light::Type::camera) light.direction = {0, 0, 1};
+  if (light.type == Light::Type::directional)
+    light.direction = parseVector(parts[1], -1e30, 1e30, what);
+  if (light.type == Light::Type::point || light.type == Light::Type::spot)
+    light.position = parseVector(parts[1], -1e30, 1e30, what);
+  if (light.type == Light::Type::spot) {
+    light.direction = parseVector(parts[2], -1e30, 1e30, what);
+    const auto angles = split(parts[3], ',');
+    if (angles.size() != 2 || !readAll(angles[0], light.innerAngle) ||
+        !readAll(angles[1], light.outerAngle) ||
+        !(light.innerAngle >= 0 && light.innerAngle < light.outerAngle && light.outerAngle <= 90))
+      refuse(what, parts[3], "inner,outer with 0 <= inner < outer <= 90 degrees");
+  }
+  if ((light.type == Light::Type::directional || light.type == Light::Type::spot) &&
+      light.direction == glm::dvec3(0.0))
+    throw InputError(what + ": '" + text + "' has no direction: give another than 0,0,0");
+  return light;
+}
+
+}  // namespace
+
+Light parseLight(const std::string& text) {
+  constexpr std::string_view word = "falloff";
+  const std::size_t colon = text.rfind(':');
+  const std::string last = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (!last.starts_with(word)) return parseSteadyLight(text);
+  const std::string rest = last.substr(word.size());
+  Light light = parseSteadyLight(text.substr(0, colon));
+  if (light.type != Light::Type::point && light.type != Light::Type::spot)
+    throw InputError("--light: '" + text + "': only points and spots fall off: leave '" + last +
+                     "' out");
+  if (!rest.empty() && rest[0] != ',') refuse("--light", last, "falloff or falloff,RANGE");
+  light.fallsOff = true;
+  if (!rest.empty()) light.range = parseNumber(rest.substr(1), 0, 1e30, "--light");
+  return light;
+}
+
+std::string lightText(const Light& light) {
+  auto vec = [](const glm::dvec3& v) {
+    return ":" + numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
+  };
+  std::string text(lightNames[std::size_t(light.type)]);
+  if (light.type == Light::Type::point || light.type == Light::Type::spot)
+    text += vec(light.position);
+  if (light.type == Light::Type::directional || light.type == Light::Type::spot)
+    text += vec(light.direction);
+  if (light.type == Light::Type::spot)
+    text += ":" + numberText(light.innerAngle) + "," + numberText(light.outerAngle);
+  text += vec(light.intensity);
+  if (!light.fallsOff) return text;
+  return text + ":falloff" + (light.range > 0 ? "," + numberText(light.range) : "");
+}
+
+void setMaterialEdit(Look& look, const std::string& name, const std::string& key,
+                     const std::string& text) {
+  const std::string what = "--material " + (name.empty() ? key : name + ":" + key);
+  MaterialEdit& edit = look.material[name];
+  if (key == "color") {
+    edit.color = parseColor(text, what);
+    return;
+  }
+  if (key == "highlight") {
+    edit.highlight = parseHighlights(text, what);
+    return;
+  }
+  if (key == "fresnel") {
+    edit.fresnel = parseFresnel(text, what);
+    return;
+  }
+  std::string known;
+  for (const auto& p : materialParameters()) {
+    if (p.name == key) {
+      edit.*p.edit = parseNumber(text, p.min, p.max, what);
+      return;
+    }
+    known += std::string(p.name) + ", ";
+  }
+  throw InputError("--material: unknown parameter '" + key + "': use one of " + known +
+                   "color, highlight, fresnel");
+}
+
+void parseMaterialEdit(Look& look, const std::string& text) {
+  // NAME may hold ':' and ',' but not '=': it ends at the last ':' before the first '='.
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    refuse("--material", text, "[NAME:]key=value,...");
+  const std::size_t colon = text.rfind(':', equals);
+  const std::string name = colon == std::string::npos ? "" : text.substr(0, colon);
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& part :
+       split(text.substr(colon == std::string::npos ? 0 : colon + 1), ',')) {
+    const std::size_t at = part.find('=');
+    if (at != std::string::npos)
+      pairs.emplace_back(part.substr(0, at), part.substr(at + 1));
+    else
+      pairs.back().second += "," + part;  // the first part has its '='
+  }
+  for (const auto& [key, value] : pairs) setMaterialEdit(look, name, key, value);
+}
+
+}  // namespace glint

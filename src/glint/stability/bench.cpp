@@ -1,0 +1,132 @@
+#include "glint/stability/bench.h"
+
+#include <algorithm>
+
+#include "glint/image/error.h"
+#include "glint/reference/renderer.h"
+#include "glint/scene/look_text.h"
+
+namespace glint::stability {
+Bench::Bench(const Look& forms, GlslSources sources, SetParameter set)
+    : setParameter(set),
+      forms_(forms),
+      sources_(std::move(sources)),
+      functions_(sources_,
+                 ProbeText{{"vector.glsl", "lobe.glsl", "fresnel.glsl"}, {{"DENSER_SIDE", 1}}, {}}),
+      programs_(sources_),
+      renderer_(sources_) {
+  lobeIsExact_ = forms.highlight == HighlightForms(Highlight::exact) ||
+                 forms.highlight == HighlightForms(Highlight::pow);
+  fresnelIsExact_ = forms.fresnel == Fresnel::exact || forms.fresnel == Fresnel::textbook;
+}
+
+Look Bench::look(Shading shading) const {
+  Look look;
+  look.highlight = forms_.highlight;
+  look.fresnel = forms_.fresnel;
+  look.schlickExponent = forms_.schlickExponent;
+  look.shading = shading;
+  look.ambientLight = glm::dvec3(0);
+  look.backgroundColor = glm::dvec3(0);
+  look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  look.resolution = {8, 8};
+  look.environment = Environment::white;
+  return look;
+}
+
+std::vector<float> Bench::run(std::string_view function,
+                              const std::vector<std::vector<float>>& columns) {
+  return functions_.run(function, {columns.begin(), columns.end()});
+}
+
+Image Bench::draw(const Scene& scene, const Look& look, const DecodedImages& images) {
+  GpuScene gpu(scene, images);
+  return renderer_.draw(gpu, boundsOf(scene), look);
+}
+
+Image Bench::draw(const Scene& scene, const Look& look, DrawList list) {
+  GpuScene gpu(scene, {});
+  Renderer::Picture picture = renderer_.begin(gpu, std::move(list), look);
+  Image image{look.resolution.x, look.resolution.y, {}}, band;
+  for (int i = 0; i < picture.bandCount(); ++i) {
+    picture.drawBand(band);
+    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
+  }
+  return image;
+}
+
+Image Bench::reference(const Scene& scene, const Look& look, const DecodedImages& images) {
+  return ReferenceRenderer(scene, images, boundsOf(scene), look, 1).draw();
+}
+
+Material litMaterial(double diffuse, double specular, double exponent) {
+  Material material;
+  material.shading = {0, diffuse, specular, exponent, 0, 1.0, glm::dvec3(1, 0, 0)};
+  return material;
+}
+
+LightTolerances tolerancesFor(double exponent) {
+  // The half vector is off by the error of L + V over its length; Blinn's exponent is 4 alpha.
+  return {diffuseTolerance, lobeTolerance(exponent), 2 * lobeTolerance(4 * exponent)};
+}
+
+void expectLight(Bench& bench, Record& record, const std::string& what, double exponent,
+                 const std::vector<Geometry>& geometries, const std::vector<LightValues>& expected,
+                 const LightTolerances& tolerances, Light::Type type) {
+  Points points;
+  for (const Geometry& g : geometries) points.add(g.n, g.p, g.l);
+  Light light;
+  light.type = type;
+  light.direction = {0, 0, 1};
+  for (Shading shading : everyShading) {
+    Look look = bench.look(shading);
+    look.light = {light};
+    const PointScene scene(look, litMaterial(1, 1, exponent));
+    const std::vector<glm::vec3> got = bench.programs().shade(scene, points);
+    const std::vector<glm::dvec3> truth = referenceShade(scene, points);
+    const double tolerance = isBlinn(shading) ? tolerances.blinn : tolerances.phong;
+    Worst diffuse, specular, reference;
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      const std::string where = "N " + vectorText(geometries[i].n) + " L " +
+                                vectorText(geometries[i].l) + " P " + vectorText(geometries[i].p);
+      const double lobe = isBlinn(shading) ? expected[i].blinn : expected[i].phong;
+      // Red carries the highlight too: its rounding counts against the diffuse part.
+      diffuse.add(double(got[i].x) - got[i].y, expected[i].diffuse,
+                  tolerances.diffuse + 2 * rounding * lobe, where);
+      specular.add(got[i].y, bench.lobeIsExact() ? lobe : truth[i].y, tolerance, where);
+      // The same floats go into both, and most are rounded from what the case says.
+      reference.add(truth[i].x - truth[i].y, expected[i].diffuse, tolerances.diffuse, where);
+      if (bench.lobeIsExact()) reference.add(truth[i].y, lobe, tolerance, where);
+    }
+    const std::string name(shadingName(shading));
+    diffuse.into(record, name + ": diffuse, " + what);
+    specular.into(record, name + ": highlight, " + what);
+    reference.into(record, name + " in the reference: " + what);
+  }
+}
+
+LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
+                          double exponent) {
+  using Wide = long double;
+  const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return Wide(a.x) * b.x + Wide(a.y) * b.y + Wide(a.z) * b.z;
+  };
+  const Wide nl = dot(n, l);
+  if (!(nl > 0)) return {};
+  const auto lobe = [](Wide cosine, Wide alpha) {
+    return double(cosine > 0 ? std::pow(std::min(cosine, Wide(1)), alpha) : Wide(0));
+  };
+  LightValues values;
+  values.diffuse = double(nl);
+  values.phong = lobe(2 * nl * dot(n, v) - dot(l, v), Wide(exponent));
+  const Wide square = dot(l, l) + 2 * dot(l, v) + dot(v, v);
+  if (square > 1e-12L)
+    values.blinn = lobe((nl + dot(n, v)) / std::sqrt(square), 4 * Wide(exponent));
+  return values;
+}
+
+std::string vectorText(const glm::dvec3& v) {
+  return "(" + numberText(v.x) + ", " + numberText(v.y) + ", " + numberText(v.z) + ")";
+}
+
+}  // namespace glint::stability

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glint/render/probe.h"
+#include "glint/render/renderer.h"
+#include "glint/stability/case.h"
+#include "glint/stability/program.h"
+
+namespace glint::stability {
+
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double degrees = pi / 180;
+
+/// The rounding of a float, relative.
+inline constexpr double rounding = 1.0 / (1 << 24);
+
+/// How far a lobe may lie from its form's value for rounded unit vectors. |D| = sqrt(2 lambda) with
+/// an error d of D moves lambda by |D| d and the lobe by alpha |D| d exp(-alpha lambda) <=
+/// 0.61 sqrt(alpha) d. D's components are sums of three terms of at most 2, rounded at each step,
+/// of vectors that are themselves off by 1.5e-7 where the shader normalises them: d <= 6.5e-7, so
+/// 4e-7 sqrt(alpha). The power itself adds 1e-6: 0.37 of the relative error of log1m (6e-7) and two
+/// products, and exp2's 3 + 2 |x| ulp (GLSL) times 2^-|x|.
+inline double lobeTolerance(double exponent) { return 1e-6 + 4e-7 * std::sqrt(exponent); }
+
+/// m_d I N.L of unit vectors that are off by 1.5e-7 each: three products, two sums.
+inline constexpr double diffuseTolerance = 6e-7;
+
+/// The exact form of Fresnel: some 12 roundings in amplitudes, their squares halved.
+inline constexpr double fresnelTolerance = 1e-6;
+
+/// What the cases run on: the current context, the reference, and the forms under test.
+class Bench {
+ public:
+  /// `forms` is a look of which the forms (`highlight`, `fresnel`, `schlick-exponent`) are taken.
+  /// `setParameter` sets a parameter of a look by its option's text, as the command line does: some
+  /// cases are about what it refuses.
+  using SetParameter = void (*)(Look&, std::string_view name, const std::string& text);
+  Bench(const Look& forms, GlslSources sources, SetParameter setParameter);
+
+  /// A look with the forms under test, without ambient light, background and anti-aliasing.
+  Look look(Shading shading = Shading::phong) const;
+
+  /// Whether the form claims to be the function itself (exact, pow; exact, textbook): then it is
+  /// held against the function's values, by the tolerance of rounding alone. An approximation is
+  /// held against its own formula in double.
+  bool lobeIsExact() const { return lobeIsExact_; }
+  bool fresnelIsExact() const { return fresnelIsExact_; }
+
+  const GlslSources& sources() const { return sources_; }
+  Programs& programs() { return programs_; }
+
+  /// A function of vector.glsl, lobe.glsl or fresnel.glsl, or one of one's own over them.
+  std::vector<float> run(std::string_view function, const std::vector<std::vector<float>>& columns);
+
+  Image draw(const Scene&, const Look&, const DecodedImages& = {});
+  Image draw(const Scene&, const Look&, DrawList list);
+  Image reference(const Scene&, const Look&, const DecodedImages& = {});
+
+  Renderer& renderer() { return renderer_; }
+
+  const SetParameter setParameter;
+ private:
+  Look forms_;
+  GlslSources sources_;
+  bool lobeIsExact_, fresnelIsExact_;
+  Probe functions_;
+  Programs programs_;
+  Renderer renderer_;
+};
+
+inline constexpr Shading everyShading[] = {Shading::flat, Shading::gouraud, Shading::phong,
+                                           Shading::blinnPhong, Shading::environment};
+
+inline bool isBlinn(Shading s) { return s == Shading::blinnPhong || s == Shading::environment; }
+
+/// Red, so that red less green is diffuse and green is specular; ior 1, so that the program
+/// `environment` reflects nothing.
+Material litMaterial(double diffuse, double specular, double exponent);
+
+/// One place on a surface under one directional light: unit normal, to the light, and the place in
+/// eye space; to the viewer is its negative.
+struct Geometry {
+  glm::vec3 n, l, p;
+};
+
+/// What comes out there: m_d I N.L, and the highlight by Phong and by Blinn-Phong.
+struct LightValues {
+  double diffuse = 0, phong = 0, blinn = 0;
+};
+
+struct LightTolerances {
+  double diffuse = 0, phong = 0, blinn = 0;
+};
+
+/// Checks all five programs on the driver, and the reference, at each geometry: diffuse strength 1,
+/// specular strength 1, white light of intensity 1. What is not an exact form is held against the
+/// reference, whose own values are then not checked here. Findings: the worst of each program.
+void expectLight(Bench&, Record&, const std::string& what, double exponent,
+                 const std::vector<Geometry>& geometries, const std::vector<LightValues>& expected,
+                 const LightTolerances& tolerances, Light::Type type = Light::Type::directional);
+
+/// As it follows from the exponent, for geometries whose half vector is longer than 1/2.
+LightTolerances tolerancesFor(double exponent);
+
+/// The sum's highlight by the notes' formulas in long double, gate included.
+LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
+                          double exponent);
+
+std::string vectorText(const glm::dvec3&);
+
+}  // namespace glint::stability

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "glint/stability/bench.h"
+#include "glint/stability/case.h"
+
+// Cases of group P that look for the worst input of a function of the shaders, and hold it to its
+// bound.
+namespace glint::stability {
+
+void huntLobe(Bench&, Record&);
+void huntFresnel(Bench&, Record&);
+void huntUnit(Bench&, Record&);
+void huntHighlight(Bench&, Record&);
+void reflectanceStaysInRange(Bench&, Record&);
+
+}  // namespace glint::stability

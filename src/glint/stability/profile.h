@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "glint/stability/bench.h"
+
+namespace glint::stability {
+
+/// How exact one thing of the driver is, apart from what glint makes of it.
+struct Quality {
+  std::string name;      ///< "exp2"
+  std::string measured;  ///< over which inputs, against what
+  std::string result;    ///< in words and numbers
+  double ulp = -1;       ///< largest error in floats' spacings; negative where that says nothing
+  double absolute = -1;  ///< likewise in the value's unit
+  std::string required;  ///< what GLSL or OpenGL states
+  std::string verdict;   ///< "as required", "worse than required", "not stated: ..."
+  bool weak = false;     ///< worse than stated, or too inexact to build on
+  std::string touches;   ///< which figures of glint it enters, and which it does not
+};
+
+/// Measures the current context's driver. GLSL 3.30 states no precisions; those of GLSL 4.10 and
+/// later (section "Range and Precision"), which every driver of today offers, stand for them.
+std::vector<Quality> measureProfile(Bench&);
+
+/// One line for each, with the weak ones marked.
+std::string profileText(const std::vector<Quality>&);
+
+nlohmann::ordered_json profileJson(const std::vector<Quality>&);
+
+}  // namespace glint::stability

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "glint/render/draw_list.h"
+#include "glint/render/glsl_sources.h"
+#include "glint/render/probe.h"
+#include "glint/reference/shade.h"
+
+namespace glint::stability {
+
+/// Points of a surface as a program's shading gets them: eye space, one direction of the only light
+/// a point where `lights` is not empty.
+struct Points {
+  std::vector<glm::vec3> normals;    ///< as interpolated, of any length
+  std::vector<glm::vec3> positions;  ///< the eye is at the origin
+  /// In place of the light's direction (directional, camera) or place (point), as it stands in the
+  /// light's block: not normalised on the way. As many as normals, or none.
+  std::vector<glm::vec3> lights;
+  bool front = true;  ///< the side that is seen
+
+  std::size_t size() const { return normals.size(); }
+  void add(const glm::vec3& normal, const glm::vec3& position) {
+    normals.push_back(normal);
+    positions.push_back(position);
+  }
+  void add(const glm::vec3& normal, const glm::vec3& position, const glm::vec3& light) {
+    add(normal, position);
+    lights.push_back(light);
+  }
+};
+
+/// A program and its inputs, made definite for points in eye space: the draw list of a scene of one
+/// small square at the distance 1 before the eye.
+struct PointScene {
+  PointScene(const Look& look, const Material& material);
+
+  Scene scene;
+  Look look;
+  DrawList list;
+
+  const DrawItem& item() const { return list.items.front(); }
+};
+
+/// The programs of glsl/ themselves, whole, through the probe: each variant's own text, uniforms
+/// and varyings turned into variables that a row of inputs sets. Lives in the current context.
+class Programs {
+ public:
+  explicit Programs(GlslSources sources) : sources_(std::move(sources)) {}
+
+  /// Radiance of each point, on the driver.
+  std::vector<glm::vec3> shade(const PointScene&, const Points&);
+
+  /// The reflectance that the scene's form of Fresnel gives for cosines of incidence, on the
+  /// driver; entering through a front face, leaving through a back face. The look's program must be
+  /// `environment` and the material a dielectric.
+  std::vector<float> reflectance(const PointScene&, const std::vector<float>& cosines,
+                                 bool entering);
+
+  /// The probe of a variant, for functions of one's own: its text holds all of the program, with
+  /// `void surfaceMain()` for main, `void setSurface(...)` as shade() uses it.
+  Probe& probe(const Variant&);
+
+ private:
+  GlslSources sources_;
+  std::map<Variant, std::unique_ptr<Probe>> probes_;
+};
+
+/// Radiance of each point by the reference, in double.
+std::vector<glm::dvec3> referenceShade(const PointScene&, const Points&);
+
+/// As Programs::reflectance, by the reference's formulas.
+std::vector<double> referenceReflectance(const PointScene&, const std::vector<float>& cosines,
+                                         bool entering);
+
+/// The text of a variant's program as functions of variables: what Programs compiles.
+std::string programText(const Variant&, const GlslSources&);
+
+}  // namespace glint::stability

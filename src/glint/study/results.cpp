@@ -1,0 +1,272 @@
+#include "glint/study/results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "glint/scene/look_text.h"
+#include "glint/study/format.h"
+#include "glint/study/statistics.h"
+
+namespace glint {
+namespace {
+
+/// The document in the making.
+class Results {
+ public:
+  Results(const StudyHead& head, const StudyResult& result) : head_(head), r_(result) {}
+
+  std::string write(const std::string& command) {
+    add("# Results\n\nMade by\n\n```sh\n" + command + "\n```\n\n");
+    add(formatted(
+        "of %s (%zu triangles, %d x %d pixels, %zu compared) on\n%s, %s. Times are this "
+        "machine's: compare\nthem with each other. Two times count as different beyond the "
+        "spread of one program measured twice,\n%.1f %%; [study.md](study.md) says how all of "
+        "this is measured.\n",
+        head_.model.c_str(), r_.triangles, head_.look.resolution.x, head_.look.resolution.y,
+        r_.mask.pixels.size(), r_.gl.renderer.c_str(), r_.gl.version.c_str(), 100 * r_.spread));
+    if (!r_.complete) add("\n**Incomplete**: the study was ended early.\n");
+    lyon();
+    blinn();
+    gouraud();
+    schlick();
+    specialisation();
+    fronts();
+    return document_;
+  }
+
+ private:
+  void add(const std::string& words) { document_ += words; }
+
+  const VariantResult* variant(const std::string& name) const {
+    for (const VariantResult& v : r_.variants)
+      if (v.variant.name == name) return &v;
+    return nullptr;
+  }
+  const StudySeries* series(const std::string& name) const {
+    for (const StudySeries& s : r_.series)
+      if (s.name == name) return &s;
+    return nullptr;
+  }
+  static const SeriesLine* line(const StudySeries* s, const std::string& name) {
+    if (!s) return nullptr;
+    for (const SeriesLine& l : s->lines)
+      if (l.name == name) return &l;
+    return nullptr;
+  }
+  static double median(const FrameTimes& times) {
+    return times.wall.empty() ? 0 : quantile(times.wall, 0.5);
+  }
+  /// "0.93 (0.91 to 0.95)": the time of a over that of b.
+  static std::string ratio(const FrameTimes& a, const FrameTimes& b) {
+    const TimeRatio of = timeRatio(a.wall, b.wall);
+    return formatted("%.3f (%.3f to %.3f)", of.value, of.low, of.high);
+  }
+  /// "faster", "slower" or "the same", beyond the spread.
+  std::string compared(const FrameTimes& a, const FrameTimes& b) const {
+    if (isFaster(a.wall, b.wall, r_.spread)) return "faster";
+    return isFaster(b.wall, a.wall, r_.spread) ? "slower" : "the same";
+  }
+
+  void lyon() {
+    add("\n## Does Lyon's squaring still beat `pow`, and at which error?\n");
+    for (const char* program : {"phong", "blinn-phong"}) {
+      const VariantResult* pow = variant(std::string(program) + " pow");
+      if (!pow || pow->times.wall.empty()) continue;
+      const VariantResult* best = nullptr;
+      std::string table;
+      int squarings = 0, faster = 0;
+      for (const VariantResult& v : r_.variants) {
+        if (shadingName(v.variant.program) != program || v.times.wall.empty() || v.variant.bound)
+          continue;
+        const PictureError& e = v.errors[0].whole;
+        const bool lyons = v.variant.highlight.starts_with("lyon");
+        const bool wins = isFaster(v.times.wall, pow->times.wall, r_.spread);
+        squarings += lyons;
+        faster += lyons && wins;
+        if (lyons && wins && (!best || e.rmse < best->errors[0].whole.rmse)) best = &v;
+        table +=
+            formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.2f %% |\n", v.variant.highlight.c_str(),
+                      median(v.times), &v == pow ? "1" : ratio(v.times, pow->times).c_str(), e.max,
+                      e.rmse, 100 * e.offByMore);
+      }
+      add(std::string("\n**") + program + ".** ");
+      if (squarings == 0)
+        add("No form of Lyon's was measured.");
+      else if (faster == 0)
+        add(formatted(
+            "No: of %d forms of Lyon's squaring none is faster than `pow` beyond the spread.",
+            squarings));
+      else
+        add(formatted(
+            "Yes: %d of %d forms of Lyon's squaring are faster than `pow` beyond the spread; "
+            "the most accurate of them, `%s`, has an RMSE of %.1e and a largest error of %.1e.",
+            faster, squarings, best->variant.highlight.c_str(), best->errors[0].whole.rmse,
+            best->errors[0].whole.max));
+      add("\n\n| form | ms | time / `pow` | largest error | RMSE | codes off by > 1 |\n"
+          "|---|---|---|---|---|---|\n" +
+          table);
+    }
+    if (const StudySeries* s = series("exponent"); s && !s->lines.empty()) {
+      add("\nThe largest error over the exponent α, `phong`:\n\n| form |");
+      for (const SeriesPoint& p : s->lines[0].points) add(formatted(" %g |", p.x));
+      add("\n|---|");
+      for (std::size_t i = 0; i < s->lines[0].points.size(); ++i) add("---|");
+      for (const SeriesLine& l : s->lines) {
+        add("\n| `" + l.name + "` |");
+        for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
+      }
+      add("\n");
+    }
+  }
+
+  void blinn() {
+    add("\n## What does Blinn cost or save against Phong through D, and how far off is 4α?\n");
+    const VariantResult *phong = variant("phong exact"), *half = variant("blinn-phong exact");
+    if (phong && half && !phong->times.wall.empty()) {
+      const VariantError* distance = errorAgainst(*half, Shading::phong);
+      add("\nA frame of `blinn-phong` takes " + ratio(half->times, phong->times) +
+          " of one of `phong`, both in the exact form: " + compared(half->times, phong->times) +
+          " beyond the spread.");
+      if (distance)
+        add(formatted(" On this scene its picture is off Phong's by %.1e at most, RMSE %.1e.",
+                      distance->whole.max, distance->whole.rmse));
+      add("\n");
+    }
+    const StudySeries* s = series("incidence");
+    const SeriesLine *four = line(s, "blinn-phong 4α"), *cosine = line(s, "blinn-phong 4α cos θ"),
+                     *exact = line(s, "phong");
+    if (!four || !cosine || !exact) return;
+    add("\n" + s->note +
+        ":\n\n| θ | largest error of 4α | relative RMSE | largest error of "
+        "4α cos θ | relative RMSE | ms `phong` | ms `blinn-phong` "
+        "|\n|---|---|---|---|---|---|---|\n");
+    for (std::size_t i = 0; i < four->points.size(); ++i)
+      add(formatted("| %g° | %.4f | %.4f | %.4f | %.4f | %.2f | %.2f |\n", four->points[i].x,
+                    four->points[i].max, four->points[i].relativeRmse, cosine->points[i].max,
+                    cosine->points[i].relativeRmse, exact->points[i].milliseconds,
+                    four->points[i].milliseconds));
+  }
+
+  void gouraud() {
+    const StudySeries* s = series("fineness");
+    if (!s || s->lines.empty()) return;
+    add("\n## From which fineness on is Gouraud enough for a given error?\n\n" + s->note +
+        ".\nThe largest edge / radius h (and number of triangles) whose largest error is within "
+        "E:\n\n| E |");
+    std::vector<const SeriesLine*> lines;
+    for (const SeriesLine& l : s->lines) lines.push_back(&l);
+    for (const SeriesLine* l : lines) add(" " + l->name + " |");
+    add("\n|---|");
+    for (std::size_t i = 0; i < lines.size(); ++i) add("---|");
+    for (const double bound : {0.1, 0.05, 0.02, 0.01, 0.005, 0.001}) {
+      add(formatted("\n| %g |", bound));
+      for (const SeriesLine* l : lines) {
+        std::string cell = " not reached |";
+        for (std::size_t i = 0; i < l->points.size(); ++i)
+          if (std::all_of(l->points.begin() + std::ptrdiff_t(i), l->points.end(),
+                          [&](const SeriesPoint& p) { return p.max <= bound; })) {
+            cell = formatted(" %.3f (%d) |", l->points[i].x, 20 << 2 * (i + 1));
+            break;
+          }
+        add(cell);
+      }
+    }
+    add("\n\nOrders of the last step, RMSE and largest error (1, 2 and 2 are expected of `flat`, "
+        "`gouraud` and per pixel):");
+    for (const SeriesLine* l : lines)
+      add(formatted("%s %s %.2f and %.2f", l == lines[0] ? "" : ";", l->name.c_str(), l->orderRmse,
+                    l->orderMax));
+    add(".\nThe law behind it: the largest error is near (2/3) m_s α h², so Gouraud is enough from "
+        "h = √(1.5 E / (m_s α)) on.\n");
+  }
+
+  void schlick() {
+    add("\n## Is Schlick ever on the front when the rational form exists?\n\n");
+    std::string on;
+    bool any = false;
+    for (const StudyFront& front : r_.fronts) {
+      if (front.model != Shading::environment) continue;
+      any = true;
+      for (std::size_t i = 0; i < front.variants.size(); ++i)
+        if (front.places[i].onFront &&
+            r_.variants[std::size_t(front.variants[i])].variant.fresnel == "schlick")
+          on += (on.empty() ? "" : ", ") + front.metric;
+    }
+    if (!any) {
+      add("The environment was not measured.\n");
+      return;
+    }
+    add(variant("environment rational") ? "" : "(There is no rational form here.) ");
+    add(on.empty() ? "No, of no metric.\n" : "Yes, of the metrics " + on + ".\n");
+    add("\n| form | ms | time / exact | largest error | RMSE | FLIP "
+        "|\n|---|---|---|---|---|---|\n");
+    const VariantResult* exact = variant("environment exact");
+    for (const VariantResult& v : r_.variants)
+      if (v.variant.program == Shading::environment && exact && !v.times.wall.empty() &&
+          !v.variant.bound)
+        add(formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.1e |\n", v.variant.fresnel.c_str(),
+                      median(v.times), &v == exact ? "1" : ratio(v.times, exact->times).c_str(),
+                      v.errors[0].whole.max, v.errors[0].whole.rmse, v.errors[0].flip));
+    const StudySeries* s = series("ior");
+    if (!s || s->lines.empty()) return;
+    add("\nThe largest error over the index n:\n\n| form |");
+    for (const SeriesPoint& p : s->lines[0].points) add(formatted(" %g |", p.x));
+    add("\n|---|");
+    for (std::size_t i = 0; i < s->lines[0].points.size(); ++i) add("---|");
+    for (const SeriesLine& l : s->lines) {
+      add("\n| `" + l.name + "` |");
+      for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
+    }
+    add("\n");
+  }
+
+  void specialisation() {
+    if (r_.specialisations.empty()) return;
+    add("\n## What does \"only what the scene needs\" save?\n\nThe same picture by a shader with "
+        "every feature of the program: textures, vertex colours, emission, alpha,\nlights of each "
+        "kind, both sides, normals renormalised everywhere.\n\n| program | compile, ms | first "
+        "frame, ms | a frame, ms | frame: needed / everything | pictures differ by |\n"
+        "|---|---|---|---|---|---|\n");
+    for (const Specialisation& s : r_.specialisations)
+      add(formatted("| %s | %.1f of %.1f | %.1f of %.1f | %.2f of %.2f | %s | %.1e |\n",
+                    s.program.c_str(), s.compile, s.generalCompile, s.first, s.generalFirst,
+                    median(s.times), median(s.generalTimes), ratio(s.times, s.generalTimes).c_str(),
+                    s.difference));
+  }
+
+  void fronts() {
+    add("\n## The fronts\n\nFrom the most accurate to the fastest; what is not named is dominated "
+        "by "
+        "one of these.\n\n");
+    for (const StudyFront& front : r_.fronts) {
+      if (front.metric != "rmse" && front.metric != "max") continue;
+      std::vector<std::pair<double, std::string>> members;
+      for (std::size_t i = 0; i < front.variants.size(); ++i) {
+        if (!front.places[i].onFront) continue;
+        const VariantResult& v = r_.variants[std::size_t(front.variants[i])];
+        const double error = metricOf(*errorAgainst(v, front.model), front.metric);
+        members.emplace_back(
+            error, formatted("%s (%.1e, %.2f ms)", v.variant.name.c_str(), error, median(v.times)));
+      }
+      std::sort(members.begin(), members.end());
+      add("* " + std::string(shadingName(front.model)) + ", " +
+          (front.metric == "max" ? "largest error" : "RMSE") + ": ");
+      for (std::size_t i = 0; i < members.size(); ++i)
+        add((i == 0 ? "" : ", ") + members[i].second);
+      add("\n");
+    }
+  }
+
+  const StudyHead& head_;
+  const StudyResult& r_;
+  std::string document_;
+};
+
+}  // namespace
+
+std::string studyResults(const StudyHead& head, const StudyResult& result,
+                         const std::string& command) {
+  return Results(head, result).write(command);
+}
+
+}  // namespace glint

@@ -1,0 +1,202 @@
+#include "glint/study/series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "glint/scene/look_text.h"
+#include "glint/study/statistics.h"
+
+namespace glint {
+namespace {
+
+StudySeries named(const char* name, const char* title, const char* axis, const char* note) {
+  StudySeries series;
+  series.name = name;
+  series.title = title;
+  series.axis = axis;
+  series.note = note;
+  return series;
+}
+
+bool anyItem(const SeriesTools& tools, Shading program, bool Variant::*feature) {
+  const DrawList list =
+      makeDrawList(tools.scene.scene, tools.scene.bounds, exactLook(tools.look, program));
+  return std::any_of(list.items.begin(), list.items.end(),
+                     [&](const DrawItem& item) { return item.variant.*feature; });
+}
+
+/// Lights from the front, evenly over the cap of 75 degrees around the viewer's direction (a
+/// golden spiral), together as bright as one.
+std::vector<Light> spreadLights(int count) {
+  std::vector<Light> lights;
+  const double low = std::cos(75 * std::numbers::pi / 180);
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (1 - low) * (i + 0.5) / count, r = std::sqrt(1 - z * z);
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    Light light;
+    light.type = Light::Type::camera;
+    light.direction = {r * std::cos(turn), r * std::sin(turn), z};
+    light.intensity = glm::dvec3(1.0 / count);
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+constexpr Shading lightPrograms[] = {Shading::flat, Shading::gouraud, Shading::phong,
+                                     Shading::blinnPhong};
+
+}  // namespace
+
+SeriesDrawer::SeriesDrawer(const SeriesTools& tools, StudySeries series)
+    : tools_(tools), series_(std::move(series)) {}
+
+void SeriesDrawer::add(const std::string& name, double x, const Look& look, const StudyMask* mask,
+                       const Radiances* truth) {
+  add(name, x, tools_.gpu, tools_.scene, look, mask, truth);
+}
+
+void SeriesDrawer::add(const std::string& name, double x, GpuScene& gpu, const StudyScene& scene,
+                       const Look& look, const StudyMask* mask, const Radiances* truth) {
+  auto line = std::find_if(series_.lines.begin(), series_.lines.end(),
+                           [&](const SeriesLine& l) { return l.name == name; });
+  if (line == series_.lines.end()) {
+    series_.lines.push_back({name, {}});
+    line = series_.lines.end() - 1;
+  }
+  DrawList list = makeDrawList(scene.scene, scene.bounds, look);
+  SeriesPoint point;
+  point.x = x;
+  if (mask && truth) {
+    const PictureError e =
+        errorOf(*truth, radiancesOf(drawList(tools_.renderer, gpu, list, look), *mask));
+    point.max = e.max;
+    point.rmse = e.rmse;
+    point.relativeRmse = e.relativeRmse;
+  }
+  trials_.push_back({std::size_t(line - series_.lines.begin()), line->points.size(),
+                     tools_.renderer.begin(gpu, std::move(list), look)});
+  line->points.push_back(point);
+}
+
+StudySeries SeriesDrawer::finish() {
+  std::vector<Renderer::Picture*> pictures;
+  for (Trial& trial : trials_) pictures.push_back(&trial.picture);
+  const int whole = tools_.warmUp + tools_.rounds;
+  const auto times =
+      timeInTurn(pictures, tools_.warmUp, tools_.rounds, tools_.stop,
+                 [&](int round) { tools_.tell(0.5 + 0.5 * (round + tools_.warmUp + 1) / whole); });
+  for (std::size_t i = 0; i < trials_.size(); ++i)
+    if (!times[i].wall.empty())
+      series_.lines[trials_[i].line].points[trials_[i].point].milliseconds =
+          quantile(times[i].wall, 0.5);
+  if (series_.hasOrders) setOrders(series_);
+  return std::move(series_);
+}
+
+void setOrders(StudySeries& series) {
+  for (SeriesLine& line : series.lines) {
+    if (line.points.size() < 2) continue;
+    const SeriesPoint &coarse = line.points[line.points.size() - 2], &fine = line.points.back();
+    const double step = std::log(coarse.x / fine.x);
+    line.orderMax = std::log(coarse.max / fine.max) / step;
+    line.orderRmse = std::log(coarse.rmse / fine.rmse) / step;
+  }
+}
+
+std::optional<StudySeries> exponentSeries(const SeriesTools& tools) {
+  if (!anyItem(tools, Shading::phong, &Variant::specular)) return {};
+  SeriesDrawer drawer(tools,
+                      named("exponent", "Forms of the highlight over the exponent", "exponent α",
+                            "phong in each form against exact phong; every material's "
+                            "exponent is α"));
+  std::vector<double> exponents{5, 10, 20, 50, 100, 200, 500, 1000, 10000};
+  if (tools.quick) exponents = {5, 20, 100, 1000};
+  const auto forms = lobeForms(tools.quick);
+  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
+  for (std::size_t i = 0; i < exponents.size() && !tools.stopped(); ++i) {
+    Look look = exactLook(tools.look, Shading::phong);
+    look.material[""].exponent = exponents[i];
+    const Radiances truth = truthOf(tools.scene, look, Shading::phong, mask);
+    for (const std::string& form : forms) {
+      setForms(look, form, "exact");
+      drawer.add(form, exponents[i], look, &mask, &truth);
+    }
+    tools.tell(0.5 * double(i + 1) / double(exponents.size()));
+  }
+  return drawer.finish();
+}
+
+std::optional<StudySeries> iorSeries(const SeriesTools& tools) {
+  if (!anyItem(tools, Shading::environment, &Variant::dielectric)) return {};
+  SeriesDrawer drawer(tools, named("ior", "Forms of the reflectance over the index of refraction",
+                                   "index of refraction n",
+                                   "environment in each form against exact environment; every "
+                                   "material's index is n"));
+  std::vector<double> indices{1.05, 1.1, 1.2, 1.33, 1.5, 1.8, 2.4, 4};
+  if (tools.quick) indices = {1.1, 1.33, 1.5, 2.4};
+  const auto forms = reflectanceForms(tools.quick);
+  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
+  for (std::size_t i = 0; i < indices.size() && !tools.stopped(); ++i) {
+    Look look = exactLook(tools.look, Shading::environment);
+    look.material[""].ior = indices[i];
+    const Radiances truth = truthOf(tools.scene, look, Shading::environment, mask);
+    for (const std::string& form : forms) {
+      setForms(look, "exact", form);
+      drawer.add(form, indices[i], look, &mask, &truth);
+    }
+    tools.tell(0.5 * double(i + 1) / double(indices.size()));
+  }
+  return drawer.finish();
+}
+
+std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
+  SeriesDrawer drawer(tools, named("lights", "Programs over the number of lights", "lights",
+                                   "directional lights from the front, together as bright as one; "
+                                   "exact forms against exact phong, blinn-phong against itself"));
+  std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
+  if (tools.quick) counts = {1, 8, 64};
+  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
+  for (std::size_t i = 0; i < counts.size() && !tools.stopped(); ++i) {
+    Look lit = tools.look;
+    lit.noLights = false;
+    lit.light = spreadLights(counts[i]);
+    const Radiances phong = truthOf(tools.scene, lit, Shading::phong, mask);
+    for (const Shading program : lightPrograms) {
+      const Look look = exactLook(lit, program);
+      const Radiances blinn =
+          program == Shading::blinnPhong ? truthOf(tools.scene, lit, program, mask) : Radiances();
+      drawer.add(std::string(shadingName(program)), counts[i], look, &mask,
+                 blinn.empty() ? &phong : &blinn);
+    }
+    tools.tell(0.5 * double(i + 1) / double(counts.size()));
+  }
+  return drawer.finish();
+}
+
+std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
+  StudySeries whole = named("resolution", "Programs over the resolution", "pixels of the picture",
+                            "time alone; exact forms; the aspect of the picture stays");
+  whole.hasErrors = false;
+  // Of the study's own picture, of which series draw half the width.
+  std::vector<double> scales{0.125, 0.25, 0.5, 1, 2};
+  if (tools.quick) scales = {0.25, 0.5, 1};
+  const glm::dvec2 size(2 * tools.look.resolution);
+  for (std::size_t i = 0; i < scales.size() && !tools.stopped(); ++i) {
+    Renderer renderer;  // its target is of this size
+    SeriesTools sized{tools.scene,  tools.gpu,    renderer,   tools.look, tools.quick,
+                      tools.warmUp, tools.rounds, tools.stop, {}};
+    sized.look.resolution = glm::max(glm::ivec2(1), glm::ivec2(glm::round(scales[i] * size)));
+    SeriesDrawer drawer(sized, whole);
+    for (const Shading program : lightPrograms)
+      drawer.add(std::string(shadingName(program)),
+                 double(sized.look.resolution.x) * sized.look.resolution.y,
+                 exactLook(sized.look, program), nullptr, nullptr);
+    StudySeries part = drawer.finish();
+    if (part.lines[0].points.back().milliseconds > 0) whole = std::move(part);
+    tools.tell(double(i + 1) / double(scales.size()));
+  }
+  return whole;
+}
+
+}  // namespace glint

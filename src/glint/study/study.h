@@ -1,0 +1,125 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/gl/context.h"
+#include "glint/study/frame_times.h"
+#include "glint/study/front.h"
+#include "glint/study/picture_error.h"
+#include "glint/study/variants.h"
+
+// Speed against error: how long each way of shading a scene takes with this driver, and how far its
+// picture is from the exact one.
+namespace glint {
+
+struct StudyOptions {
+  Look look;           ///< without anti-aliasing
+  StudyFilter filter;  ///< with one there are no series
+  int warmUp = 10;     ///< rounds that are not counted
+  int rounds = 60;     ///< frames of each variant
+  int builds = 6;      ///< of each program, which share the rounds
+  bool quick = false;  ///< series of fewer points
+  bool keepPictures = false;
+};
+
+/// The difference of a variant from the exact form of a model.
+struct VariantError {
+  Shading against = Shading::phong;
+  PictureError whole;
+  double flip = 0;
+};
+
+struct VariantResult {
+  StudyVariant variant;
+  std::vector<std::string> features;  ///< of the scene's variants together
+  double compile = 0;                 ///< ms of GL's compiler
+  double firstFrame = 0;  ///< ms of the first frame, in which a software driver compiles
+  FrameTimes times;
+  /// The first is against its own model; blinn-phong's second is its distance from phong.
+  std::vector<VariantError> errors;
+  /// Parts of the first: what the form and rounding add to what the driver interpolated, and what
+  /// that differs from the exact. Of flat and gouraud the latter is that light is interpolated and
+  /// not the normal.
+  PictureError shading, interpolation;
+  Image picture;  ///< if kept; premultiplied
+};
+
+/// What a frame of the same target takes that shades nothing.
+struct StudyFloor {
+  std::string name;  ///< "empty": cleared only; "constant": the same surface in one colour
+  FrameTimes times;
+};
+
+/// Time against one metric of the error, among the variants that approximate one model.
+struct StudyFront {
+  Shading model = Shading::phong;
+  std::string metric;              ///< a name of errorMetrics()
+  std::vector<int> variants;       ///< indices
+  std::vector<FrontPlace> places;  ///< of those; dominatedBy counts in `variants`
+};
+
+struct SeriesPoint {
+  double x = 0;
+  double max = 0, rmse = 0, relativeRmse = 0;
+  double milliseconds = 0;  ///< median of a frame; 0 where it was not measured
+};
+
+struct SeriesLine {
+  std::string name;
+  std::vector<SeriesPoint> points;
+  double orderMax = 0, orderRmse = 0;  ///< of the last step, where the series has orders
+};
+
+struct StudySeries {
+  std::string name, title, axis;
+  std::string note;  ///< what is compared with what
+  bool logarithmic = true, hasErrors = true, hasOrders = false;
+  std::vector<SeriesLine> lines;
+};
+
+/// Model and look drawn by shaders that hold what they need, and by ones that hold everything.
+struct Specialisation {
+  std::string program;
+  double compile = 0, generalCompile = 0, first = 0, generalFirst = 0;  ///< ms
+  FrameTimes times, generalTimes;
+  double difference = 0;  ///< largest, of the two pictures
+};
+
+struct StudyResult {
+  bool complete = false;
+  std::vector<std::string> missing;  ///< what was left out when it ended early
+  GlStrings gl;
+  std::size_t triangles = 0, draws = 0;
+  StudyMask mask;  ///< of the variants' pictures
+  std::vector<VariantResult> variants;
+  std::vector<StudyFloor> floors;
+  std::vector<std::string> controls;     ///< variants measured twice, by programs of their own
+  std::vector<TimeRatio> controlRatios;  ///< of the second measurement to the first
+  double spread = 0;                     ///< noise floor of a ratio of times
+  std::vector<StudyFront> fronts;
+  std::vector<StudySeries> series;
+  std::vector<Specialisation> specialisations;
+  std::vector<std::pair<Shading, Radiances>> truths;  ///< by model, if pictures are kept
+};
+
+/// Tells what is being done and what share of it is done, [0, 1].
+using StudyProgress = std::function<void(std::string_view what, double share)>;
+
+/// max, p999, rmse, relative-rmse, flip: the metrics that fronts are made for.
+const std::vector<std::string>& errorMetrics();
+double metricOf(const VariantError& error, const std::string& metric);
+
+/// The error of a variant against a model, null if it approximates another.
+const VariantError* errorAgainst(const VariantResult& variant, Shading model);
+
+/// Milliseconds of a frame in the exact form of phong, in the current context.
+double exactFrame(const StudyScene& scene, const Look& look);
+
+/// Studies a scene in the current context. `stop` ends it early with what there is by then.
+StudyResult study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,
+                  const StudyProgress& progress);
+
+}  // namespace glint
