@@ -3,7 +3,7 @@
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
 set(GLINT_MISSING "")
 
-# glint_needs(DEBIAN_PACKAGE [OFF option] name arguments... ) looks for a CMake package.
+# glint_needs(DEBIAN_PACKAGE name arguments... ) looks for a CMake package.
 macro(glint_needs debian name)
   find_package(${name} QUIET ${ARGN})
   if(NOT ${name}_FOUND)
@@ -11,7 +11,7 @@ macro(glint_needs debian name)
   endif()
 endmacro()
 
-# glint_needs_module(DEBIAN_PACKAGE PREFIX module) one that pkg-config knows: PkgConfig::PREFIX.
+# glint_needs_module(DEBIAN_PACKAGE prefix module) looks for one of pkg-config: PkgConfig::prefix.
 macro(glint_needs_module debian prefix module)
   if(PkgConfig_FOUND)
     pkg_check_modules(${prefix} QUIET IMPORTED_TARGET GLOBAL ${module})
@@ -52,7 +52,7 @@ if(GLINT_VIEWER)
   glint_needs_module(libimgui-dev imgui imgui)
 endif()
 if(GLINT_TESTS)
-  glint_needs(libgtest-dev GTest)
+  glint_needs(libgmock-dev GTest)
   find_path(GLINT_BOOST_INCLUDE_DIR boost/multiprecision/cpp_dec_float.hpp)
   if(NOT GLINT_BOOST_INCLUDE_DIR)
     list(APPEND GLINT_MISSING libboost-dev)
@@ -64,7 +64,7 @@ if(GLINT_MISSING)
   list(JOIN GLINT_MISSING " " missing)
   set(hint "")
   foreach(part "meshoptimizer GLINT_MESHOPT" "draco GLINT_DRACO" "libwebp GLINT_WEBP"
-               "glfw3 GLINT_VIEWER" "imgui GLINT_VIEWER" "gtest GLINT_TESTS" "boost GLINT_TESTS")
+               "glfw3 GLINT_VIEWER" "imgui GLINT_VIEWER" "gmock GLINT_TESTS" "boost GLINT_TESTS")
     string(REPLACE " " ";" part ${part})
     list(GET part 0 word)
     list(GET part 1 switch)

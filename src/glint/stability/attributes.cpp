@@ -9,6 +9,7 @@
 #include "glint/scene/look_text.h"
 #include "glint/shading/safe.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {

@@ -9,6 +9,7 @@
 #include "glint/render/tiles.h"
 #include "glint/scene/look_text.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {
