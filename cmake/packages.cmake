@@ -73,9 +73,9 @@ if(GLINT_MISSING)
     endif()
   endforeach()
   if(hint)
-    set(hint "\nWhat is optional among them can be left out:${hint}")
+    set(hint "Or leave out what is optional:\n ${hint}")
   endif()
-  message(FATAL_ERROR
-    "glint cannot find what these Debian packages have:\n  ${missing}\n"
-    "Install them: apt-get install --no-install-recommends ${missing}${hint}")
+  # Lines that are set in are not broken.
+  message(FATAL_ERROR "glint needs packages that are not here. On Debian:\n"
+                      "  apt-get install --no-install-recommends ${missing}\n" ${hint})
 endif()
