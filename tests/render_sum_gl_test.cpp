@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formulas.h"
+#include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"
 

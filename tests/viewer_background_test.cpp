@@ -12,7 +12,7 @@
 #include "reference_scenes.h"
 #include "scenes.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using namespace std::chrono_literals;
@@ -245,4 +245,4 @@ TEST(Pace, DoesNotMakeSmallerWhatThatDoesNotMakeFaster) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -5,7 +5,7 @@
 #include "viewer/camera_control.h"
 #include "viewer/picking.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 // A square of two triangles in the plane z = 0, facing +Z, with corners at +-1.
@@ -132,4 +132,4 @@ TEST(Picker, WorksFarFromTheOrigin) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -4,7 +4,7 @@
 #include "viewer/reference_task.h"
 #include "scenes.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 // A ball whose picture is round enough for gouraud without a highlight.
@@ -81,4 +81,4 @@ TEST(ViewerChoice, TheReferenceHasTheProgramChosenAndExactForms) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

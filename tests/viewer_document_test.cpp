@@ -3,7 +3,7 @@
 #include "viewer/document.h"
 #include "viewer/input.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 Document withExponent(Document d, double value) {
@@ -131,4 +131,4 @@ TEST(InputQueue, NothingIsLostOrReordered) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -12,7 +12,7 @@
 #include "viewer/materials.h"
 #include "viewer/presets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 using testing::HasSubstr;
@@ -210,4 +210,4 @@ TEST(Edits, BrighterFileLightsStayTheFiles) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -7,7 +7,7 @@
 #include "viewer/materials.h"
 #include "viewer/presets.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 Scene twoMaterials() {
@@ -115,4 +115,4 @@ TEST(Presets, TheFitGivesAGreySpecularColourBack) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

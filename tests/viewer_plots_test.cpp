@@ -6,7 +6,7 @@
 #include "viewer/compose.h"
 #include "viewer/plots.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 TEST(LobePlot, PeaksAtTheMirrorDirection) {
@@ -123,4 +123,4 @@ TEST(Compose, MarksWhatIsClipped) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -6,7 +6,7 @@
 #include "glint/image/error.h"
 #include "viewer/session.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 std::string pathOf(const char* name) { return std::string(GLINT_SOURCE_DIR) + "/models/" + name; }
@@ -98,4 +98,4 @@ TEST(Posing, ByManyThreads) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

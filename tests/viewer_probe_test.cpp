@@ -7,7 +7,7 @@
 #include "reference_scenes.h"
 #include "scenes.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 // Every pixel's probe against the whole picture by the reference, which draws all triangles. Where
@@ -179,4 +179,4 @@ TEST(ViewerProbe, TheBackgroundIsTheReferencesToo) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer

@@ -9,7 +9,7 @@
 #include "viewer/settings.h"
 #include "viewer/xdg.h"
 
-namespace glint {
+namespace glint::viewer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ TEST_F(SettingsTest, FoldersAreThoseOfXdg) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::viewer
