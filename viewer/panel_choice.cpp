@@ -78,7 +78,7 @@ void drawChoice(PanelContext& context) {
   if (picture->asked.maxError) {
     widgets::label("  bound");
     const std::string text = number(resolved.bound);
-    if (resolved.bound > *picture->asked.maxError)
+    if (resolved.bound > *errorBudget(picture->asked))
       ImGui::TextColored(overColor, "%s", text.c_str());
     else
       ImGui::TextUnformatted(text.c_str());

@@ -16,6 +16,7 @@
 #include "glint/shading/bounds.h"
 #include "glint/shading/safe.h"
 #include "glint/budget/interpolation_bound.h"
+#include "glint/budget/scene_distance.h"
 
 namespace glint {
 namespace {
@@ -52,41 +53,6 @@ Surroundings surroundingsOf(const Look& look) {
   return {largestRadiance(map), steepestRadiance(map)};
 }
 
-double distanceToEdge(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 way = b - a;
-  const double square = glm::dot(way, way);
-  const double t = square > 0 ? std::clamp(glm::dot(p - a, way) / square, 0.0, 1.0) : 0.0;
-  return glm::length(p - a - t * way);
-}
-
-double distanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
-                          const glm::dvec3& c) {
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const double size = glm::length(n);
-  const bool above = size > 0 && glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
-                     glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
-                     glm::dot(glm::cross(a - c, p - c), n) >= 0;
-  return above ? std::abs(glm::dot(p - a, n)) / size
-               : std::min(
-                     {distanceToEdge(p, a, b), distanceToEdge(p, b, c), distanceToEdge(p, c, a)});
-}
-
-// How near the lit surfaces of the scene come to a point.
-double distanceToScene(const Scene& scene, const glm::dvec3& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-    if (mesh.topology != Topology::triangles) continue;
-    const auto at = [&](std::size_t i) {
-      const glm::dvec3 x = glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.origin;
-      return glm::dvec3(instance.world * glm::dvec4(x, 1.0));
-    };
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      least = std::min(least, distanceToTriangle(point, at(i), at(i + 1), at(i + 2)));
-  }
-  return least;
-}
-
 // What all surfaces have in common.
 struct Setting {
   Look given;
@@ -94,6 +60,10 @@ struct Setting {
   Camera camera;
   std::vector<glint::Light> lights;
   LightReach reach;
+  // How far rounding turns the direction to each light, and to the viewer; radians.
+  std::vector<double> turns;
+  double viewTurn = 0;
+  double spotTurn = 0;        // the same, each times the turn of its light
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
@@ -111,6 +81,18 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
   const std::vector<glint::Light> given = lightsOf(s.look);
   for (const std::size_t i : shiningLights(given)) s.lights.push_back(given[i]);
+  // Positions are floats in eye space, whose rounding is that of the largest coordinates on the way
+  // to them: of the vertices (three products, three sums, the model's own coordinates) and of the
+  // interpolation between them, 16 roundings in all. A lamp or an eye at the distance d sees
+  // them turned by that over d.
+  const double reach = glm::length(s.camera.eye - bounds.center) + 3 * bounds.radius;
+  const double placeError = 16 * u * reach;
+  const auto turnAt = [&](double distance) {
+    return std::min(placeError / std::max(distance, 1e-300) + 2 * u, 2.0);
+  };
+  const SceneDistance distance(scene);
+  if (!s.camera.orthographic && look.viewer == Viewer::local)
+    s.viewTurn = turnAt(std::max(distance.to(s.camera.eye), s.camera.near));
   std::vector<glm::dvec3> directions, intensities;
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
@@ -119,12 +101,14 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       directions.push_back(camera ? s.camera.axes * direction : direction);
       intensities.push_back(light.intensity);
       s.reach.most.push_back(light.intensity);
+      s.turns.push_back(0);
       continue;
     }
+    const double way = distance.to(light.position);
+    s.turns.push_back(turnAt(way));
     // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
     double most = 1;
     if (light.fallsOff) {
-      const double way = distanceToScene(scene, light.position);
       most = 1 / std::pow(std::max(way, 1e-6), 2);
     }
     s.reach.most.push_back(most * light.intensity);
@@ -133,6 +117,7 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       constexpr double radians = 0.017453292519943295;
       const double range =
           std::cos(light.innerAngle * radians) - std::cos(light.outerAngle * radians);
+      s.spotTurn += s.turns.back() * most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
       s.spotSteepness += most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
     }
   }
@@ -156,6 +141,28 @@ double refractionError(const ShadingParameters& m, const Look& look, bool twoSid
     worst = std::max(worst, std::min(root, slope * square + m.metalness * root));
   }
   return 2e-6 * n + worst;
+}
+
+// What the turn of the directions to lamps and viewer adds to the sum: N.L moves by the turn, a
+// lobe by the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by
+// its slope.
+double turnError(const Setting& setting, const Material& material, const glm::dvec3& C,
+                 const glm::dvec3& S, const Variant& v) {
+  const ShadingParameters& m = material.shading;
+  const double matte = v.diffuse ? m.diffuse * largest(C) : 0.0;
+  const double shine = v.specular ? m.specular * largest(S) : 0.0;
+  const double alpha = v.specular ? lobeExponent(material, setting.look) : 0.0;
+  const auto lobeMoves = [&](double turn) {
+    return v.specular ? std::min(lobeTurnBound(alpha, setting.blinn, turn), 1.0) : 0.0;
+  };
+  double error = setting.spotTurn * (matte + shine);
+  for (std::size_t i = 0; i < setting.lights.size(); ++i) {
+    const double turn = setting.turns[i], most = largest(setting.reach.most[i]);
+    error += most * (matte * std::min(turn, 1.0) + shine * lobeMoves(turn));
+    if (setting.lights[i].fallsOff && turn > 0)
+      error += most * (matte + shine) * (turn < 0.25 ? 3 * turn : 1e6);
+  }
+  return error + largest(setting.reach.together) * shine * lobeMoves(setting.viewTurn);
 }
 
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
@@ -190,6 +197,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
                         ((v.diffuse ? m.diffuse * largest(C) : 0.0) +
                          (v.specular ? m.specular * largest(S) : 0.0)) +
                     2.0 * u * largest(material.emission);
+  rounding += turnError(setting, material, C, S, v);
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
     const auto [radiance, steep] = setting.surroundings;
@@ -204,7 +212,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
     // cosines.
     rounding +=
-        1e-5 + 2e-6 * steep +
+        1e-5 + (2e-6 + 2 * setting.viewTurn) * steep +
         (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
     if (v.refraction)
       rounding += largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided));
@@ -367,6 +375,11 @@ glm::dvec3 activeIntensity(const std::vector<glm::dvec3>& directions,
   return glm::min(most, all);
 }
 
+std::optional<double> errorBudget(const Look& look) {
+  if (!look.maxError || !look.maxErrorInCodes) return look.maxError;
+  return *look.maxError / (255 * 12.92) / std::exp2(look.exposure);
+}
+
 ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& look) {
   ResolvedLook resolved;
   resolved.look = look;
@@ -374,9 +387,10 @@ ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& l
   resolved.look.shading = programOf(look);
   if (automatic) resolved.programReason = "phong: no --max-error to keep within";
   if (!look.maxError) return resolved;
-  const double budget = *look.maxError;
+  const double budget = *errorBudget(look);
   Look plain = resolved.look;
   plain.maxError.reset();
+  plain.maxErrorInCodes = false;
   clearForms(plain);
   const Setting setting = settingFor(scene, bounds, plain);
   const ResolvedLook perPixel = chosenFor(scene, setting, plain.shading, budget);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct ResolvedLook {
   std::string programReason;        ///< of --shading auto; otherwise empty
 };
 
+/// The look's max-error in linear radiance before exposure; nothing without one. N codes are N / (255
+/// * 12.92) after exposure: the steps between 8-bit codes are that wide at black and wider elsewhere,
+/// so that a smaller error leaves every code within N of the exact one.
+std::optional<double> errorBudget(const Look&);
+
 /// Replaces the look's budget by the cheapest forms whose proven bounds keep within it, for each
 /// material and, of the lobe, for brighter and dimmer lights (HighlightForms), and
 /// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
@@ -43,8 +49,9 @@ struct ResolvedLook {
 /// millisecond, and with `auto` a look at every triangle.
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
-/// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the
-/// outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
+/// exposure, at each sample, and of positions in single precision, which turn the directions to near
+/// lamps and to a near eye. Not in it: filtering of textures, the driver's interpolation of normals,
+/// the outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
 /// what is left to refract does or nearly does (criticalRing of glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
 
