@@ -35,10 +35,10 @@ vec3 refractedAt(Pixel p, Boundary boundary) {
 
 vec3 shade(vec4 base) {
   Pixel p = shadedPixel();
-#if ENVIRONMENT_MAP == ENVIRONMENT_IMAGE
+#if SHADES_AT_OFFSET && ENVIRONMENT_MAP == ENVIRONMENT_IMAGE
   Pixel middle = shadedPixel(inputsInMiddle());
 #else
-  Pixel middle = p;  // no spread is asked for
+  Pixel middle = p;
 #endif
   vec3 n = p.normal, v = p.view;
   vec3 sum = surfaceColor(sumLights(p.position, n, v), base.rgb);

@@ -14,7 +14,9 @@ uniform sampler2D emissionTexture;
 out vec4 fragment;  // linear; straight alpha
 
 void main() {
+#if SHADES_AT_OFFSET
   findShadingPlace();
+#endif
   vec4 base = material.color;
 #if VERTEX_COLORS
   base *= arrived(AT_PLACE(vColor));

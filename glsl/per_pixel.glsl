@@ -54,9 +54,9 @@ Inputs inputsAtPlace() {
   return at;
 }
 
+#if SHADES_AT_OFFSET
 // In the middle of the pixel, wherever the fragment is shaded: what changes from pixel to pixel.
 Inputs inputsInMiddle() {
-#if SHADES_AT_OFFSET
   Inputs at;
   at.position = vec3(0.0);
 #if PIXEL_POSITION
@@ -68,10 +68,8 @@ Inputs inputsInMiddle() {
   at.texel = textureAt(normalTexture, vNormalTexcoord, dFdx(vNormalTexcoord), dFdy(vNormalTexcoord));
 #endif
   return at;
-#else
-  return inputsAtPlace();
-#endif
 }
+#endif
 
 // The normal of the front side before it is renormalised: the interpolated one, or that of the
 // normal map in the frame of the interpolated tangent and normal, as MikkTSpace wants it.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "choice.h"
+#include "glint/budget/error_budget.h"
 #include "glint/scene/look_text.h"
 #include "panel.h"
 #include "widgets.h"

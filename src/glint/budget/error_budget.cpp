@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "glint/budget/form_choice.h"
 #include "glint/budget/cost_file.h"
@@ -259,8 +260,7 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
 
 using Groups = std::map<std::string, Group>;
 
-Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
-  Groups groups;
+void addSurfaces(Groups& groups, const Scene& scene, const Setting& setting, Shading program) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material material =
@@ -276,7 +276,6 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
                                                  setting.look, setting.camera, setting.lights, v},
                                                 program));
   }
-  return groups;
 }
 
 // A form that all have in common stands in the look, several with their materials.
@@ -314,11 +313,18 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
          &MaterialEdit::fresnel);
 }
 
-ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
+// Of two pictures: a bound of what lights bring to either.
+void include(LightReach& reach, const LightReach& other) {
+  for (std::size_t i = 0; i < reach.most.size() && i < other.most.size(); ++i)
+    reach.most[i] = glm::max(reach.most[i], other.most[i]);
+  reach.together = glm::max(reach.together, other.together);
+}
+
+ResolvedLook chosenFor(Groups groups, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
   resolved.look = setting.given;
   resolved.look.shading = program;
-  for (auto& [name, group] : groupsOf(scene, setting, program)) {
+  for (auto& [name, group] : groups) {
     resolved.choices.push_back(choiceFor(name, group, setting, budget));
     resolved.bound = std::max(resolved.bound, resolved.choices.back().bound);
   }
@@ -380,40 +386,78 @@ std::optional<double> errorBudget(const Look& look) {
   return *look.maxError / (255 * 12.92) / std::exp2(look.exposure);
 }
 
+Look withChoice(Look look, const ResolvedLook& chosen) {
+  look.shading = chosen.look.shading;
+  if (!std::exchange(look.maxError, std::nullopt)) return look;
+  look.maxErrorInCodes = false;
+  look.costTable.clear();
+  look.highlight = chosen.look.highlight;
+  look.fresnel = chosen.look.fresnel;
+  for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
+  for (const auto& [name, edit] : chosen.look.material) {
+    if (edit.highlight) look.material[name].highlight = edit.highlight;
+    if (edit.fresnel) look.material[name].fresnel = edit.fresnel;
+  }
+  return look;
+}
+
 ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& look) {
+  return resolveSequence(1, [&](std::size_t) { return LookAtScene{scene, bounds, look}; });
+}
+
+ResolvedLook resolveSequence(std::size_t count,
+                             const std::function<LookAtScene(std::size_t)>& picture) {
   ResolvedLook resolved;
-  resolved.look = look;
-  const bool automatic = look.shading == Shading::automatic;
-  resolved.look.shading = programOf(look);
+  resolved.look = picture(0).look;
+  const bool automatic = resolved.look.shading == Shading::automatic;
+  const std::optional<double> budget = errorBudget(resolved.look);
+  resolved.look.shading = programOf(resolved.look);
   if (automatic) resolved.programReason = "phong: no --max-error to keep within";
-  if (!look.maxError) return resolved;
-  const double budget = *errorBudget(look);
-  Look plain = resolved.look;
-  plain.maxError.reset();
-  plain.maxErrorInCodes = false;
-  clearForms(plain);
-  const Setting setting = settingFor(scene, bounds, plain);
-  const ResolvedLook perPixel = chosenFor(scene, setting, plain.shading, budget);
-  resolved = perPixel;
-  if (!automatic) return resolved;
-  resolved.programReason = "phong: neither flat nor gouraud is within " + number(budget);
-  // Per face or vertex pays while there are fewer of them than pixels.
+  if (!budget) return resolved;
+
+  std::vector<Setting> settings;
   std::size_t vertices = 0;
-  for (const Instance& i : scene.instances)
-    vertices += scene.meshes[std::size_t(i.mesh)].positions.size();
-  const double pixels = 0.5 * look.resolution.x * look.resolution.y;
-  if (double(vertices) > pixels) {
+  // By one program, within the budget in every picture.
+  const auto chosenBy = [&](Shading program) {
+    Groups groups;
+    Setting all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const LookAtScene p = picture(i);
+      if (settings.size() == i) {
+        Look plain = p.look;
+        plain.shading = programOf(plain);
+        plain.maxError.reset();
+        plain.maxErrorInCodes = false;
+        clearForms(plain);
+        settings.push_back(settingFor(p.scene, p.bounds, plain));
+        for (const Instance& each : p.scene.instances)
+          vertices += i > 0 ? 0 : p.scene.meshes[std::size_t(each.mesh)].positions.size();
+      }
+      addSurfaces(groups, p.scene, settings[i], program);
+      if (i == 0)
+        all = settings[0];
+      else
+        include(all.reach, settings[i].reach);
+    }
+    return chosenFor(std::move(groups), all, program, *budget);
+  };
+  const Look asked = resolved.look;
+  resolved = chosenBy(asked.shading);
+  if (!automatic) return resolved;
+  resolved.programReason = "phong: neither flat nor gouraud is within " + number(*budget);
+  // Per face or vertex pays while there are fewer of them than pixels.
+  if (double(vertices) > 0.5 * asked.resolution.x * asked.resolution.y) {
     resolved.programReason = "phong: the model has more vertices than the picture pixels";
     return resolved;
   }
   for (const Shading program : {Shading::flat, Shading::gouraud}) {
-    ResolvedLook other = chosenFor(scene, setting, program, budget);
-    if (!(other.bound <= budget) || other.choices.empty()) continue;
+    ResolvedLook other = chosenBy(program);
+    if (!(other.bound <= *budget) || other.choices.empty()) continue;
     other.programReason =
         program == Shading::flat
-            ? "flat: every face has one normal, and the light on it is within " + number(budget) +
+            ? "flat: every face has one normal, and the light on it is within " + number(*budget) +
                   " of phong's"
-            : "gouraud: between vertices the light is within " + number(budget) + " of phong's";
+            : "gouraud: between vertices the light is within " + number(*budget) + " of phong's";
     return other;
   }
   return resolved;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,24 @@ std::optional<double> errorBudget(const Look&);
 /// the outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
 /// what is left to refract does or nearly does (criticalRing of glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
+
+/// A scene as one picture of a sequence shows it.
+struct LookAtScene {
+  const Scene& scene;
+  Bounds bounds;
+  Look look;
+};
+
+/// One choice for pictures that follow each other, within the budget in each of them, so that nothing
+/// jumps from one to the next. They differ in camera and pose, not in materials, lights and budget.
+/// `picture(i)` is asked for in turn, up to three times around; what it gave need not outlive the next
+/// call. `look` of the result is that of the first.
+ResolvedLook resolveSequence(std::size_t count,
+                             const std::function<LookAtScene(std::size_t)>& picture);
+
+/// The look with what was chosen for it. `chosen` may be of another picture of a sequence, or of an
+/// earlier state of the look: its forms are taken, its parameters are not.
+Look withChoice(Look, const ResolvedLook& chosen);
 
 /// The largest sum of intensities of lights that can light one point at once, per channel:
 /// directional ones only if some normal sees them all.

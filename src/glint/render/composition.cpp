@@ -14,17 +14,14 @@ std::string header(bool fileNames) {
 
 // What shades a pixel that is partly covered without leaving the triangle; before everything else.
 std::string multisampleText(bool multisampled) {
-  return "#define MULTISAMPLED " + std::to_string(multisampled) + R"(
-#if MULTISAMPLED && defined(GL_ARB_gpu_shader5)
+  if (!multisampled) return "#define SHADES_AT_OFFSET 0\n#define VARYING\n";
+  return R"(#ifdef GL_ARB_gpu_shader5
 #extension GL_ARB_gpu_shader5 : require
 #define SHADES_AT_OFFSET 1
+#define VARYING
 #else
 #define SHADES_AT_OFFSET 0
-#endif
-#if MULTISAMPLED && !SHADES_AT_OFFSET
 #define VARYING centroid
-#else
-#define VARYING
 #endif
 )";
 }
@@ -52,6 +49,10 @@ std::string defines(const Variant& v) {
   text += define("ALPHA_BLEND", v.alphaBlend);
   text += define("EMISSION", v.emission);
   text += define("EMISSION_TEXTURE", v.emissionTexture);
+  text += define("TEXTURES", v.colorTexture || v.emissionTexture || v.normalTexture);
+  const bool image = v.program == Shading::environment && v.environment == Environment::image;
+  text += define("LEVELS_OF_DETAIL",
+                 v.colorTexture || v.emissionTexture || v.normalTexture || (image && !v.unlit));
   constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
                                      "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
                                      "REFLECTION", "REFRACTION"};
@@ -196,7 +197,9 @@ ComposedProgram composeBackground(Environment environment, const GlslSources& so
                                    {"background.glsl"}};
   // The background covers every sample.
   const std::string head = header(fileNames) + multisampleText(false);
-  const std::string features = define("LIGHTS", 0) + environmentDefines(environment);
+  const std::string features = define("LIGHTS", 0) + define("TEXTURES", 0) +
+                               define("LEVELS_OF_DETAIL", environment == Environment::image) +
+                               environmentDefines(environment);
   return {"background", join(head + stageDefines(true) + features, vertex, sources, fileNames),
           join(head + stageDefines(false) + features, fragment, sources, fileNames)};
 }

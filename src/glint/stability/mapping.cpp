@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "glint/gl/framebuffer.h"
 #include "glint/image/mipmaps.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
@@ -413,6 +414,37 @@ void m14(Bench& bench, Record& record) {
   }
 }
 
+// Thin triangles whose colours go from 0.4 to 0.6: what they cover of a pixel has no other.
+void m15(Bench& bench, Record& record) {
+  const int most = maxSamples();
+  record.within("samples of the driver", most, 1, 1024);
+  if (most < 2) return;
+  Mesh mesh;
+  for (int i = 0; i < 12; ++i) {
+    const float y = -0.9f + 0.15f * float(i), x = 0.03f * float(i);
+    const std::uint32_t first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(),
+                          {{x - 0.03f, y, 0}, {x + 0.03f, y + 0.02f, 0}, {x - 0.02f, y + 0.1f, 0}});
+    mesh.colors.insert(mesh.colors.end(), {{0.4f, 0.6f, 0.5f, 1}, {0.6f, 0.4f, 0.6f, 1}, {0.4f, 0.5f, 0.4f, 1}});
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  }
+  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  Look look = parallel(bench.look(Shading::phong), {0, 0, 1}, 16);
+  look.antiAliasing = {AntiAliasing::Mode::msaa, std::min(most, 4)};
+  look.noBackground = true;
+  const Image image = bench.draw(sceneOf(mesh, unlitMaterial(glm::dvec3(1))), look);
+  double low = 1, high = 0;
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    const double alpha = image.values[i + 3];
+    for (std::size_t c = i; alpha > 0 && c < i + 3; ++c) {
+      low = std::min(low, image.values[c] / alpha);
+      high = std::max(high, image.values[c] / alpha);
+    }
+  }
+  record.within("lowest", low, 0.4 - 1e-6, 0.6);
+  record.within("highest", high, 0.4, 0.6 + 1e-6);
+}
+
 const char* const compassReason = "mirrored, upside down or turned pictures look right to the eye";
 
 const Case cases[] = {
@@ -445,6 +477,9 @@ const Case cases[] = {
      "the longest step within the square of 2 x 2 pixels", m13},
     {"M14", "two texels by every rule of wrapping; every 15th code", "linear light; the curve",
      "1e-6; 1e-7", "filtered before decoding; 8-bit filters", "decoded before filtering", m14},
+    {"M15", "multisampled: thin triangles of colours from 0.4 to 0.6", "nothing below or above",
+     "1e-6", "extrapolation beyond the triangle",
+     "a pixel covered in part is shaded at the mean of the samples covered", m15},
 };
 
 }  // namespace
