@@ -80,8 +80,8 @@ double quadraticIn(const glm::dvec3& d) { return 0.5 + 0.4 * (d.x * d.y + d.z * 
 
 // A mean over a footprint with the variance v along each axis is E + v (E_xx + E_yy) / 2. The square
 // of s has v = s^2 / 12; what the levels give has at most 1.27 s^2 / 9 (h^2 / 3 between texels of the
-// height h = s / sqrt(3), which the blend of two levels makes 1.27 times that) and at least 0: they
-// differ by s^2 / 12 at most, along each axis. E_xx is at most 0.5 of the linear radiance and 4 times
+// height h = s / sqrt(3), which the blend of two levels makes 1.27 times that): so far is it from the
+// value in the middle. E_xx is at most 0.5 of the linear radiance and 4 times
 // 0.7 of the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8 of both
 // second derivatives; towards a pole, the widening of a row, of what is quadratic, 0.35 h^2.
 TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
@@ -104,7 +104,7 @@ TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
           const glm::dvec3 d(std::sin(down) * std::sin(turn), std::cos(down),
                              -std::sin(down) * std::cos(turn));
           const double got = image.radiance(d, spread).x;
-          const double bound = bend * (spread * spread / 12 + h * h / 4) +
+          const double bound = bend * (1.27 * spread * spread / 9 + h * h / 4) +
                                (isLinear ? 0.0 : 0.35 * 4 * spread * spread / 3) + 1e-6;
           worst = std::max(worst, std::abs(got - truth(d)) / bound);
           ASSERT_LE(std::abs(got - truth(d)), bound)
