@@ -104,7 +104,7 @@ std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& res
     // Whose pixels outside the mask are shown makes no difference: those of the exact form.
     const auto found =
         std::find_if(result.variants.begin(), result.variants.end(),
-                     [wanted = model](const VariantResult& v) {  // Clang before 16 captures no binding
+                     [wanted = model](const VariantResult& v) {  // Clang 14 captures no binding
                        return modelOf(v.variant.program) == wanted;
                      });
     if (found == result.variants.end() || found->picture.values.empty()) continue;
