@@ -12,6 +12,7 @@
 #include "glint/gl/context.h"
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/program.h"
+#include "glint/image/error.h"
 
 namespace glint {
 void PrintTo(Backend backend, std::ostream* out) { *out << backendName(backend); }
@@ -22,6 +23,19 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 namespace {
+
+TEST(NoContext, IsAnErrorInWords) {
+  const auto open = [] { return glint::RenderTarget(8, 8, 1); };
+  const auto link = [] { return glint::Program("none", {}); };
+  // Before any context, after one has died, and while one is released.
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_THAT(open, testing::ThrowsMessage<glint::Error>(HasSubstr("no OpenGL context")));
+    EXPECT_THAT(link, testing::ThrowsMessage<glint::Error>(HasSubstr("no OpenGL context")));
+    const auto context = glint::openContext(Backend::osmesa);
+    context->makeCurrent();
+    EXPECT_NO_THROW(open());
+  }
+}
 
 constexpr int width = 37, height = 23;
 

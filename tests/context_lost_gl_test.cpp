@@ -26,12 +26,12 @@ GLenum failingGetError() { return goodCalls-- > 0 ? realGetError() : failure; }
 class FailingDriver {
  public:
   FailingDriver(GLenum code, int callsBefore) {
-    realGetError = glad_glGetError;
+    realGetError = glint_glad_glGetError;
     failure = code;
     goodCalls = callsBefore;
-    glad_glGetError = failingGetError;
+    glint_glad_glGetError = failingGetError;
   }
-  ~FailingDriver() { glad_glGetError = realGetError; }
+  ~FailingDriver() { glint_glad_glGetError = realGetError; }
 };
 
 class ContextLost : public OnStage {};

@@ -139,9 +139,29 @@ TEST_P(File, NamesWithoutAFolderAreOfTheCurrentOne) {
   EXPECT_EQ(textOf(glint::readFile(in("plain"))), "x");
 }
 
-TEST_P(File, MissingFolderAndFolderAreRefused) {
-  EXPECT_EQ(messageOf([&] { OutputFile file(in("none/a"), GetParam()); }),
-            in("none/a") + ": No such file or directory: make its folder first");
+TEST_P(File, FoldersAreMadeAndStayWithWhatIsInThem) {
+  { OutputFile file(in("new/deep/a"), GetParam()); }
+  EXPECT_TRUE(fs::is_empty(folder_));
+  {
+    OutputFile kept(in("new/deep/a"), GetParam());
+    kept.write(bytesOf("x"));
+    kept.commit();
+    OutputFile dropped(in("new/other/a"), GetParam());
+  }
+  EXPECT_EQ(textOf(glint::readFile(in("new/deep/a"))), "x");
+  EXPECT_FALSE(fs::exists(in("new/other")));
+  OutputFile first(in("shared/a"), GetParam());
+  fs::remove_all(in("shared"));  // as another that made it and has failed does
+  if (GetParam() == OutputFile::Staging::unnamed) {
+    first.commit();
+    EXPECT_TRUE(fs::exists(in("shared/a")));
+  }
+}
+
+TEST_P(File, FilesInPlaceOfFoldersAndFoldersAreRefused) {
+  std::ofstream(in("file")) << "x";
+  EXPECT_EQ(messageOf([&] { OutputFile file(in("file/a"), GetParam()); }),
+            in("file/a") + ": Not a directory: a part of its path is a file: write elsewhere");
   EXPECT_EQ(messageOf([&] { OutputFile file(folder_, GetParam()); }),
             folder_.string() + ": Is a directory: give the name of a file");
   EXPECT_THAT(messageOf([&] { OutputFile file("", GetParam()); }), HasSubstr("No such file"));

@@ -37,7 +37,7 @@ constexpr std::pair<int, const char*> names[] = {
 
 constexpr bool control = true, shift = true, repeats = true, no = false;
 
-constexpr ActionInfo table[] = {
+constexpr ActionInfo actionTable[] = {
     {Action::help, "General", "show keys and mouse", slash, no, shift},
     {Action::togglePanel, "General", "hide or show the panel", f9},
     {Action::tabShading, "General", "tab Shading of the panel", f2},
@@ -122,10 +122,10 @@ constexpr ActionInfo table[] = {
 
 }  // namespace
 
-std::span<const ActionInfo> actions() { return table; }
+std::span<const ActionInfo> actions() { return actionTable; }
 
 const ActionInfo& infoOf(Action command) {
-  return *std::find_if(std::begin(table), std::end(table),
+  return *std::find_if(std::begin(actionTable), std::end(actionTable),
                        [&](const ActionInfo& i) { return i.command == command; });
 }
 

@@ -10,6 +10,7 @@
 
 #include "edits.h"
 #include "glint/image/error.h"
+#include "imgui_versions.h"
 #include "interface.h"
 #include "materials.h"
 #include "widgets.h"
@@ -69,7 +70,7 @@ void App::layout() {
   const float scale = widgets::style().scale;
   panelWidth_ =
       options_.settings.panel ? std::min(std::round(372 * scale), float(size.x) * 0.6f) : 0;
-  statusHeight_ = std::round(ImGui::GetIO().Fonts->Fonts[0]->FontSize + 10 * scale);
+  statusHeight_ = std::round(imgui::fontHeight() + 10 * scale);
   const auto pixels = [&](float coordinates) { return int(std::lround(coordinates * ratio_)); };
   resolution_ = glm::max(framebuffer_ - glm::ivec2(pixels(panelWidth_), pixels(statusHeight_)),
                          glm::ivec2(1));

@@ -8,6 +8,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "glint/gl/context.h"
+#include "imgui_versions.h"
 #include "widgets.h"
 
 namespace glint::viewer {
@@ -25,8 +27,7 @@ void loadFont(float scale) {
     std::FILE* file = std::fopen(path, "rb");
     if (!file) continue;
     std::fclose(file);
-    io.Fonts->AddFontFromFileTTF(path, std::round(14 * scale), nullptr, ranges);
-    return;
+    if (io.Fonts->AddFontFromFileTTF(path, std::round(14 * scale), nullptr, ranges)) return;
   }
   widgets::style().greek = false;
   ImFontConfig config;
@@ -89,39 +90,18 @@ Interface::Interface(Window& window, double scale) : window_(window) {
   io.IniFilename = nullptr;
   io.BackendPlatformName = "glint";
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  io.GetClipboardTextFn = getClipboard;
-  io.SetClipboardTextFn = setClipboard;
-  io.ClipboardUserData = &window;
-  const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
-                                           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                           {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-                                           {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                           {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-                                           {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-                                           {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-                                           {ImGuiKey_Home, GLFW_KEY_HOME},
-                                           {ImGuiKey_End, GLFW_KEY_END},
-                                           {ImGuiKey_Insert, GLFW_KEY_INSERT},
-                                           {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                           {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-                                           {ImGuiKey_Space, GLFW_KEY_SPACE},
-                                           {ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                           {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                           {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
-                                           {ImGuiKey_A, GLFW_KEY_A},
-                                           {ImGuiKey_C, GLFW_KEY_C},
-                                           {ImGuiKey_V, GLFW_KEY_V},
-                                           {ImGuiKey_X, GLFW_KEY_X},
-                                           {ImGuiKey_Y, GLFW_KEY_Y},
-                                           {ImGuiKey_Z, GLFW_KEY_Z}};
-  for (const auto& [key, code] : keys) io.KeyMap[key] = code;
+  imgui::setClipboard(getClipboard, setClipboard, &window);
+  imgui::beginInput();
   chooseColors();
   loadFont(float(scale));
   ImGui::GetStyle().ScaleAllSizes(float(scale));
   widgets::style().scale = float(scale);
-  io.Fonts->Build();
-  widgets::style().labelWidth = io.Fonts->Fonts[0]->FontSize * 11;
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  imgui::buildFonts();
+  widgets::style().labelWidth = imgui::fontHeight() * 11;
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
+    ImGui::DestroyContext();
+    throw ContextError("the window's driver cannot draw the panel: draw offscreen with glint render");
+  }
 }
 
 Interface::~Interface() {
@@ -131,51 +111,41 @@ Interface::~Interface() {
 
 void Interface::feed(const std::deque<InputEvent>& events) {
   using Kind = InputEvent::Kind;
-  ImGuiIO& io = ImGui::GetIO();
   for (const InputEvent& e : events) {
     switch (e.kind) {
       case Kind::motion:
-        io.MousePos = ImVec2(float(e.x), float(e.y));
+        imgui::moveMouse(float(e.x), float(e.y));
         break;
       case Kind::button:
-        if (e.code >= 0 && e.code < 5) io.MouseDown[e.code] = e.down;
+        imgui::setButton(e.code, e.down);
         break;
       case Kind::scroll:
-        io.MouseWheelH += float(e.x);
-        io.MouseWheel += float(e.y);
+        imgui::scroll(float(e.x), float(e.y));
         break;
       case Kind::key:
-        if (e.code >= 0 && e.code < 512) io.KeysDown[e.code] = e.down;
+        if (e.code >= 0 && std::size_t(e.code) < held_.size()) held_[std::size_t(e.code)] = e.down;
+        imgui::setKey(e.code, e.down);
         break;
       case Kind::character:
-        io.AddInputCharacter(unsigned(e.code));
+        ImGui::GetIO().AddInputCharacter(unsigned(e.code));
         break;
       case Kind::drop:
         break;
       case Kind::focus:
-        io.AddFocusEvent(e.down);
-        if (!e.down) {
-          std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-          std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
-        }
+        imgui::setFocus(e.down);
+        if (!e.down) held_.fill(false);
         break;
     }
     if (e.kind == Kind::key || e.kind == Kind::button) {
       // The state of the modifiers as the event has it; their own events come with the old state.
       const auto held = [&](int bit, int left, int right) {
-        return (e.modifiers & bit) != 0 || io.KeysDown[left] || io.KeysDown[right];
+        const bool own = e.kind == Kind::key && (e.code == left || e.code == right);
+        return (!(own && !e.down) && (e.modifiers & bit) != 0) || held_[std::size_t(left)] ||
+               held_[std::size_t(right)];
       };
-      io.KeyCtrl = held(GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-      io.KeyShift = held(GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-      io.KeyAlt = held(GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
-      if (e.kind == Kind::key && !e.down) {
-        if (e.code == GLFW_KEY_LEFT_CONTROL || e.code == GLFW_KEY_RIGHT_CONTROL)
-          io.KeyCtrl = io.KeysDown[GLFW_KEY_LEFT_CONTROL] || io.KeysDown[GLFW_KEY_RIGHT_CONTROL];
-        if (e.code == GLFW_KEY_LEFT_SHIFT || e.code == GLFW_KEY_RIGHT_SHIFT)
-          io.KeyShift = io.KeysDown[GLFW_KEY_LEFT_SHIFT] || io.KeysDown[GLFW_KEY_RIGHT_SHIFT];
-        if (e.code == GLFW_KEY_LEFT_ALT || e.code == GLFW_KEY_RIGHT_ALT)
-          io.KeyAlt = io.KeysDown[GLFW_KEY_LEFT_ALT] || io.KeysDown[GLFW_KEY_RIGHT_ALT];
-      }
+      imgui::setModifiers(held(GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+                          held(GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+                          held(GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT));
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 
 #include "window.h"
@@ -25,6 +26,7 @@ class Interface {
 
  private:
   Window& window_;
+  std::array<bool, 512> held_{};  ///< keys, by GLFW's codes
 };
 
 }  // namespace glint::viewer

@@ -66,7 +66,7 @@ void OverlayDrawer::resize(glm::ivec2 size) {
 std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& list,
                                               Overlay overlay, glm::ivec2 size) {
   resize(size);
-  const bool reversed = GLAD_GL_ARB_clip_control != 0;
+  const bool reversed = GLINT_GLAD_GL_ARB_clip_control != 0;
   const glm::mat4 clip(projection(list.camera, {0, 0}, {1, 1}, reversed));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, size.x, size.y);

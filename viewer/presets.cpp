@@ -6,7 +6,7 @@
 namespace glint::viewer {
 namespace {
 
-constexpr Preset table[] = {
+constexpr Preset presetTable[] = {
     {"gold",
      "metals",
      true,
@@ -205,7 +205,7 @@ glm::dvec3 toLinear(const glm::dvec3& v) { return {toLinear(v.r), toLinear(v.g),
 
 }  // namespace
 
-std::span<const Preset> presets() { return table; }
+std::span<const Preset> presets() { return presetTable; }
 
 ShadingParameters presetParameters(const Preset& preset) {
   const glm::dvec3 C = toLinear(preset.diffuse), a = toLinear(preset.ambient),

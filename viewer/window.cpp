@@ -107,7 +107,7 @@ Window::Window(const std::string& title, glm::ivec2 size) {
                        ": draw offscreen with glint render; glint backends says what works");
   }
   glfwMakeContextCurrent(window_);
-  if (gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(3, 3)) {
+  if (glint_gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(3, 3)) {
     glfwDestroyWindow(window_);
     glfwTerminate();
     throw ContextError("the window's driver has no OpenGL 3.3: draw offscreen with glint render");

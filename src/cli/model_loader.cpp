@@ -1,8 +1,8 @@
 #include "model_loader.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
@@ -14,12 +14,6 @@
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Pictures appear whole or not at all: one that has the key is done.
 bool isPresent(const std::string& path, const std::string& key) {

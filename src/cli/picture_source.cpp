@@ -1,16 +1,11 @@
 #include "picture_source.h"
 
 #include <algorithm>
-#include <chrono>
+
+#include "clock.h"
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Samples of anti-aliasing that the driver has no say in.
 int samplesOf(const AntiAliasing& antiAliasing, int ofDriver) {

@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <csignal>
 #include <future>
 #include <memory>
 
+#include "clock.h"
 #include "commands.h"
 #include "glint/options/help.h"
 #include "glint/gl/context.h"
@@ -15,12 +15,6 @@
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::unique_ptr<ModelList> listOf(const RenderOptions& options) {
   return options.hasList() ? std::make_unique<ModelList>(options.list)

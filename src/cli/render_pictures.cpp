@@ -1,8 +1,8 @@
 #include "render_pictures.h"
 
-#include <chrono>
 #include <cmath>
 
+#include "clock.h"
 #include "commands.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
@@ -17,12 +17,6 @@ namespace glint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 PictureResult resultFor(const LoadedModel& model, const PlannedPicture& picture) {
   PictureResult result;
   result.entry = {{"model", model.entry.model}, {"output", picture.output}, {"status", int(done)}};

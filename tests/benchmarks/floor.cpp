@@ -67,7 +67,7 @@ void openOsmesa() {
   void* context = create(attributes, nullptr);
   static char pixels[4 * 4 * 4];
   makeCurrent(context, pixels, GL_UNSIGNED_BYTE, 4, 4);
-  gladLoadGL(GLADloadfunc(dlsym(lib, "OSMesaGetProcAddress")));
+  glint_gladLoadGL(GLADloadfunc(dlsym(lib, "OSMesaGetProcAddress")));
 }
 
 void openEgl() {
@@ -78,7 +78,7 @@ void openEgl() {
   const EGLDisplay display =
       getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   eglInitialize(display, nullptr, nullptr);
-  gladLoadEGL(display, load);
+  glint_gladLoadEGL(display, load);
   eglBindAPI(EGL_OPENGL_API);
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                3,
@@ -90,7 +90,7 @@ void openEgl() {
   const EGLContext context =
       eglCreateContext(display, EGLConfig(nullptr), EGL_NO_CONTEXT, attributes);
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
-  gladLoadGL(load);
+  glint_gladLoadGL(load);
 }
 
 const char* const vertexSource = R"(#version 330 core

@@ -73,13 +73,17 @@ said = run(*tests["unit.Missing"], status=1, GLINT_UPDATE_BASELINES="1")
 check("made the baseline made/unit.png" in said, "the matcher makes it: " + said)
 run(*tests["unit.Missing"])
 
+# In a shared library, and beside another loader of GL.
+check("llvmpipe" in run(*tests["embedded"]), "a shared library draws")
+check("llvmpipe" in run(*tests["two_loaders"]), "two loaders in one program")
+
 # A program that fails is no picture that differs.
 said = run(*tests["gradient.crashes"], status=2)
 check("ended with status 2" in said, said)
 
 # All by ctest, and one page of them.
 said = run("ctest", "--test-dir", outside, status=8)
-check("3 tests failed out of 8" in said, said)
+check("3 tests failed out of 10" in said, said)
 run(prefix / "bin/glint", "diff", pictures / "baseline", pictures / "actual", "--html",
     scratch / "report.html", status=1)
 check((scratch / "report.html").stat().st_size > 10000, "a report")

@@ -23,7 +23,6 @@ namespace {
 constexpr double u = 0x1p-24;
 constexpr double cosineError = 6e-7;  // of a dot product of rounded unit vectors, at most 10 u
 
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 // What the bounds read of the surfaces of a material's name.
 struct Group {

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "glint/shading/bounds.h"
+#include "glint/shading/safe.h"
 
 namespace glint {
 namespace {
 
 constexpr std::size_t mostForms = 3;  // of one material: another saves less than its loop costs
 
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 LobeForm lobeForm(Highlight form) { return LobeForm(int(form)); }
 FresnelForm fresnelForm(Fresnel form) { return FresnelForm(int(form)); }

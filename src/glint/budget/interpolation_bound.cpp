@@ -18,7 +18,6 @@ constexpr double radians = std::numbers::pi / 180;
 const double bentDirection = 2 / std::sqrt(3.0);  // |L''| in l^2
 
 double squared(double x) { return x * x; }
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 // The transform of normals: cofactors, the sign of a mirror taken out.
 glm::dmat3 normalTransform(const glm::dmat3& m) {
@@ -229,7 +228,7 @@ struct Errors {
   double most = 0;  // that the light brings
 };
 
-struct Lobe {
+struct PowerLobe {
   double exponent;
   Steepness steepness;
 
@@ -259,8 +258,8 @@ double nearestAngle(const Corners& corners, double turn) {
   return std::max({least - 2 * turn / 3, most - turn, 0.0});
 }
 
-Errors errorsOf(const Light& light, const Patch& patch, const Corners& corners, const Lobe& lobe,
-                double offFace, Shading program) {
+Errors errorsOf(const Light& light, const Patch& patch, const Corners& corners,
+                const PowerLobe& lobe, double offFace, Shading program) {
   const std::optional<Reach> found = reachOf(light, patch, corners, program);
   if (!found) return {};
   const Reach& reach = *found;
@@ -340,7 +339,7 @@ double interpolationBound(const PlacedMesh& p, Shading program) {
   const Mold mold = moldOf(p, program);
   if (mold.offFace > flatLimit) return unbounded;
   const ShadingParameters& m = p.material.shading;
-  const Lobe lobe{m.exponent, Steepness(std::max(m.exponent, 1.0))};
+  const PowerLobe lobe{m.exponent, Steepness(std::max(m.exponent, 1.0))};
   glm::vec4 most(1);
   if (v.vertexColors) {
     most = glm::vec4(0);

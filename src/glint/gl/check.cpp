@@ -40,6 +40,7 @@ std::string errorWords(GLenum code) {
 void checkGl(const char* where) {
   // A driver may record several errors; one that is lost may report so for ever.
   constexpr int most = 16;
+  if (glGetError == nullptr) requireContext(where);
   std::string words;
   GLenum last = GL_NO_ERROR;
   for (int i = 0; i < most; ++i) {
@@ -49,6 +50,12 @@ void checkGl(const char* where) {
     last = code;
   }
   if (!words.empty()) throw Error(std::string(where) + ": " + words);
+}
+
+void requireContext(const char* where) {
+  if (glGetString == nullptr || glGetString(GL_VERSION) == nullptr)
+    throw Error(std::string(where) +
+                ": no OpenGL context is current in this thread: open one and make it current first");
 }
 
 }  // namespace glint

@@ -7,4 +7,8 @@ namespace glint {
 /// work, not after each call: on a GPU it waits.
 void checkGl(const char* where);
 
+/// Throws Error unless a context is current in this thread and its functions are loaded
+/// (Context::makeCurrent()).
+void requireContext(const char* where);
+
 }  // namespace glint

@@ -107,7 +107,7 @@ Backend backendFromName(std::string_view name, std::string_view more) {
 
 void Context::makeCurrent() {
   bind();
-  const int version = gladLoadGL(loader());
+  const int version = glint_gladLoadGL(loader());
   if (version < GLAD_MAKE_VERSION(3, 3)) {
     const std::string got = version ? text(GL_VERSION) : "no OpenGL";
     release();

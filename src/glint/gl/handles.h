@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "glint/gl/check.h"
+
 namespace glint {
 
 /// Owns the name of a GL object. Move-only; 0 is empty. It must die while the context that it was
@@ -23,9 +25,10 @@ class Handle {
     if (id_) Kind::destroy(id_);
   }
 
-  /// A new GL object; a shader takes its stage.
+  /// A new GL object; a shader takes its stage. Throws Error if no context is current.
   template <class... Arguments>
   static Handle make(Arguments... arguments) {
+    requireContext("making a GL object");
     Handle handle;
     handle.id_ = Kind::make(arguments...);
     return handle;

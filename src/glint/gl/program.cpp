@@ -1,5 +1,7 @@
 #include "glint/gl/program.h"
 
+#include "glint/gl/check.h"
+
 #include <string>
 #include <vector>
 
@@ -38,6 +40,7 @@ std::string readLog(GLuint id, GetParameter getParameter, GetLog getLog) {
 }  // namespace
 
 bool fileNamesInLines() {
+  requireContext("asking the driver for its name");
   GLint count = 0;
   glGetIntegerv(GL_NUM_EXTENSIONS, &count);
   for (GLint i = 0; i < count; ++i) {

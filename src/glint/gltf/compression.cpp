@@ -13,7 +13,7 @@ namespace {
 
 /// More than this for each compressed byte is an attack; the codecs' best is about a hundred.
 constexpr std::uint64_t maxGrowth = 512;
-constexpr std::int64_t maxBytes = std::int64_t(1) << 32;
+constexpr std::int64_t maxCompressedBytes = std::int64_t(1) << 32;
 
 constexpr const char* meshopt = "EXT_meshopt_compression";
 constexpr const char* draco = "KHR_draco_mesh_compression";
@@ -56,7 +56,7 @@ class Decompressor {
       const Cursor view = views.item(i), from = view.member("extensions").member(meshopt);
       if (!from.exists()) continue;
       const auto number = [&](const char* key) {
-        return static_cast<std::uint64_t>(from.member(key).integer(0, 0, maxBytes));
+        return static_cast<std::uint64_t>(from.member(key).integer(0, 0, maxCompressedBytes));
       };
       const auto buffer =
           static_cast<std::size_t>(from.required("buffer").index(document_.buffers.size()));
@@ -73,7 +73,7 @@ class Decompressor {
       if (const std::string error = decodeMeshopt(stream, packed, plain); !error.empty())
         from.fail(error);
       const auto told =
-          static_cast<std::uint64_t>(view.required("byteLength").integer(0, 0, maxBytes));
+          static_cast<std::uint64_t>(view.required("byteLength").integer(0, 0, maxCompressedBytes));
       if (told > plain.size()) {
         from.fail("holds " + std::to_string(plain.size()) + " bytes of the " +
                   std::to_string(told) + " of its buffer view");
@@ -110,7 +110,7 @@ class Decompressor {
     const Cursor views = root_.member("bufferViews");
     const auto view = static_cast<std::size_t>(from.required("bufferView").index(views.size()));
     const auto number = [&](const char* key) {
-      return static_cast<std::uint64_t>(views.item(view).member(key).integer(0, 0, maxBytes));
+      return static_cast<std::uint64_t>(views.item(view).member(key).integer(0, 0, maxCompressedBytes));
     };
     const std::vector<unsigned char> packed =
         read(from,

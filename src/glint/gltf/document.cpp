@@ -1,12 +1,12 @@
 #include "glint/gltf/document.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "glint/gltf/check.h"
 #include "glint/gltf/compression.h"
 #include "glint/gltf/extensions.h"
 #include "glint/gltf/file.h"
+#include "glint/gltf/geometry_reader.h"
 
 namespace glint::gltf {
 namespace {
@@ -162,15 +162,6 @@ std::string takeGeometry(Json& json, const std::vector<Bytes>& buffers) {
   return part.dump();
 }
 
-bool readNumberedBuffer(Bytes* out, std::string*, const std::string& name, void* user) {
-  auto& buffers = *static_cast<std::vector<Bytes>*>(user);
-  std::size_t index = buffers.size();
-  std::from_chars(name.data(), name.data() + name.size(), index);
-  if (index >= buffers.size()) return false;
-  out->swap(buffers[index]);
-  return true;
-}
-
 }  // namespace
 
 Cursor lightsOf(Cursor root) {
@@ -198,17 +189,9 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   document.morphs = morphsOf(root);
   std::vector<Bytes> buffers = readGeometry(root, document, messages);
   const std::string geometry = takeGeometry(document.json, buffers);
-  tinygltf::TinyGLTF reader;
-  tinygltf::FsCallbacks callbacks{};
-  callbacks.FileExists = [](const std::string&, void*) { return true; };
-  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
-  callbacks.ReadWholeFile = readNumberedBuffer;
-  callbacks.user_data = &buffers;
-  reader.SetFsCallbacks(callbacks);
-  std::string errors, warnings;
-  if (!reader.LoadASCIIFromString(&document.model, &errors, &warnings, geometry.data(),
-                                  static_cast<unsigned>(geometry.size()), "")) {
-    messages.fail("is not glTF 2.0, " + printable(errors));
+  if (const std::string error = readGeometryModel(document.model, geometry, buffers);
+      !error.empty()) {
+    messages.fail("is not glTF 2.0, " + printable(error));
   }
   return document;
 }

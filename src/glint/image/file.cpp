@@ -39,9 +39,8 @@ std::string readAdvice(int error) {
 
 std::string writeAdvice(int error) {
   switch (error) {
-    case ENOENT:
     case ENOTDIR:
-      return "make its folder first";
+      return "a part of its path is a file: write elsewhere";
     case EACCES:
     case EPERM:
     case EROFS:
@@ -176,20 +175,29 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::openStaged(Staging staging) {
+  if (staged(staging)) return;
+  // Its folder may go between the two where another file that needed it has failed.
+  for (int attempt = 0; errno == ENOENT && attempt < 3; ++attempt) {
+    if (const std::error_code error = folders_.make(folderOf(target_))) fail(error.value());
+    if (staged(staging)) return;
+  }
+  fail(errno);
+}
+
+/// Opens the file that will get the target's name. False with errno if it cannot.
+bool OutputFile::staged(Staging staging) {
   if (staging == Staging::unnamed) {
     file_ = ::open(folderOf(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     // Without /proc the file could not be given its name.
-    if (file_ >= 0 && ::access(openFilePath(file_).c_str(), F_OK) == 0) return;
+    if (file_ >= 0 && ::access(openFilePath(file_).c_str(), F_OK) == 0) return true;
     if (file_ >= 0) ::close(file_);
   }
   do {
     temporary_ = siblingName(target_);
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (file_ < 0 && errno == EEXIST);
-  if (file_ < 0) {
-    temporary_.clear();
-    fail(errno);
-  }
+  if (file_ < 0) temporary_.clear();
+  return file_ >= 0;
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
@@ -243,6 +251,7 @@ void OutputFile::link() {
     return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   if (linkTo(target_)) return;
+  if (errno == ENOENT && !folders_.make(folderOf(target_)) && linkTo(target_)) return;
   while (errno == EEXIST) {
     const std::string name = siblingName(target_);
     if (linkTo(name)) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "glint/image/made_folders.h"
+
 namespace glint {
 
 /// A path, or anything else that was given, as error messages show it: control characters become
@@ -23,7 +25,8 @@ std::vector<std::byte> readFile(const std::string& path);
 ///
 /// The path "-" is standard output, and a path that exists and is not a regular file (/dev/null, a
 /// FIFO) is written directly; there what was written before an error cannot be taken back. A
-/// symbolic link stays, and the file it points to is replaced. New files have the permissions
+/// symbolic link stays, and the file it points to is replaced. Folders that are missing are made, and
+/// go again if nothing comes into them. New files have the permissions
 /// 0666 less the umask.
 ///
 /// All members throw InputError: missing folder, no permission, disk full.
@@ -51,11 +54,13 @@ class OutputFile {
 
  private:
   void openStaged(Staging staging);
+  bool staged(Staging staging);
   void flush();
   void writeAll(std::span<const std::byte> bytes, std::int64_t offset);
   void link();
   [[noreturn]] void fail(int error) const;
 
+  MadeFolders folders_;    ///< outlives the file, so that empty ones go
   std::string path_;       ///< as the user gave it, for messages
   std::string target_;     ///< with links followed; empty when written directly
   std::string temporary_;  ///< the named file that must go if there is no commit

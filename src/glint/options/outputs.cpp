@@ -43,23 +43,9 @@ void checkOutputs(std::initializer_list<OutputOption> outputs,
 }
 
 OutputFolder::OutputFolder(const std::string& path) {
-  std::error_code error;
-  for (fs::path each = fs::absolute(path, error).lexically_normal();
-       !each.empty() && !fs::exists(each, error) && each != each.parent_path();
-       each = each.parent_path())
-    if (each.has_filename()) made_.push_back(each);
-  error.clear();
-  fs::create_directories(path, error);
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored))
-    throw InputError("--output " + printablePath(path) + ": cannot make this folder" +
-                     (error ? ": " + error.message() : std::string()) +
-                     ": give one that can be written");
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;  // of one that is not empty
-  for (const fs::path& each : made_) fs::remove(each, ignored);
+  if (const std::error_code error = folders_.make(path))
+    throw InputError("--output " + printablePath(path) + ": cannot make this folder: " +
+                     error.message() + ": give one that can be written");
 }
 
 void flushStandardOutput() {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <vector>
+
+#include "glint/image/made_folders.h"
 
 namespace glint {
 
@@ -26,12 +27,9 @@ class OutputFolder {
  public:
   /// Throws InputError.
   explicit OutputFolder(const std::string& path);
-  ~OutputFolder();
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
-  std::vector<std::filesystem::path> made_;  ///< the innermost first
+  MadeFolders folders_;
 };
 
 /// Throws InputError if what was printed on std::cout did not arrive.

@@ -110,7 +110,7 @@ void copyRows(const float* from, int fromWidth, int scale, const Tile& tile, Ima
 Renderer::Renderer(GlslSources sources)
     : sources_(std::move(sources)),
       fileNames_(fileNamesInLines()),
-      clipControl_(GLAD_GL_ARB_clip_control != 0),
+      clipControl_(GLINT_GLAD_GL_ARB_clip_control != 0),
       noVertices_(VertexArray::make()),
       frame_(Buffer::make()) {}
 

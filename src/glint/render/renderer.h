@@ -25,6 +25,7 @@ struct RenderTimes {
 /// and dies in one current context.
 class Renderer {
  public:
+  /// Throws Error if no context is current.
   explicit Renderer(GlslSources sources = {});
 
   /// A picture being drawn, band by band from the top.

@@ -6,12 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include "glint/shading/safe.h"
+
 namespace glint {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 /// The part of the light that arrives at a point that faces it, by KHR_lights_punctual, and the way
 /// to it, as share and unit vector.

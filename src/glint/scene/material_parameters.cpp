@@ -72,7 +72,8 @@ Material editedMaterial(const Material& material, const Look& look) {
 
 void checkMaterialNames(const Scene& scene, const Look& look) {
   for (const auto& [name, edit] : look.material) {
-    const auto has = [&](const Material& m) { return m.name == name; };
+    // Named anew: Clang before 16 captures no structured binding.
+    const auto has = [&name = name](const Material& m) { return m.name == name; };
     if (name.empty() || std::any_of(scene.materials.begin(), scene.materials.end(), has)) continue;
     std::string names;
     for (const Material& m : scene.materials)

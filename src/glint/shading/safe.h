@@ -11,6 +11,9 @@ constexpr double clampTo(double x, double low, double high) {
   return x > low ? (x < high ? x : high) : low;
 }
 
+/// The largest component, with its sign.
+constexpr double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
 /// v / |v|. Scaled by the largest component first, so that no square under- or overflows: right for
 /// every length from the smallest subnormal to the largest double. The zero vector, and a vector
 /// with a component that is NaN or infinite, give the zero vector, which every formula here takes

@@ -9,6 +9,7 @@
 #include "glint/scene/look_text.h"
 #include "glint/shading/safe.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {
@@ -382,7 +383,7 @@ constexpr const char* faceNormal =
     "warning";
 constexpr const char* anyLength = "2.1e-7: 3.5 roundings; 6e-8 of a file's floats";
 
-const Case cases[] = {
+const Case attributeTable[] = {
     {"A1", "vertex normal (0, 0, 0)", "the face's normal, finite", "exact", "normalize(0) is NaN",
      faceNormal, a1},
     {"A2", "normal (1e-20, 0, 0)", "(1, 0, 0)", anyLength, "its square is subnormal", "", a2},
@@ -426,6 +427,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> attributeCases() { return cases; }
+std::span<const Case> attributeCases() { return attributeTable; }
 
 }  // namespace glint::stability

@@ -270,7 +270,7 @@ void g11(Bench& bench, Record& record) {
     }
 }
 
-const Case cases[] = {
+const Case cameraTable[] = {
     {"G1", "near and far 1e-3 and 1e7, objects at 100 and 100.1", "in order", "exact",
      "a 24-bit step there is 0.6", "depth is a reversed float where the driver has clip control",
      g1},
@@ -300,6 +300,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> cameraCases() { return cases; }
+std::span<const Case> cameraCases() { return cameraTable; }
 
 }  // namespace glint::stability

@@ -321,7 +321,7 @@ constexpr const char* lightTolerance =
     "diffuse 6e-7 (roundings of unit vectors), highlight 1e-6 + 4e-7 sqrt(exponent): D is exact "
     "near the peak, so that lambda is off by |D| 6.5e-7";
 
-const Case cases[] = {
+const Case directionTable[] = {
     {"C1", "L = N = V, exponent 0 to 1e6, 200 directions", "diffuse 1, highlight 1, never above 1",
      lightTolerance, "pow(1 + 2^-23, exponent) exceeds the peak and pow(1 - 2^-24, 1e6) is 0.94",
      "", c1},
@@ -367,6 +367,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> directionCases() { return cases; }
+std::span<const Case> directionCases() { return directionTable; }
 
 }  // namespace glint::stability

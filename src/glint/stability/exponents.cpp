@@ -9,6 +9,7 @@
 #include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {
@@ -270,7 +271,7 @@ void d12(Bench& bench, Record& record) {
 constexpr const char* peakTolerance =
     "1e-6 + 4e-7 sqrt(exponent), twice that of 4 exponent for Blinn-Phong (|H| > 1/2 of |L + V|)";
 
-const Case cases[] = {
+const Case exponentTable[] = {
     {"D1", "exponent 0, R.V above, at and below 0", "1 where R.V > 0, else 0", "exact; 1e-6",
      "pow(0, 0) is 1 in C, undefined in GLSL, 0 on llvmpipe",
      "exponent 0 gives 1 where the cosine is positive and 0 elsewhere, also where it is 0", d1},
@@ -300,6 +301,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> exponentCases() { return cases; }
+std::span<const Case> exponentCases() { return exponentTable; }
 
 }  // namespace glint::stability

@@ -395,7 +395,7 @@ void k17(Bench& bench, Record& record) {
   }
 }
 
-const Case cases[] = {
+const Case fresnelTable[] = {
     {"K1", "n1 = n2, cosine 1 to 1e-7", "R = 0, T = 1, the direction unchanged", "exact; 1e-6",
      "rounding leaves something at grazing angles", "equal indices are no boundary", k1},
     {"K2", "n1 = n2, cosine 0", "0", "exact", "0/0: pbrt gives 1, Mitsuba 0",
@@ -435,6 +435,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> fresnelCases() { return cases; }
+std::span<const Case> fresnelCases() { return fresnelTable; }
 
 }  // namespace glint::stability

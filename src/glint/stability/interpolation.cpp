@@ -229,7 +229,7 @@ void i10(Bench& bench, Record& record) {
       "is not a number");
 }
 
-const Case cases[] = {
+const Case interpolationTable[] = {
     {"I1", "normals N and -N along an edge", "the face's normal in the middle, finite",
      "4e-6: derivatives of positions", "their mean is 0",
      "where the interpolated normal's square is at most 1e-6 the face's stands in", i1},
@@ -258,6 +258,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> interpolationCases() { return cases; }
+std::span<const Case> interpolationCases() { return interpolationTable; }
 
 }  // namespace glint::stability

@@ -9,6 +9,7 @@
 #include "glint/shading/safe.h"
 #include "glint/shading/sum.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {
@@ -241,7 +242,7 @@ void f13(Bench& bench, Record& record) {
 
 constexpr const char* few = "1e-6: a few roundings of values of 1";
 
-const Case cases[] = {
+const Case lightTable[] = {
     {"F1", "no light", "ambient light alone", "exact: binary fractions", "bounds of loops", "", f1},
     {"F2", "64 lights of 1/64", "as one light of 1", "1e-6", "summation", "", f2},
     {"F3", "129 lights with a limit of 128", "refused by name; 128 are drawn", "1e-6",
@@ -267,6 +268,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> lightCases() { return cases; }
+std::span<const Case> lightCases() { return lightTable; }
 
 }  // namespace glint::stability

@@ -9,6 +9,7 @@
 #include "glint/render/tiles.h"
 #include "glint/scene/look_text.h"
 #include "glint/stability/bench.h"
+#include "glint/stability/document.h"
 #include "glint/stability/scenes.h"
 
 namespace glint::stability {
@@ -140,7 +141,7 @@ void l6(Bench& bench, Record& record) {
   record.near("one of " + std::to_string(most), draw(most).row(4)[16], 1, 1e-6);
 }
 
-const Case cases[] = {
+const Case limitTable[] = {
     {"L1", "more pixels a side than a target of the driver has",
      "a target is refused by name, a "
      "picture drawn in tiles",
@@ -159,6 +160,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> limitCases() { return cases; }
+std::span<const Case> limitCases() { return limitTable; }
 
 }  // namespace glint::stability

@@ -142,7 +142,7 @@ void h10(Bench& bench, Record& record) {
   record.near("alpha under an exposure of 4", out[3], 128, 0);
 }
 
-const Case cases[] = {
+const Case outputTable[] = {
     {"H1", "linear 0 and 1", "0 and 255", "exact", "ends of the curve", "", h1},
     {"H2", "linear 0.0031308", "both pieces agree to 5e-8",
      "5e-8: the standard's rounded constants", "the join", "", h2},
@@ -166,6 +166,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> outputCases() { return cases; }
+std::span<const Case> outputCases() { return outputTable; }
 
 }  // namespace glint::stability

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double exponents[] = {10, 100, 1e3, 1e4, 1e5, 1e6};
+constexpr double plottedExponents[] = {10, 100, 1e3, 1e4, 1e5, 1e6};
 constexpr double floor = 1e-9;  // of logarithmic axes of errors
 
 const std::vector<std::string> lobeForms{"pow",          "exact",        "lyon:8", "lyon-tuned:8",
@@ -111,7 +111,7 @@ void lobePlots(Bench& bench, Json& plots) {
                        "forms grow like √α, the dot product like α.",
                        "exponent α", true, "largest error", true);
   std::map<std::string, std::vector<std::pair<double, double>>> largest;
-  for (double alpha : exponents) {
+  for (double alpha : plottedExponents) {
     const Peak peak = aroundPeak(alpha, 8000);
     for (const std::string& form : lobeForms) {
       const std::vector<double> got = lobeOf(bench, form, alpha, peak.points);
@@ -127,7 +127,7 @@ void lobePlots(Bench& bench, Json& plots) {
   for (const std::string& form : lobeForms)
     over["series"].push_back(seriesJson(form, largest[form]));
   std::vector<std::pair<double, double>> level, half;
-  for (double alpha : exponents) half.emplace_back(alpha, 1 / 510.0);
+  for (double alpha : plottedExponents) half.emplace_back(alpha, 1 / 510.0);
   over["series"].push_back(seriesJson("half a level of 8 bits", half, false, true));
   plots.push_back(near);
   plots.push_back(over);

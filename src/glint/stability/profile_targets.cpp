@@ -91,11 +91,11 @@ void measureTargets(std::vector<Quality>& all) {
                          "4 of GL 3.0 for plain formats", samples >= 4 ? "as required" : "fewer",
                          "--anti-aliasing msaa; ssaa does without", samples < 4));
   all.push_back(observed("depth", "GL_ARB_clip_control, float depth",
-                         GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
+                         GLINT_GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
                          "an extension of 3.3",
-                         GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
+                         GLINT_GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
                                                   : "coarse far from the near plane",
-                         "cases G1 and G2", !GLAD_GL_ARB_clip_control));
+                         "cases G1 and G2", !GLINT_GLAD_GL_ARB_clip_control));
   GLint size = 0, texture = 0, block = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &size);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);

@@ -106,7 +106,7 @@ std::vector<std::vector<float>> blockColumns(const PointScene& scene) {
   return columns;
 }
 
-Mesh square() {
+Mesh unlitSquare() {
   Mesh mesh;
   mesh.positions = {
       {-0.25f, -0.25f, -1}, {0.25f, -0.25f, -1}, {0.25f, 0.25f, -1}, {-0.25f, 0.25f, -1}};
@@ -119,7 +119,7 @@ Mesh square() {
 
 PointScene::PointScene(const Look& given, const Material& material) : look(given) {
   scene.name = "points";
-  scene.meshes.push_back(square());
+  scene.meshes.push_back(unlitSquare());
   scene.materials.push_back(material);
   scene.instances.push_back({0, glm::dmat4(1)});
   look.cameraPosition = glm::dvec3(0);

@@ -287,7 +287,7 @@ void p16(Bench& bench, Record& record) {
   }
 }
 
-const Case cases[] = {
+const Case propertyTable[] = {
     {"P1", "2000 angles from the peak outwards, exponent 0.5 to 1e6", "the highlight only falls",
      "twice the lobe's rounding", "staircases and wrong pieces", "", p1},
     {"P2", "100000 random geometries crowded around the peak", "between 0 and 1", "exact",
@@ -329,6 +329,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> propertyCases() { return cases; }
+std::span<const Case> propertyCases() { return propertyTable; }
 
 }  // namespace glint::stability

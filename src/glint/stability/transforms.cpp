@@ -263,7 +263,7 @@ constexpr const char* unevenText =
 constexpr const char* movedText =
     "2e-5: all coordinates rounded anew; 4 pixels at edges may be any";
 
-const Case cases[] = {
+const Case transformTable[] = {
     {"B1", "scale (1, 1, 10), normal (0, 1, 1)",
      "by the inverse transpose; M n is 78.6 degrees off", unevenText, "the normal matrix", "", b1},
     {"B2", "mirror diag(-1, 1, 1)", "as the mirrored model; front faces stay front", movedText,
@@ -290,6 +290,6 @@ const Case cases[] = {
 
 }  // namespace
 
-std::span<const Case> transformCases() { return cases; }
+std::span<const Case> transformCases() { return transformTable; }
 
 }  // namespace glint::stability

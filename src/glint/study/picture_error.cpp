@@ -20,7 +20,7 @@ namespace {
 /// Attributes take a few hundred bytes a pixel: so many rows at a time.
 constexpr int bandRows = 64;
 
-double largest(const glm::dvec3& v) {
+double largestSize(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
@@ -124,8 +124,8 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
       input.normal = glm::vec3(normal);
       input.front = normal.w > 0;
       const bool sameNormal =
-          hasNormalMap(reference, a) || largest(glm::dvec3(input.normal) - a.normal) <= 1e-2;
-      if (!(largest(glm::dvec3(input.position) - a.position) <= 1e-4 && sameNormal)) {
+          hasNormalMap(reference, a) || largestSize(glm::dvec3(input.normal) - a.normal) <= 1e-2;
+      if (!(largestSize(glm::dvec3(input.position) - a.position) <= 1e-4 && sameNormal)) {
         ++mask.other;
         continue;
       }

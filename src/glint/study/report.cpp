@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON has no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json jsonNumber(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json spreadJson(const std::vector<double>& values) {
   if (values.empty()) return nullptr;
@@ -33,10 +33,10 @@ Json timesJson(const FrameTimes& times) {
 }
 
 Json errorJson(const PictureError& e) {
-  return {{"max", number(e.max)},
-          {"p999", number(e.percentile999)},
-          {"rmse", number(e.rmse)},
-          {"relative-rmse", number(e.relativeRmse)},
+  return {{"max", jsonNumber(e.max)},
+          {"p999", jsonNumber(e.percentile999)},
+          {"rmse", jsonNumber(e.rmse)},
+          {"relative-rmse", jsonNumber(e.relativeRmse)},
           {"offByMoreThanOneLevel", e.offByMore},
           {"levels", e.levels}};
 }
@@ -63,13 +63,13 @@ Json seriesJson(const StudySeries& s) {
     Json points = Json::array();
     for (const SeriesPoint& p : line.points)
       points.push_back({{"x", p.x},
-                        {"max", number(p.max)},
-                        {"rmse", number(p.rmse)},
-                        {"relative-rmse", number(p.relativeRmse)},
+                        {"max", jsonNumber(p.max)},
+                        {"rmse", jsonNumber(p.rmse)},
+                        {"relative-rmse", jsonNumber(p.relativeRmse)},
                         {"ms", p.milliseconds}});
     Json entry{{"name", line.name}, {"points", points}};
     if (s.hasOrders)
-      entry["order"] = {{"max", number(line.orderMax)}, {"rmse", number(line.orderRmse)}};
+      entry["order"] = {{"max", jsonNumber(line.orderMax)}, {"rmse", jsonNumber(line.orderRmse)}};
     lines.push_back(entry);
   }
   return {{"name", s.name},
@@ -191,7 +191,7 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
                {"shading", shadingName(v.variant.program)},
                {"highlight", v.variant.highlight}};
     if (!v.variant.fresnel.empty()) entry["fresnel"] = v.variant.fresnel;
-    if (v.variant.bound) entry["bound"] = number(*v.variant.bound);
+    if (v.variant.bound) entry["bound"] = jsonNumber(*v.variant.bound);
     entry["features"] = v.features;
     entry["ms"] = {{"compile", v.compile}, {"firstFrame", v.firstFrame}};
     entry["times"] = timesJson(v.times);
@@ -235,7 +235,7 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
           {{"compile", s.generalCompile},
            {"firstFrame", s.generalFirst},
            {"times", timesJson(s.generalTimes)}}},
-         {"difference", number(s.difference)}});
+         {"difference", jsonNumber(s.difference)}});
   return json;
 }
 

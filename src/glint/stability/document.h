@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "glint/scene/scene.h"
+
+namespace glint::stability {
+
+/// A glTF document that a case puts together, written as .glb into a temporary folder that goes
+/// with it.
+class Document {
+ public:
+  Document();
+  ~Document();
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
+
+  /// An accessor of floats or of 32-bit indices with a buffer view of its own.
+  int accessor(const std::string& type, const std::vector<float>& values);
+  int indices(const std::vector<std::uint32_t>& values);
+  /// Of 16-bit numbers, as joints are.
+  int shorts(const std::string& type, const std::vector<std::uint16_t>& values);
+  /// A mesh of that one primitive, and a node that shows it.
+  void show(nlohmann::json primitive);
+  /// One triangle in the plane z = 0, counter-clockwise from +Z, with these normals (9 floats) or
+  /// without any.
+  void triangle(const std::vector<float>& normals = {});
+
+  /// The scene of the file. Throws InputError.
+  Scene load();
+
+ private:
+  int view(const void* data, std::size_t bytes);
+
+  std::filesystem::path folder_;
+  std::vector<unsigned char> binary_;
+};
+
+}  // namespace glint::stability

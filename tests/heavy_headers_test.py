@@ -1,0 +1,91 @@
+"""Headers that take seconds to compile, and which files may see them, by whatever way.
+
+Run as `heavy_headers_test.py FOLDER` on the project's folder: prints each source file that sees a
+heavy header and is not listed here, with the includes on the way, and fails if there is one.
+"""
+
+import fnmatch
+import pathlib
+import re
+import sys
+
+# By the seconds that GCC 12 takes for an empty file that includes them; patterns of source files.
+HEAVY = {
+    # 8.8; `namespace CLI { class App; }` does for the others
+    r"CLI/.*": ["src/cli/*_command.cpp", "src/cli/main.cpp", "src/cli/render_options.cpp",
+                "src/cli/shorthand.cpp", "src/glint/options/help.cpp",
+                "src/glint/options/exit_status.cpp", "src/glint/options/look_options.cpp",
+                "viewer/main.cpp"],
+    # 3.3, and 5 more where it reads and writes; nlohmann/json_fwd.hpp (0.9) does for headers
+    r"nlohmann/json\.hpp": [
+        "src/glint/image/json_*.cpp", "src/glint/gltf/*", "src/glint/options/*",
+        "src/glint/budget/cost_file.cpp", "src/glint/stability/document.cpp",
+        "src/glint/stability/attributes.cpp", "src/glint/stability/exponents.cpp",
+        "src/glint/stability/lights.cpp", "src/glint/stability/limits.cpp",
+        "src/glint/stability/plots.cpp", "src/glint/stability/profile.cpp",
+        "src/glint/stability/search.cpp", "src/glint/stability/suite.cpp",
+        "src/glint/study/page.cpp", "src/glint/study/plot.cpp", "src/glint/study/report.cpp",
+        "src/cli/*", "viewer/edits.cpp", "viewer/materials.cpp", "viewer/panel_info.cpp",
+        "viewer/probe.cpp", "viewer/recovery.cpp", "viewer/settings.cpp", "viewer/widgets.cpp",
+        "models/*", "tests/*"],
+    # 2 to 5
+    r"(Imf|OpenEXR/).*": ["src/glint/image/exr_*.cpp", "tests/image_formats_test.cpp"],
+    r"(draco|meshoptimizer).*": ["src/glint/gltf/draco.cpp", "src/glint/gltf/meshopt.cpp",
+                                 "tests/gltf_compression_test.cpp"],
+    r"boost/.*": ["tests/fresnel_test.cpp", "tests/lobe_test.cpp", "tests/srgb_test.cpp"],
+    r"(gtest|gmock)/.*": ["tests/*", "src/glint/image/matchers.cpp"],
+    r"tiny_gltf\.h": ["src/glint/gltf/*.cpp", "tests/fuzz/*"],
+    r"regex": ["src/glint/render/probe.cpp", "tests/composition_test.cpp"],
+    r"(imgui|GLFW/).*": ["viewer/*.cpp"],
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+(?:<([^>]+)>|"([^"]+)")', re.M)
+
+
+def sources(root):
+    for folder in ("src", "viewer", "models", "tests"):
+        for path in (root / folder).rglob("*"):
+            if path.suffix in (".cpp", ".h") and "outside" not in path.parts:
+                yield path
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    files = {path: [a or b for a, b in INCLUDE.findall(path.read_text())] for path in sources(root)}
+
+    def found(name, beside):
+        for folder in (beside.parent, root / "src", root, root / "src/cli", root / "tests"):
+            if (folder / name).resolve() in files:
+                return (folder / name).resolve()
+        return None
+
+    def ways(path, seen):
+        """Each heavy header that a file sees, with the first way to it."""
+        for name in files[path]:
+            for heavy in HEAVY:
+                if re.fullmatch(heavy, name):
+                    yield heavy, [name]
+            inner = found(name, path)
+            if inner and inner not in seen:
+                seen.add(inner)
+                for heavy, way in ways(inner, seen):
+                    yield heavy, [str(inner.relative_to(root))] + way
+
+    wrong = 0
+    for path in sorted(files):
+        if path.suffix != ".cpp":
+            continue
+        name = str(path.relative_to(root))
+        told = set()
+        for heavy, way in ways(path, {path}):
+            if heavy in told or any(fnmatch.fnmatch(name, each) for each in HEAVY[heavy]):
+                continue
+            told.add(heavy)
+            wrong += 1
+            print("%s includes %s" % (name, ", which includes ".join(way)))
+    if not files:
+        sys.exit("no sources in " + str(root))
+    sys.exit(1 if wrong else 0)
+
+
+main()
