@@ -1,6 +1,6 @@
 #pragma once
 
-// The formulas in double, written for the tests from the notes and the literature, apart from
+// The formulas in double, written for the tests from docs/science.md and the literature, apart from
 // src/shading: what pictures are compared with.
 
 #include <algorithm>

@@ -41,11 +41,11 @@ Errors errorsOf(const std::function<double(double)>& form, double n1, double n2,
   return e;
 }
 
-// The tables are SCIENCE's; three of their last digits, where the value lies next to a tie, are
-// those of a finer sampling: 0.22855, 0.021048 and 0.037645.
+// The tables are those of docs/science.md; three of their last digits, where the value lies next to
+// a tie, are those of a finer sampling: 0.22855, 0.021048 and 0.037645.
 constexpr double half = 0.5001;  // of a unit of the last digit printed
 
-TEST(FresnelApproximations, SchlickErrsAsTabulated) {  // SCIENCE 4.4, from the thinner side
+TEST(FresnelApproximations, SchlickErrsAsTabulated) {  // docs/science.md 4.4, from the thinner side
   const double table[][6] = {
       {1.0003, 0.8553, 88.7, 0.1041, 0.2285, 0.0475}, {1.1, 0.2105, 83.1, 0.0399, 0.0769, 0.0247},
       {1.33, 0.0599, 83.8, 0.0109, 0.0201, 0.0073},   {1.5, 0.0357, 85.0, 0.0092, 0.0135, 0.0087},
@@ -87,7 +87,7 @@ TEST(FresnelApproximations, SchlickFromTheDenserSideNeedsTheRefractedAngle) {
   EXPECT_NEAR(glint::schlick(std::cos(41.8 * degree), 1.5, 1.0), 0.9075, half * 1e-4);
 }
 
-TEST(FresnelApproximations, TheOthersErrAsTabulated) {  // SCIENCE 4.5
+TEST(FresnelApproximations, TheOthersErrAsTabulated) {  // docs/science.md 4.5
   // n, exp2, rational with minimax k, that k, rational with the slope's k, that k
   const double table[][6] = {
       {1.1, 0.2121, 0.0248, 4.655, 0.0547, 3.834}, {1.33, 0.0622, 0.0119, 2.479, 0.0257, 2.222},

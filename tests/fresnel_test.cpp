@@ -78,7 +78,7 @@ void expectTrue(double c, double n1, double n2) {
             2.0 * bound(c, n1, n2, double(t.g)));
 }
 
-// SCIENCE's table 4.1, 40 digits rounded to 8: half a unit of the last digit printed.
+// docs/science.md 4.1, 40 digits rounded to 8: half a unit of the last digit printed.
 TEST(Fresnel, ReproducesTheTableOfReferenceValues) {
   const double pairs[10][2] = {{1, 1.0003}, {1, 1.1}, {1, 1.33}, {1, 1.5},  {1, 1.8},
                                {1, 2.4},    {1, 4},   {1.5, 1},  {1.33, 1}, {2.4, 1}};
@@ -237,7 +237,7 @@ TEST(Fresnel, IsTotal) {
   }
 }
 
-TEST(Fresnel, PublishedNumbers) {  // SCIENCE 8.3, to their printed digits
+TEST(Fresnel, PublishedNumbers) {  // docs/science.md 8.3, to their printed digits
   const struct {
     double n, r0, r0Digit, brewster, critical;
   } media[] = {{1.5, 0.04, 1e-15, 56.3099, 41.8103},
@@ -285,7 +285,7 @@ TEST(Fresnel, IsReciprocal) {
   }
 }
 
-// SCIENCE 4.6, by Simpson's rule in t with c = t^2 (R has a slope, not a kink, at grazing).
+// docs/science.md 4.6, by Simpson's rule in t with c = t^2 (R has a slope, not a kink, at grazing).
 TEST(Fresnel, HemisphericalAverages) {
   const auto average = [](double n1, double n2) {
     const int steps = 20000;

@@ -53,7 +53,7 @@ TEST(GltfGeometry, PrimitiveModes) {
   EXPECT_EQ(meshOfMode(3).topology, Topology::lines);
   EXPECT_THAT(meshOfMode(4).indices, ElementsAre(0, 1, 2));
   EXPECT_EQ(meshOfMode(4).positions.size(), 3u);  // the two at the end make no triangle
-  // Section 3.7.2.1: p_i, p_(i + 1 + i mod 2), p_(i + 2 - i mod 2).
+  // glTF 2.0, section 3.7.2.1: p_i, p_(i + 1 + i mod 2), p_(i + 2 - i mod 2).
   EXPECT_THAT(meshOfMode(5).indices, ElementsAre(0, 1, 2, 1, 3, 2, 2, 3, 4));
   EXPECT_THAT(meshOfMode(6).indices, ElementsAre(1, 2, 0, 2, 3, 0, 3, 4, 0));
   for (const int mode : {1, 2, 3, 4, 5, 6}) EXPECT_THAT(meshOfMode(mode, 1).indices, IsEmpty());

@@ -61,8 +61,8 @@ Errors errorsOf(const Form& form, double alpha) {
 constexpr double half = 0.51;  // of a unit of the last digit printed
 const double alphas[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000, 10000};
 
-// SCIENCE 2.2; for gamma = 1 the maximum is where the form is cut off, (1 - 1/alpha)^alpha, which
-// tells two last digits better than sampling: 0.36696 and 0.36786.
+// docs/science.md 2.2; for gamma = 1 the maximum is where the form is cut off,
+// (1 - 1/alpha)^alpha, which gives two last digits better than sampling: 0.36696 and 0.36786.
 TEST(LobeApproximations, LyonErrsAsTabulated) {
   const double maximum[10][7] = {{0.0000, 0.2500, 0.3164, 0.3436, 0.3561, 0.3621, 0.3650},
                                  {0.3277, 0.1058, 0.0159, 0.0228, 0.0408, 0.0495, 0.0538},
@@ -110,7 +110,7 @@ TEST(LobeApproximations, LyonErrsOverAngleAndSphereAsTabulated) {  // gamma = 8,
   }
 }
 
-TEST(LobeApproximations, LyonCrossErrsAsTabulated) {  // SCIENCE 2.2, gated
+TEST(LobeApproximations, LyonCrossErrsAsTabulated) {  // docs/science.md 2.2, gated
   const double maximum[10][7] = {{0.5000, 0.5625, 0.5862, 0.5967, 0.6017, 0.6041, 0.6053},
                                  {0.2789, 0.0387, 0.0518, 0.0902, 0.1079, 0.1164, 0.1206},
                                  {0.3277, 0.1058, 0.0159, 0.0228, 0.0408, 0.0495, 0.0538},
@@ -131,7 +131,7 @@ TEST(LobeApproximations, LyonCrossErrsAsTabulated) {  // SCIENCE 2.2, gated
   }
 }
 
-TEST(LobeApproximations, TheOthersErrAsTabulated) {  // SCIENCE 2.3, 2.4
+TEST(LobeApproximations, TheOthersErrAsTabulated) {  // docs/science.md 2.3, 2.4
   using glint::LobeForm;
   const struct {
     LobeForm form;
@@ -187,7 +187,7 @@ TEST(LobeApproximations, LawsForLargeExponents) {
   EXPECT_NEAR(gaussian * alpha, 0.1337, 1e-4);
 }
 
-// SCIENCE 1, the identities; equal to rounding, gamma roundings of the squarings.
+// docs/science.md 1, the identities; equal to rounding, gamma roundings of the squarings.
 TEST(LobeApproximations, Identities) {
   for (double lambda = 0.0; lambda < 1.0; lambda += 1.0 / 128.0) {
     for (int gamma = 1; gamma <= 64; gamma *= 2) {

@@ -142,7 +142,7 @@ struct Vectors {
   double NoL, RoV, NoH, lambda, phong10, phong100, blinn40, blinn400, lyon10, lyon100;
 };
 
-// SCIENCE 8.4: 40 digits rounded to 10 significant ones.
+// docs/science.md 8.4: 40 digits rounded to 10 significant ones.
 TEST(Lobe, ReproducesTheTestVectors) {
   const Vectors rows[] = {
       {{0, 0, 1}, {1, 2, 2}, {-1, -2, 2}, 0.6666666667, 1, 1, 0, 1, 1, 1, 1, 1, 1},

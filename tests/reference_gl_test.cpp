@@ -108,8 +108,8 @@ double wholeBound(const Comparison& c) { return 1e-5 + 4e-6 * std::sqrt(c.alpha)
 /// What shading may add to what it was given.
 double shadingBound(const Comparison& c, const Look& look) {
   double bound = 1e-6 + 4e-7 * std::sqrt(c.alpha);
-  // The textbook power of a dot product loses digits in proportion to the exponent (the notes
-  // on accuracy): alpha times the rounding of the dot product, 8 * 2^-24 at most.
+  // The textbook power of a dot product loses digits in proportion to the exponent (docs/science.md
+  // 2.5): alpha times the rounding of the dot product, 8 * 2^-24 at most.
   if (look.highlight == Highlight::pow) bound += 8 * 6e-8 * c.alpha;
   // The other forms are at most twice as steep as the exponential (Lyon's with gamma = 1), and a
   // power p by squaring costs 3 p / 2 roundings.

@@ -87,7 +87,7 @@ TEST(ReferenceCoverage, SharedEdgesAreDrawnOnce) {
   EXPECT_EQ(covered, 256);  // 16 x 16 with one of each pair of opposite sides
 }
 
-// SCIENCE.md G5: w from 1 to 10 across the picture; the middle is at 1/11, not at 1/2.
+// docs/science.md G5: w from 1 to 10 across the picture; the middle is at 1/11, not at 1/2.
 TEST(ReferenceInterpolation, IsPerspectiveCorrect) {
   Mesh mesh = rectangle({-1, -1}, {1, 1});
   mesh.positions = {{-1, -1, -1}, {10, -10, -10}, {10, 10, -10}, {-1, 1, -1}};
@@ -105,7 +105,8 @@ TEST(ReferenceInterpolation, IsPerspectiveCorrect) {
   }
 }
 
-// SCIENCE.md G4: a floor from behind the eye to far ahead. Its pixels are those whose ray meets it
+// docs/science.md G4: a floor from behind the eye to far ahead. Its pixels are those whose ray meets
+// it
 // between near and far plane, and the position is where.
 TEST(ReferenceClipping, AFloorThroughTheEyesPlane) {
   const double near = 0.5, far = 40;

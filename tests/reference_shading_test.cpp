@@ -41,7 +41,7 @@ void expectColor(const glm::dvec4& seen, const glm::dvec3& expected, double tole
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], tolerance) << where << " c" << c;
 }
 
-// A plane across the picture, viewed straight on: one colour, by the sum of DESIGN.md.
+// A plane across the picture, viewed straight on: one colour, by the sum of docs/architecture.md.
 TEST(ReferenceShading, APlaneUnderADirectionalLight) {
   const glm::dvec3 L = glm::normalize(glm::dvec3(0.3, -0.2, 0.8)), V(0, 0, 1), N(0, 0, 1);
   const glm::dvec3 C(0.9, 0.5, 0.1), A(0.1, 0.2, 0.3), I(0.6, 0.7, 2), S = 0.25 * C + 0.75;
@@ -266,8 +266,8 @@ TEST(ReferenceNormals, BackFacesTurnThem) {
 }
 
 // The shipped sphere under a light from the side of the camera against the sphere itself, at the
-// same image point. Interpolated normals are off by at most h^2 / 2 of their angle (SCIENCE.md 5.2:
-// 4e-5 at h = 0.0094), h the longest edge.
+// same image point. Interpolated normals are off by at most h^2 / 2 of their angle (docs/science.md
+// 5.2: 4e-5 at h = 0.0094), h the longest edge.
 TEST(ReferenceSphere, IsASphereUpToItsFacets) {
   Scene scene = glint::loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
   const Mesh& mesh = scene.meshes[0];

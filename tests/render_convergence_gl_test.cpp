@@ -1,5 +1,5 @@
 // Flat, Gouraud and per-pixel shading of ever finer spheres against the analytic sphere: orders and
-// constants (SCIENCE 5). A constant, not the order, tells whether normals are renormalised.
+// constants (docs/science.md 5). A constant, not the order, tells whether normals are renormalised.
 
 #include <gmock/gmock.h>
 

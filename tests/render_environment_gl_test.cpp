@@ -48,8 +48,8 @@ Mesh turnedAway(double cosine) {
   return mesh;
 }
 
-// How far R may lie off: the cancellation-free form's own 4.5e-7 (SCIENCE 4.3), and its slope times
-// the rounding of the cosine (8 roundings).
+// How far R may lie off: the cancellation-free form's own 4.5e-7 (docs/science.md 4.3), and
+// its slope times the rounding of the cosine (8 roundings).
 double reflectanceTolerance(double cosine, double n1, double n2) {
   const double step = 8 * rounding, c0 = std::max(0.0, cosine - step),
                c1 = std::min(1.0, cosine + step);
@@ -105,7 +105,7 @@ TEST_P(EnvironmentProgram, ReflectsByFresnelsEquations) {
       const glm::dvec3 r = seen(inclined(cosine), glass(0, ior), mirrorLook());
       expectColor(r, glm::dvec3(reflectance(cosine, 1, ior)), reflectanceTolerance(cosine, 1, ior));
     }
-  // SCIENCE 8.3 and K12, n = 1.5, light from outside.
+  // docs/science.md 8.3 and K12, n = 1.5, light from outside.
   const std::pair<double, double> published[] = {
       {0, 0.04}, {45, 0.0502399}, {56.309932474, 0.0739645}, {60, 0.0891867}, {75, 0.2530606}};
   for (const auto& [angle, expected] : published) {

@@ -68,7 +68,7 @@ struct Vectors {
   double diffuse, phong10, phong100, blinn40, blinn400;  // gated
 };
 
-// SCIENCE 8.4, from 40 digits.
+// docs/science.md 8.4, from 40 digits.
 const Vectors published[] = {
     {{0, 0, 1}, {1, 2, 2}, {-1, -2, 2}, 0.6666666667, 1, 1, 1, 1},
     {{0, 0, 1},
@@ -126,7 +126,7 @@ TEST_P(Sum, GivesThePublishedVectors) {
                                                    : (exponent == 10 ? x.phong10 : x.phong100);
           const double power = isBlinn(shading) ? 4 * exponent : exponent;
           // The textbook's form errs with the exponent, not with its root: x^a with x off by 24
-          // roundings (SCIENCE 2.5: about 5e-7 a).
+          // roundings (docs/science.md 2.5: about 5e-7 a).
           const double tolerance =
               form == glint::Highlight::exact ? lobeTolerance(power) : (24 * power + 16) * rounding;
           const glm::dvec3 lobe = shadeOne(materialOf(0, 0, 1, exponent), look, x.n, x.v);

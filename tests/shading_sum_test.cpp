@@ -49,7 +49,7 @@ TEST(ShadingSum, IsTheFormulaOfTheNotes) {
   const dvec3 C(0.8, 0.4, 0.2), A(0.1, 0.2, 0.3), I(2.0, 1.0, 0.5);
   const dvec3 L = glm::normalize(dvec3(1, 2, 2));
   const dvec3 V = z;
-  // N.L = 2/3, R.V = 2/3, N.H = 0.9128709292 (SCIENCE 8.4)
+  // N.L = 2/3, R.V = 2/3, N.H = 0.9128709292 (docs/science.md 8.4)
   LightTerms phong = glint::ambientLight(p, A);
   phong += glint::phongLight(p, z, L, V, I);
   const dvec3 S = 0.25 * C + dvec3(0.75);
@@ -105,8 +105,8 @@ TEST(ShadingSum, TerminatorIsContinuousInDiffuseLight) {  // C4
   EXPECT_EQ(glint::phongLight(p, z, at(90.0 + 1e-6), z, white).matte.x, 0.0);
 }
 
-// The largest difference of Phong at alpha = 200 and Blinn-Phong at 800, over V around R: SCIENCE 3
-// (0.4727 at 60 degrees there; this finer search finds 0.47279).
+// The largest difference of Phong at alpha = 200 and Blinn-Phong at 800, over V around R:
+// docs/science.md 3 (0.4727 at 60 degrees there; this finer search finds 0.47279).
 TEST(ShadingSum, PhongAndBlinnDifferAsTabulated) {
   const auto p = parameters(200.0);
   for (const auto& [incidence, expected] :

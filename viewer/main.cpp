@@ -11,21 +11,25 @@
 int main(int argc, char** argv) {
   glint::adviseHeap();
   CLI::App app(
-      "glint-viewer shows a model in a window: edit materials, lights and camera, compare two\n"
-      "looks, see the lobe and the Fresnel curve; what is shown is what glint render draws.",
+      "shows a model in a window: edit materials, lights and camera, compare two looks, plot the "
+      "specular lobe and the Fresnel curve. The window shows the picture that glint render writes.",
       "glint view");
+  app.set_help_flag("-h,--help", "print this help and exit");
   app.formatter(std::make_shared<glint::HelpFormatter>());
+  app.footer(glint::examples({"view helmet.glb", "view helmet.glb --look a.json",
+                              "view helmet.glb --shading environment --environment sky"}));
   glint::viewer::AppOptions options;
   std::string model, glsl;
   app.add_option("MODEL", model,
-                 "a glTF 2.0 model, .gltf or .glb; one can be dropped on the window");
+                 "a glTF 2.0 model, .gltf or .glb; models can also be dropped on the window");
   app.add_option("--glsl", glsl,
-                 "take shader files from this folder where it has them; changes show at once")
+                 "use the shader files in this folder in place of the built-in ones; changes to them "
+                 "show at once")
       ->type_name("DIR");
   app.add_option("--scale", options.scale,
-                 "size of text and widgets; that of the screen unless given")
+                 "size of text and widgets, 0.5 to 4 [default: the screen's]")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.5, 4.0));
+      ->check(CLI::Range(0.5, 4.0).description(""));
   const auto makeLook = glint::addLookOptions(app);
   const auto run = [&]() -> int {
     options.model = model;

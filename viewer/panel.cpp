@@ -181,7 +181,7 @@ void materialButtons(PanelContext& context) {
     ImGui::EndCombo();
   }
   widgets::tooltip(
-      "a material from the classic published tables (teapots.c, Silicon Graphics), in the notes' "
+      "a material from the classic published tables (teapots.c, Silicon Graphics), in Phong's "
       "parameters (" +
       keyText(infoOf(Action::nextPreset)) + " the next, " +
       keyText(infoOf(Action::previousPreset)) + " the previous)");

@@ -23,7 +23,7 @@ struct Preset {
 /// usual tables of minerals and a few materials more.
 std::span<const Preset> presets();
 
-/// A preset in the notes' parameters. OpenGL's light model is Blinn-Phong in display values:
+/// A preset in Phong's parameters. OpenGL's light model is Blinn-Phong in display values:
 /// C = diffuse, decoded from sRGB to linear light as are the others, m_d = 1; m_a, and m_s with
 /// m_sm, are the best fits in least squares: ambient = m_a C, specular = m_s (m_sm C + 1 - m_sm),
 /// for metals with m_sm = 1. OpenGL's exponent belongs to N.H: m_sp = 128 shininess / 4.

@@ -4,13 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/gl/context.h"
 
 namespace glint {
 
 Command addBackends(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("backends", "list which GL backends work here, and why not");
+      app.add_subcommand("backends", "list the GL backends, which of them work here, and why not");
+  command->footer(examples({"backends", "backends --json -"}));
   auto json = std::make_shared<std::string>();
   command->add_option("--json", *json, "write the list as JSON; - is stdout")->type_name("FILE");
   return [json] {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/gltf/scene_file.h"
@@ -113,19 +114,21 @@ int convert(const ConvertOptions& options) {
 Command addConvert(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("convert", "write edited material parameters into a glTF file");
+  command->footer(examples({"convert helmet.glb red.glb --material color=#c04020",
+                            "convert helmet.glb shiny.glb --material exponent=500,metalness=1",
+                            "convert helmet.glb edited.glb --look a.json"}));
   auto options = std::make_shared<ConvertOptions>();
   command->add_option("IN", options->in, "a glTF 2.0 model")->required();
   command
       ->add_option(
           "OUT", options->out,
-          "the model with the parameters in extras.glint of its materials and the nearest "
-          "values for other viewers beside them; of the same kind, .gltf or .glb; all else "
-          "stays byte for byte. Files that it refers to are copied beside it. - is stdout")
+          "the model to write, .gltf or .glb as IN: its materials have the parameters in "
+          "extras.glint and the nearest values that other viewers read; everything else is "
+          "kept byte for byte. Files that it refers to are copied beside it. - is stdout")
       ->required();
   command
       ->add_option("--material", options->materials,
-                   "[NAME:]key=value,... as for render: parameters of every material, or of NAME; "
-                   "repeatable")
+                   "set parameters of every material, or of NAME, as in glint render; repeatable")
       ->type_name("[NAME:]key=value,...")
       ->expected(1)
       ->allow_extra_args(false)
@@ -134,7 +137,7 @@ Command addConvert(CLI::App& app) {
       ->add_option("--look", options->look,
                    "take the materials of this look (JSON), or of a picture that glint has drawn")
       ->type_name("FILE");
-  command->add_flag("--in-place", options->inPlace, "OUT may be IN");
+  command->add_flag("--in-place", options->inPlace, "allow OUT to be IN");
   return [options] { return convert(*options); };
 }
 

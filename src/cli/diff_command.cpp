@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "diff_run.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
@@ -178,75 +179,82 @@ int diff(DiffArguments given) {
 Command addDiff(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("diff", "compare two pictures, or two folders of them, with baselines");
+  command->footer(examples({"diff a.png b.png",
+                            "diff a.png b.png --metric flip --threshold 0.05 -o difference.png",
+                            "diff a.png b.png --max-pixels 0.1% --ignore-anti-aliasing",
+                            "diff baselines pictures --html report.html --junit report.xml",
+                            "diff baselines pictures --update"}));
   auto given = std::make_shared<DiffArguments>();
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type)->take_last();
   };
-  command->add_option("A", given->a, "the baseline: PNG, EXR, PFM, HDR, JPEG, or a folder");
-  command->add_option("B", given->b, "the picture or folder to be checked");
+  command->add_option("A", given->a, "the baseline: a PNG, EXR, PFM, HDR or JPEG file, or a folder of them");
+  command->add_option("B", given->b, "the picture or folder to check");
   CLI::Option* metric =
       command
           ->add_option("--metric", given->metricNames,
                        "max, mean, rmse, relative-rmse, psnr, pixels, ssim, flip or hdr-flip; "
-                       "repeatable; without a threshold it is only told")
+                       "repeatable; without a threshold it is only reported")
           ->type_name("NAME")
           ->allow_extra_args(false);
   CLI::Option* threshold =
       command
           ->add_option("--threshold", given->thresholds,
-                       "of the metric before it: the largest value allowed, of psnr and ssim the "
-                       "smallest; without any condition the pictures must be equal")
+                       "limit of the metric before it: the largest value that passes (psnr, ssim: the "
+                       "smallest); without any limit the pictures must be identical")
           ->type_name("T")
           ->allow_extra_args(false);
-  text("--max-pixels", given->maxPixels, "N|P%", "so many pixels may be over the tolerance");
+  text("--max-pixels", given->maxPixels, "N|P%", "how many pixels may be over the tolerance");
   command
       ->add_option("--tolerance", given->tolerance,
-                   "of a pixel, 0 to 1: distance in YIQ, as pixelmatch's threshold [default: 0.1]")
+                   "of a pixel, 0 to 1: distance in YIQ, the same as pixelmatch's threshold "
+                   "[default: 0.1]")
       ->type_name("T")
       ->check(CLI::Range(0.0, 1.0).description(""));
   command->add_flag("--ignore-anti-aliasing", given->ignoreAntiAliasing,
                     "do not count pixels that look anti-aliased");
   command
       ->add_option("--ignore", given->ignored,
-                   "leave out a rectangle, corners included; repeatable")
+                   "ignore a rectangle, corners included; repeatable")
       ->type_name("x1,y1-x2,y2")
       ->allow_extra_args(false);
-  text("--mask", given->mask, "FILE", "leave out what is black in this picture");
+  text("--mask", given->mask, "FILE", "ignore the pixels that are black in this picture");
   text("--alpha", given->alpha, "straight|ignored|over:COLOUR",
-       "alpha as a fourth value, not at all, or both pictures over a colour [default: straight]");
+       "compare alpha as a fourth value, ignore it, or put both pictures over a colour "
+       "[default: straight]");
   text("--values", given->values, "stored|encoded|linear",
-       "compare sRGB values or linear light; stored: as in the files, which must agree "
+       "compare sRGB values or linear light; stored: as in the files, which must be of one kind "
        "[default: stored]");
-  text("--layer", given->layer, "NAME", "of EXR files: compare this layer");
-  command->add_option("--pixels-per-degree", given->pixelsPerDegree, "for FLIP [default: 67.0206]")
+  text("--layer", given->layer, "NAME", "the layer of EXR files to compare");
+  command->add_option("--pixels-per-degree", given->pixelsPerDegree, "viewing condition of FLIP [default: 67.0206]")
       ->type_name("P")
       ->check(CLI::Range(1e-3, 1000.0).description(""));
   text("--screen", given->screen, "distance,pixels,width",
-       "for FLIP instead: metres to the screen, pixels across, metres across");
+       "viewing condition of FLIP by metres to the screen, its width in pixels, and in metres");
   text("-o,--output", given->output, "FILE", "write a picture of the differences");
   text("--difference", given->difference, "flip|absolute|side-by-side",
-       "what it shows: FLIP's map, |a - b|, or a, b and |a - b| [default: flip]");
-  command->add_option("--scale", given->scale, "of |a - b| in that picture [default: 1]")
+       "content of that picture: the FLIP map, |a - b|, or a, b and |a - b| [default: flip]");
+  command->add_option("--scale", given->scale, "factor of |a - b| in that picture [default: 1]")
       ->type_name("K")
       ->check(CLI::Range(0.0, 1e6).description(""));
   text("--json", given->json, "FILE", "write all metrics as JSON; - is stdout");
-  text("--junit", given->junit, "FILE", "write the results for a CI server");
-  text("--html", given->html, "FILE", "write a report to look at, in one file");
-  command->add_option("--jobs", given->jobs, "pairs at a time [default: as many as processors]")
+  text("--junit", given->junit, "FILE", "write the results as JUnit XML, for a CI server");
+  text("--html", given->html, "FILE", "write a report as one HTML file");
+  command->add_option("--jobs", given->jobs, "number of pairs compared at the same time [default: the number of processors]")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   CLI::Option* updating =
       command
           ->add_option(
               "--update", given->update,
-              "make B the baseline where it is not the same or there is none, of all pairs "
-              "or of these; tells each")
+              "replace or create the baseline where B differs or none exists, of all pairs or "
+              "of these; lists what it wrote")
           ->type_name("[NAME...]")
           ->expected(0, 1 << 20);
   command->add_flag(
       "--baselines-per-driver", given->perDriver,
       "prefer baselines in a folder driver-NAME of A (of a file: beside it), NAME made "
-      "from the GL_RENDERER that B tells");
+      "from the GL_RENDERER recorded in B");
   return [=] {
     std::size_t metrics = 0, thresholds = 0;
     for (const CLI::Option* option : command->parse_order()) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
 #include "glint/shading/environment_map.h"
@@ -54,6 +55,7 @@ int writeEnvironment(const EnvironmentOptions& options) {
 Command addEnvironment(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "environment", "write a built-in environment as a picture that --hdri-file reads");
+  command->footer(examples({"environment sky -o sky.exr", "environment studio -o studio.png"}));
   auto options = std::make_shared<EnvironmentOptions>();
   command->add_option("NAME", options->name, "studio, sky or white")->required();
   command

@@ -5,6 +5,7 @@
 
 #include "clock.h"
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
 #include "glint/options/parameters.h"
@@ -94,6 +95,14 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
 
 Command addRender(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "draw pictures of models, offscreen");
+  command->footer(
+      examples({"render helmet.glb -o helmet.png",
+                "render *.glb -o 'thumbs/{model}.png' --resolution 256,256",
+                "render helmet.glb -o red.exr --material color=#c04020,exponent=200",
+                "render helmet.glb -o a.png --light directional:1,2,3 --save-look a.json",
+                "render helmet.glb -o b.png --look a.json --camera-azimuth-angle 90",
+                "render helmet.glb -o 'turn/{frame}.png' --turntable 36",
+                "render helmet.glb -o sheet.png --sweep exponent=1:1000:5:log"}));
   auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*command, *options);
   auto look = addLookOptions(*command);

@@ -11,13 +11,13 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb");
   command
       .add_option("-o,--output", options.output,
-                  "the picture: .png (8 bit sRGB, or 16), .exr or .pfm (linear float), - (PNG to "
-                  "stdout); {model}, {n} and {frame} stand for the model's name and number and for "
+                  "the picture: .png (8 or 16 bits, sRGB), .exr or .pfm (linear float), - (PNG to "
+                  "stdout); {model} is replaced by the model's name, {n} by its number, {frame} by "
                   "the picture's number")
       ->type_name("OUT")
       ->required()
       ->take_last();
-  command.add_option("--bit-depth", options.bitDepth, "of PNG: 8 or 16 [default: 8]")
+  command.add_option("--bit-depth", options.bitDepth, "bits per channel of a PNG, 8 or 16 [default: 8]")
       ->type_name("BITS");
   command
       .add_option("--rendering-backend", options.backend,
@@ -28,69 +28,70 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command.add_option("--json", options.json, "write a report of the run; - is stdout")
       ->type_name("FILE");
   command
-      .add_option("--glsl", options.glsl, "take shader files from this folder where it has them")
+      .add_option("--glsl", options.glsl, "use the shader files in this folder in place of the built-in ones")
       ->type_name("DIR");
   command
       .add_option("--turntable", options.turntable,
-                  "N pictures with the camera going once round the model, about +Y through its "
-                  "centre, to the right")
+                  "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
+                  "right")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Range(1, 100000).description(""));
   command
       .add_option("--frames", options.frames,
-                  "N pictures evenly over the animation, the last one a step before its end, so "
-                  "that the sequence may be repeated; the camera stands still")
+                  "draw N pictures (1 to 100000) spread evenly over the animation; the last is one "
+                  "step before its end, so that the sequence can loop")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Range(1, 100000).description(""));
   command
       .add_option(
           "--sweep", options.sweeps,
-          "a contact sheet over a number of the look or of a material ([NAME:]exponent, "
-          "exposure, camera-azimuth-angle, ...), labelled; twice: the second one downwards; "
-          "STEPS:log and STEPS:linear say how they are spread")
+          "draw a labelled contact sheet over a number of the look or of a material "
+          "([NAME:]exponent, exposure, camera-azimuth-angle, ...); given twice, the second runs "
+          "downwards; STEPS:log or STEPS:linear chooses the spacing")
       ->type_name("KEY=FROM:TO:STEPS")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
   command.add_flag("--terms", options.terms,
-                   "also what the picture is the sum of: ambient, diffuse and specular of each "
-                   "light, reflection, refraction, emission, background; and normal and depth: "
-                   "layers of an EXR, or a file each (OUT.ambient.png)");
+                   "also write the terms whose sum the picture is (ambient, diffuse and specular of "
+                   "each light, reflection, refraction, emission, background), normal and depth: as "
+                   "layers of an EXR, or one file each (OUT.ambient.png)");
   const char* batch = "Batches";
   command
       .add_option("--from-list", options.list,
-                  "draw the models in this list, one a line, or - from stdin, each as soon as its "
-                  "line is there; reports each picture as a line of JSON on stdout")
+                  "draw the models of this list, one per line; - reads stdin and draws each as soon "
+                  "as its line arrives; every picture is reported as one line of JSON on stdout")
       ->type_name("FILE")
       ->group(batch);
   command
       .add_option("--jobs", options.jobs,
-                  "how many models are read and decoded at once [default: the number of "
-                  "processors, 8 at most]")
+                  "number of models read and decoded at the same time, 1 to 1024 [default: the "
+                  "number of processors, at most 8]")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024))
+      ->check(CLI::Range(1, 1024).description(""))
       ->group(batch);
   command
       .add_flag("--resume", options.resume,
-                "skip pictures that are there already, made of the same model with the same look")
+                "skip pictures that already exist and were made from the same model and look")
       ->group(batch);
   command
       .add_option("--shard", options.shard,
-                  "draw only every N-th model, beginning with the K-th, K from 1 to N; of a single "
-                  "model its pictures")
+                  "draw only every N-th model, starting with the K-th (K from 1 to N); of a single "
+                  "model, every N-th of its pictures")
       ->type_name("K/N")
       ->group(batch);
   command
       .add_option("--reference", options.reference,
-                  "compare each picture with this one at once: status 1 if they differ, 4 if it is "
-                  "not there; a template like -o")
+                  "compare each picture with this one: exit status 1 if they differ, 4 if the file "
+                  "does not exist; may contain {model}, {n} and {frame}, as -o may")
       ->type_name("FILE")
       ->group(batch);
   command
       .add_option("--reference-threshold", options.referenceThreshold,
-                  "the mean FLIP up to which pictures are the same; without it all values must be")
+                  "the largest mean FLIP that counts as the same; without it pictures must be "
+                  "identical")
       ->type_name("T")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e30).description(""))
       ->group(batch);
 }
 

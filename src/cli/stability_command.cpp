@@ -8,6 +8,7 @@
 #include <span>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
@@ -137,40 +138,42 @@ int runStability(const StabilityOptions& options) {
 
 Command addStability(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("stability", "the hard numerical cases, on this machine's driver");
+      app.add_subcommand("stability", "run the hard numerical cases on this machine's driver");
+  command->footer(examples({"stability", "stability --list", "stability --group D --highlight pow",
+                            "stability --output report"}));
   auto options = std::make_shared<StabilityOptions>();
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
     command->add_option(name, value, help)->type_name(type)->take_last();
   };
   text("--rendering-backend", options->backend, "auto|egl|egl-software|osmesa",
-       "whose driver to test [default: auto]");
+       "the driver to test [default: auto]");
   text("--highlight", options->highlight, "FORM", "form of the lobe to test [default: exact]");
   text("--fresnel", options->fresnel, "FORM", "form of the reflectance to test [default: exact]");
   text("--schlick-exponent", options->schlickExponent, "X",
        "exponent of Schlick's approximation [default: 5]");
-  command->add_option("--case", options->selection.ids, "run this case alone; repeatable")
+  command->add_option("--case", options->selection.ids, "run only this case; repeatable")
       ->type_name("ID")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--group", options->selection.groups, "run this group alone; repeatable")
+  command->add_option("--group", options->selection.groups, "run only this group; repeatable")
       ->type_name("X")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
   command
       ->add_option("--search", options->search,
-                   "also put COUNT random points through every program and draw COUNT/10000 random "
-                   "scenes, half of them pathological: nothing may be NaN or infinite; 1e8 takes "
-                   "minutes")
+                   "also evaluate COUNT random points in every program and draw COUNT/10000 random "
+                   "scenes, half of them pathological, and fail if anything is NaN or infinite; 1e8 "
+                   "takes minutes")
       ->type_name("COUNT")
-      ->check(CLI::Range(1.0, 1e12))
+      ->check(CLI::Range(1.0, 1e12).description(""))
       ->take_last();
-  command->add_flag("--list", options->list, "list the cases and run none");
+  command->add_flag("--list", options->list, "list the cases instead of running them");
   text("--output", options->output, "DIR",
-       "write a page with plots of this driver into this folder: stability.html");
+       "write stability.html, a page with plots of this driver, into this folder");
   text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
-  text("--glsl", options->glsl, "DIR", "take shader files from this folder where it has them");
+  text("--glsl", options->glsl, "DIR", "use the shader files in this folder in place of the built-in ones");
   return [options] { return runStability(*options); };
 }
 

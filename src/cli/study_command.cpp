@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "glint/options/help.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/gltf/scene_file.h"
@@ -196,45 +197,47 @@ int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
 
 Command addStudy(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "study", "speed against error of every way of shading a model, on this machine's driver");
+      "study", "measure speed and error of every way of shading a model on this driver");
+  command->footer(examples({"study --quick --output report", "study helmet.glb --output report",
+                            "study --measure-costs costs.json"}));
   auto given = std::make_shared<StudyArguments>();
-  command->add_option("MODEL", given->model, "glTF 2.0 model, .gltf or .glb; without it a sphere");
+  command->add_option("MODEL", given->model, "a glTF 2.0 model, .gltf or .glb [default: a sphere]");
   command->add_flag("--quick", given->quick,
-                    "less than a minute on two cores: 512 x 512 pixels, fewer forms and frames");
+                    "512 x 512 pixels, fewer forms and frames: less than a minute on two cores");
   command
       ->add_option("--repetitions", given->repetitions,
-                   "frames of each variant that are measured, after 10 that are not [default: 60, "
-                   "with --quick 30]")
+                   "frames measured of each variant, after 10 that are not [default: 60; with --quick "
+                   "30]")
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
   command
       ->add_option("--time-budget", given->timeBudget,
-                   "end after so many seconds with what there is by then, as Ctrl-C does; the "
-                   "reports say what is missing")
+                   "stop after this time, as Ctrl-C does, and report what was measured by then and "
+                   "what is missing")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.001, 1e6).description(""));
   command
       ->add_option("--rendering-backend", given->backend,
-                   "what to draw with; auto tries egl, then osmesa [default: auto]")
+                   "how to open GL; auto tries egl, then osmesa [default: auto]")
       ->type_name("auto|egl|egl-software|osmesa")
       ->take_last();
   command
       ->add_option("--output", given->output,
-                   "write study.html (a page to look at), study.svg (its plot), study.json and "
-                   "study.csv to this folder")
+                   "write study.html (a page), study.svg (its plot), study.json and study.csv into "
+                   "this folder")
       ->type_name("DIR")
       ->take_last();
   command
       ->add_option("--markdown", given->markdown,
-                   "write the questions that a study answers, with the figures, to this file")
+                   "write the study's questions and answers, with figures, to this file")
       ->type_name("FILE");
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");
   command
       ->add_option(
           "--measure-costs", given->costs,
-          "instead of a study, measure what each form costs on this driver, in less than "
-          "a minute, and write the table that --cost-table reads to this file; - is stdout")
+          "instead of a study, measure the cost of each form on this driver (less than a "
+          "minute) and write the table that --cost-table reads; - is stdout")
       ->type_name("FILE")
       ->take_last();
   auto look = addLookOptions(*command);

@@ -2,7 +2,7 @@
 
 namespace glint {
 
-// glTF's physically based material, as the notes' material. Base colour becomes C and is left to
+// glTF's physically based material, as Phong's material. Base colour becomes C and is left to
 // the caller; so are transmission, alpha and emission.
 
 /// What a glTF material says, with glTF's defaults. Values out of range are clamped.
@@ -13,7 +13,7 @@ struct PbrParameters {
   double specularFactor = 1.0;  ///< KHR_materials_specular, [0, 1]
 };
 
-/// The same in the notes' parameters.
+/// The same in Phong's parameters.
 struct ConvertedParameters {
   double ambient = 1.0;    ///< m_a
   double diffuse = 1.0;    ///< m_d

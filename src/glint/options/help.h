@@ -1,19 +1,23 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <initializer_list>
 #include <string>
 
 namespace glint {
 
-/// Help for people: an option with its value on one line, what it does below, wrapped.
-class HelpFormatter : public CLI::Formatter {
+/// Help within 80 columns: an option with its value on one line, what it does below, wrapped;
+/// sections apart by one empty line; the footer, where a command's examples are, last.
+class HelpFormatter : public CLI::FormatterBase {
  public:
-  std::string make_option(const CLI::Option*, bool isPositional) const override;
-  std::string make_usage(const CLI::App*, std::string name) const override;
+  std::string make_help(const CLI::App*, std::string name, CLI::AppFormatMode) const override;
 };
 
-/// What is wrong with the command line, in one line: for an unknown option or command with the
-/// nearest known one.
+/// The footer of a command's help: "Examples:" and each line behind "glint ".
+std::string examples(std::initializer_list<const char*> lines);
+
+/// What is wrong with the command line, in one line: of an unknown option or command first, with
+/// the nearest known one, even where something else is missing, too.
 std::string usageMessage(const CLI::App&, const CLI::ParseError&, int argc, char** argv);
 
 }  // namespace glint

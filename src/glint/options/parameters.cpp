@@ -133,11 +133,12 @@ Parameter custom(std::string name, std::string value, std::string help,
 Parameter lights() {
   Parameter p = custom(
       "light", "TYPE:...",
-      "a light; repeatable; replaces the default one. directional:x,y,z[:r,g,b] (x,y,z points TO "
-      "the light), point:x,y,z[:r,g,b], spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines "
-      "along d; degrees), camera[:r,g,b] (shines along the view); point and spot are constant over "
-      "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
-      "at RANGE",
+      "a light in place of the model's or the default one; repeatable. "
+      "directional:x,y,z[:r,g,b] (x,y,z points TO the light), point:x,y,z[:r,g,b], "
+      "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines along d; angles in degrees), "
+      "camera[:r,g,b] (shines along the view). Point and spot lights do not weaken with distance, "
+      "unless :falloff[,RANGE] is appended: then with its square from 1 world unit on, to 0 at "
+      "RANGE",
       [](Look& look, const std::string& text) {
         const Light light = parseLight(text);
         if (!look.light) look.light.emplace();
@@ -165,8 +166,8 @@ std::string nonEmpty(const std::string& text, const std::string& what) {
 Parameter lightScale() {
   Parameter p = custom(
       "light-scale", "auto|FACTOR",
-      "what the lights of the model file are multiplied by; auto measures the model so that white "
-      "paint stays within the picture, whatever lux and candela the file names",
+      "factor for the lights of the model file; auto chooses it from the model so that a white "
+      "surface is not overexposed, whatever lux and candela the file gives [default: auto]",
       [](Look& look, const std::string& text) {
         look.lightScale.reset();
         if (text != "auto") look.lightScale = parseNumber(text, 0, 1e30, "--light-scale");
@@ -179,11 +180,11 @@ Parameter lightScale() {
 Parameter highlight() {
   Parameter p = custom(
       "highlight", "FORM[/N,FORM...]",
-      "form of the lobe: exact, from the difference vector (stable); pow, the textbook's "
-      "pow(dot); integer, whole exponents from 1 to 128 by squaring, others exact; lyon:G, "
-      "lyon-tuned:G (a better slope at no cost), lyon-cross:G (by the cross product) and pade:G, "
-      "powers G = 1, 2, 4, ... 64 by squaring; gaussian; none; exact/2,lyon:8 draws those of the "
-      "two brightest lights by the first form",
+      "how the specular lobe is computed: exact (from the difference vector, stable), pow (the "
+      "textbook's pow(dot)), integer (whole exponents from 1 to 128 by squaring, others exact), "
+      "lyon:G, lyon-tuned:G (a better slope at the same cost), lyon-cross:G (from the cross "
+      "product), pade:G (G = 1, 2, 4, ... 64), gaussian, none; exact/2,lyon:8 uses the first form "
+      "for the two brightest lights and the second for the others",
       [](Look& look, const std::string& text) {
         look.highlight = parseHighlights(text, "--highlight");
       },
@@ -210,10 +211,10 @@ Json materialEdits(const Look& look) {
 Parameter materials() {
   Parameter p = custom(
       "material", "[NAME:]key=value,...",
-      "sets parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
-      "metalness (1: highlight in the material's colour, as real metals have it; 0: white; "
-      "the notes' words say the opposite of their formula, which stands here), ior, color, and "
-      "the forms highlight and fresnel; repeatable",
+      "set parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
+      "metalness (1: the highlight has the material's colour, as on real metals; 0: it is white; "
+      "the lecture notes' words say the opposite of their formula, which is used), ior, color, "
+      "and the forms highlight and fresnel; repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -229,8 +230,8 @@ Parameter resetting(Parameter p, Value Look::*member) {
 Parameter costTable() {
   Parameter p = custom(
       "cost-table", "FILE",
-      "what forms cost on a machine's driver, as glint study --measure-costs writes it: what "
-      "--max-error goes by in place of the table that comes with glint",
+      "the cost of each form on a driver, as glint study --measure-costs writes it; --max-error "
+      "uses it in place of the table that ships with glint",
       [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
       [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
   return resetting(std::move(p), &Look::costTable);
@@ -239,9 +240,9 @@ Parameter costTable() {
 Parameter maxError() {
   Parameter p = number(
       "max-error", "E", 0, 1e6, &Look::maxError,
-      "takes the cheapest forms of lobe and reflectance whose proven bound for this scene is within "
-      "E, in linear light, or within Ncode: N codes of the 8-bit picture after exposure; where none "
-      "is, the exact ones");
+      "use the cheapest forms of lobe and reflectance whose proven error for this scene is at most E, "
+      "in linear light, or Ncode: N codes of the 8-bit picture after exposure; the exact ones where "
+      "there is none");
   p.value = "E|Ncode";
   p.read = [read = p.read](Look& look, const std::string& text) {
     const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
@@ -271,14 +272,14 @@ std::vector<Parameter> makeTable() {
   section(
       "Shading",
       {choice("shading", shadingTexts(), &Look::shading,
-              "what is computed where: once per face, per vertex, or per pixel by Phong or "
+              "where light is computed: once per face, per vertex, or per pixel by Phong or "
               "Blinn-Phong; environment adds reflection and refraction to Blinn-Phong; auto is "
               "phong, or flat or gouraud where --max-error allows"),
        highlight(),
        choice("fresnel", fresnelTexts(), &Look::fresnel,
-              "form of the reflectance in environment: exact without cancellation, the textbook's, "
-              "Schlick's approximation, the same with its power by exp2, or a rational square "
-              "fitted to the index"),
+              "how the program environment computes reflectance: exact (without cancellation), the "
+              "textbook's equations, Schlick's approximation, the same with its power by exp2, or "
+              "a rational function fitted to the index"),
        maxError(),
        costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
@@ -289,23 +290,23 @@ std::vector<Parameter> makeTable() {
               0, 20, false),
        materials(),
        flag("two-sided", &Look::twoSided,
-            "draw the back faces of every material, lit by the normal turned to the viewer; "
-            "otherwise only those of doubleSided materials")});
+            "draw back faces too, with the normal turned to the viewer; otherwise only those of "
+            "doubleSided materials are drawn")});
   section("Lights and environment",
           {color("ambient-light", &Look::ambientLight,
-                 "light from everywhere, whatever lights there are"),
-           lights(), flag("no-lights", &Look::noLights, "ambient light alone"), lightScale(),
+                 "light from all directions, added to all other lights"),
+           lights(), flag("no-lights", &Look::noLights, "only ambient light"), lightScale(),
            choice("viewer", viewerNames, &Look::viewer,
-                  "infinite: one direction to the viewer for the whole picture, as in the notes"),
+                  "infinite: one direction to the viewer for the whole picture"),
            slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
-                         "index of refraction of what the viewer is in (the notes' n1)"),
+                         "index of refraction of the medium around the viewer"),
                   1, 3, false, 1, "n1"),
            choice("environment", environmentNames, &Look::environment,
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",
-                         "a picture of the environment in place of --environment: Radiance .hdr, "
-                         "OpenEXR, PNG or JPEG, equirectangular with -Z in the middle",
+                         "an equirectangular picture, -Z in its middle, in place of --environment: "
+                         "Radiance .hdr, OpenEXR, PNG or JPEG",
                          [](Look& look, const std::string& text) {
                            look.hdriFile = nonEmpty(text, "--hdri-file");
                          },
@@ -314,36 +315,36 @@ std::vector<Parameter> makeTable() {
                          }),
                      &Look::hdriFile),
            slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
-                         "turns the environment about +Y"),
+                         "turn the environment about +Y"),
                   -180, 180, false),
            flag("environment-background", &Look::environmentBackground,
                 "show the environment behind the model")});
   section(
       "Camera",
-      {vector("camera-position", 1e30, &Look::cameraPosition, "where the eye is"),
-       vector("camera-focal-point", 1e30, &Look::cameraFocalPoint, "what the camera looks at"),
-       direction("camera-view-up", &Look::cameraViewUp, "which way is up; +Y unless given"),
+      {vector("camera-position", 1e30, &Look::cameraPosition, "position of the camera [default: from the model's size]"),
+       vector("camera-focal-point", 1e30, &Look::cameraFocalPoint, "the point that the camera looks at [default: the model's centre]"),
+       direction("camera-view-up", &Look::cameraViewUp, "up direction [default: 0,1,0]"),
        slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
-                     "vertical; 30 unless given"),
+                     "vertical angle of view [default: 30]"),
               1, 120, false, 30),
        direction("camera-direction", &Look::cameraDirection,
-                 "the way the camera looks, if not given by position and focal point"),
+                 "direction in which the camera looks, where position and focal point do not say it"),
        slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
-                     "then turns the camera about the focal point, to its right"),
+                     "then turn the camera about the focal point, to its right"),
               -180, 180, false),
        slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
-                     "then turns the camera about the focal point, upwards"),
+                     "then turn the camera about the focal point, upwards"),
               -90, 90, false),
        slider(
            number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
-                  "share of the picture that the model's bounding sphere fills, where the camera's "
-                  "position is not given"),
+                  "how much of the picture the model's bounding sphere fills, unless "
+                  "--camera-position is given"),
            0.05, 20, true),
        flag("camera-orthographic", &Look::cameraOrthographic,
-            "parallel projection; the picture's half height is the distance to the focal point "
+            "parallel projection; half the picture's height is the distance to the focal point "
             "times tan(view angle / 2)"),
        resetting(custom(
-                     "camera-index", "N", "use camera N of the file, from 0",
+                     "camera-index", "N", "use camera N of the file, counted from 0",
                      [](Look& look, const std::string& text) {
                        look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
                      },
@@ -354,8 +355,8 @@ std::vector<Parameter> makeTable() {
        resetting(
            custom(
                "clipping-range", "NEAR,FAR",
-               "distances along the view between which things are drawn; from the scene unless "
-               "given",
+               "distances along the view between which things are drawn [default: from the "
+               "scene]",
                [](Look& look, const std::string& text) { look.clippingRange = parseRange(text); },
                [](const Look& look) {
                  return look.clippingRange
@@ -366,11 +367,11 @@ std::vector<Parameter> makeTable() {
   section(
       "Animation",
       {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
-                     "the moment of the animation that is drawn, held after its end; without "
-                     "it the pose in which the file stands"),
+                     "time in the animation; after its end the last pose is kept [default: the file's "
+                     "rest pose]"),
               0, 10, false),
        resetting(custom(
-                     "animation", "NAME|N", "which animation of the file; the first unless given",
+                     "animation", "NAME|N", "which animation of the file [default: the first]",
                      [](Look& look, const std::string& text) {
                        look.animation = nonEmpty(text, "--animation");
                      },
@@ -391,17 +392,17 @@ std::vector<Parameter> makeTable() {
            resetting(
                custom(
                    "anti-aliasing", "none|msaa:N|ssaa:N",
-                   "msaa: N samples of coverage a pixel; ssaa: N x N pixels shaded for each of the "
-                   "picture's; resolved in linear light",
+                   "msaa: N coverage samples per pixel; ssaa: N x N shaded samples per pixel; "
+                   "averaged in linear light",
                    [](Look& look, const std::string& text) {
                      look.antiAliasing = parseAntiAliasing(text);
                    },
                    [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
                &Look::antiAliasing),
-           color("background-color", &Look::backgroundColor, "behind the model"),
-           flag("no-background", &Look::noBackground, "transparent instead"),
+           color("background-color", &Look::backgroundColor, "colour behind the model"),
+           flag("no-background", &Look::noBackground, "transparent background"),
            slider(number("exposure", "EV", -64, 64, &Look::exposure,
-                         "multiplies the picture by 2^EV before it is encoded"),
+                         "multiply the picture by 2^EV before it is encoded"),
                   -8, 8, false)});
   return table;
 }

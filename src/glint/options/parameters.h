@@ -40,7 +40,7 @@ struct Parameter {
   ParameterKind kind = ParameterKind::text;
   SliderRange slider = {};       ///< of a number
   double unset = 0.0;            ///< of a number that a look may leave open: what stands then
-  std::string_view symbol = {};  ///< in the notes; empty if they have none
+  std::string_view symbol = {};  ///< in docs/science.md; empty if none
   /// Sets the default in a look.
   std::function<void(Look&)> reset = {};
   std::vector<std::string> words = {};  ///< of a choice, where `value` does not list them all

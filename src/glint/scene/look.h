@@ -62,7 +62,7 @@ struct Light {
   enum class Type { directional, point, spot, camera };
   Type type = Type::directional;
   glm::dvec3 position{0.0};   ///< world; point and spot
-  glm::dvec3 direction{0.0};  ///< directional: TO the light (the notes' L), world; camera:
+  glm::dvec3 direction{0.0};  ///< directional: TO the light (L), world; camera:
                               ///< likewise, eye space; spot: along it
   double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
   double outerAngle = 45.0;   ///< degrees from the spot's axis: none outside

@@ -21,7 +21,7 @@ struct MaterialParameter {
   double min, max;
   double ShadingParameters::*value;
   std::optional<double> MaterialEdit::*edit;
-  std::string_view symbol = {};  ///< in the notes
+  std::string_view symbol = {};  ///< in docs/science.md
   SliderRange slider = {};
 };
 

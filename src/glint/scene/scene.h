@@ -71,7 +71,7 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// The notes' material: what `extras.glint`, `--material` and the panel set.
+/// Phong's material: what `extras.glint`, `--material` and the panel set.
 struct ShadingParameters {
   double ambient = 1.0;    ///< m_a, [0, 1e6]
   double diffuse = 1.0;    ///< m_d, [0, 1e6]

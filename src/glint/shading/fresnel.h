@@ -52,12 +52,12 @@ struct PolarizedReflectance {
 PolarizedReflectance fresnelPolarized(double cosTheta, const FresnelConstants& constants);
 PolarizedReflectance fresnelPolarized(double cosTheta, double n1, double n2);
 
-/// Reflectance of unpolarised light, (R_perp + R_par) / 2. The notes print the sum, which
+/// Reflectance of unpolarised light, (R_perp + R_par) / 2. The notes print the sum (E1), which
 /// exceeds 1.
 double fresnelExact(double cosTheta, const FresnelConstants& constants);
 double fresnelExact(double cosTheta, double n1, double n2);
 
-/// The notes' equations as they stand, but for the half: from n1, n2 and cos(theta_t). For plots
+/// The textbook's equations, with the half (E1): from n1, n2 and cos(theta_t). For plots
 /// and for the cost table; loses digits near n1 = n2 and near the critical angle.
 double fresnelTextbook(double cosTheta, double n1, double n2);
 

@@ -105,7 +105,7 @@ void expectLight(Bench&, Record&, const std::string& what, double exponent,
 /// As it follows from the exponent, for geometries whose half vector is longer than 1/2.
 LightTolerances tolerancesFor(double exponent);
 
-/// The sum's highlight by the notes' formulas in long double, gate included.
+/// The sum's highlight by Phong's formulas in long double, gate included.
 LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
                           double exponent);
 

@@ -15,7 +15,7 @@ constexpr double exponents[] = {0, 1, 20, 1e3, 1e6};
 
 glm::dvec3 toViewer(const glm::vec3& position) { return safeNormalize(-glm::dvec3(position)); }
 
-/// Expected values by the notes' formulas, for the very floats of the geometries.
+/// Expected values by the formulas of docs/science.md, for the very floats of the geometries.
 std::vector<LightValues> formulas(const std::vector<Geometry>& geometries, double exponent) {
   std::vector<LightValues> values;
   for (const Geometry& g : geometries)
