@@ -29,15 +29,15 @@ void carryLight(vec3 point, vec3 n) {
 }
 #else
 vec3 shade(vec4 base) {
-  LightSum sum = LightSum(CARRIED_AT(vDiffuse), vec3(0.0));
+  LightSum sum = LightSum(vDiffuse, vec3(0.0));
 #if SPECULAR
-  sum.specular = CARRIED_AT(vSpecular);
+  sum.specular = vSpecular;
 #endif
 #if TWO_SIDED
   if (!gl_FrontFacing) {
-    sum.diffuse = CARRIED_AT(vBackDiffuse);
+    sum.diffuse = vBackDiffuse;
 #if SPECULAR
-    sum.specular = CARRIED_AT(vBackSpecular);
+    sum.specular = vBackSpecular;
 #endif
   }
 #endif

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "choice.h"
-#include "glint/budget/error_budget.h"
 #include "glint/scene/look_text.h"
 #include "panel.h"
 #include "widgets.h"
@@ -79,7 +78,7 @@ void drawChoice(PanelContext& context) {
   if (picture->asked.maxError) {
     widgets::label("  bound");
     const std::string text = number(resolved.bound);
-    if (resolved.bound > *errorBudget(picture->asked))
+    if (resolved.bound > *picture->asked.maxError)
       ImGui::TextColored(overColor, "%s", text.c_str());
     else
       ImGui::TextUnformatted(text.c_str());

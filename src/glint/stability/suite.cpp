@@ -53,7 +53,6 @@ std::span<const Group> groups() {
       {'I', "interpolation and precision", interpolationCases()},
       {'P', "properties and worst inputs", propertyCases(), false},
       {'L', "limits of the driver", limitCases(), false},
-      {'M', "mapping", mappingCases(), false},
   };
   return all;
 }
