@@ -133,6 +133,7 @@ int maxSamples() {
 }
 
 RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), height_(height) {
+  requireContext("making a framebuffer");
   checkSize(width, height);
   checkSamples(samples);
   checkGl("before making a framebuffer");
