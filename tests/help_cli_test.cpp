@@ -98,7 +98,7 @@ TEST(Help, ExamplesRunAsPrinted) {
       ++count;
       SCOPED_TRACE(line);
       std::vector<std::string> words = shellWords(line.substr(8));
-      const std::string& first = words.front();
+      const std::string first = words.front();
       const bool window = first == "view" || first == "helmet.glb";
       if (first == "render") words.insert(words.end(), small.begin(), small.end());
       if (first == "study") words.insert(words.end(), {"--time-budget", "0.5"});

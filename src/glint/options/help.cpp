@@ -150,6 +150,11 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, int 
   const std::string where = used.empty() ? "" : command.get_name() + ": ";
   const std::string remedy = ": see " + fullName(app, command) + " --help";
 
+  const std::vector<std::string> names = commandNames(app);
+  if (used.empty() && !names.empty() && argc > 1 && argv[1][0] != '-')
+    return "unknown command '" + std::string(argv[1]) + "'" +
+           didYouMean(nearest(argv[1], names), remedy);
+
   // First what is not known, whatever else is missing: a misspelt option is the likelier fault.
   const std::vector<std::string> extras = app.remaining(true);
   const auto unknown = std::ranges::find_if(extras, [](const std::string& word) {
@@ -160,13 +165,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, int 
     return where + "unknown option '" + word + "'" +
            didYouMean(nearest(word, optionNames(command)), remedy);
   }
-  const std::vector<std::string> names = commandNames(app);
-  if (used.empty() && !names.empty()) {
-    if (argc > 1 && argv[1][0] != '-')
-      return "unknown command '" + std::string(argv[1]) + "'" +
-             didYouMean(nearest(argv[1], names), remedy);
-    return "no command" + remedy;
-  }
+  if (used.empty() && !names.empty()) return "no command" + remedy;
   if (dynamic_cast<const CLI::ExtrasError*>(&error))
     return where + "unexpected '" + (extras.empty() ? "" : extras.front()) + "'" + remedy;
   std::string text = error.what();
