@@ -212,8 +212,8 @@ Parameter materials() {
       "material", "[NAME:]key=value,...",
       "sets parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
       "metalness (1: highlight in the material's colour, as real metals have it; 0: white; "
-      "the notes' words say the opposite of their formula, which stands here), ior, color, and "
-      "the forms highlight and fresnel; repeatable",
+      "the notes' words say the opposite of their formula, which stands here), ior, "
+      "transmission, color, and the forms highlight and fresnel; repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -237,7 +237,6 @@ Parameter costTable() {
 }
 
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
-constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
 
 std::vector<Parameter> makeTable() {
   std::vector<Parameter> table;
@@ -282,7 +281,7 @@ std::vector<Parameter> makeTable() {
            slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
                          "index of refraction of what the viewer is in (the notes' n1)"),
                   1, 3, false, 1, "n1"),
-           choice("environment", environmentNames, &Look::environment,
+           choice("environment", environmentTexts(), &Look::environment,
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",
