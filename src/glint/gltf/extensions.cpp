@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <map>
 
-#include "glint/image/texture.h"
 #include "glint/gltf/compression.h"
+#include "glint/image/texture.h"
 
 namespace glint::gltf {
 namespace {
@@ -27,6 +27,11 @@ constexpr std::array table = {
     Entry{"KHR_materials_specular", Use::approximated, "the factor; no texture, no colour"},
     Entry{"KHR_materials_transmission", Use::approximated,
           "the factor, by the program environment; no texture"},
+    Entry{"KHR_materials_pbrSpecularGlossiness", Use::approximated,
+          "factors and diffuse texture; no texture of specular and glossiness"},
+    Entry{"KHR_materials_variants", Use::read, "by --variant"},
+    Entry{"EXT_mesh_gpu_instancing", Use::read, "places; no attributes of its own"},
+    Entry{"KHR_texture_basisu", Use::approximated, "not read; the other image of a texture is"},
     Entry{"KHR_mesh_quantization", Use::read, ""},
     Entry{"KHR_texture_transform", Use::read, ""},
     Entry{"KHR_lights_punctual", Use::read, "with an exposure of glint's own"},

@@ -157,6 +157,8 @@ Parameter lights() {
   return p;
 }
 
+constexpr std::array<std::string_view, 6> upAxes = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
 std::string nonEmpty(const std::string& text, const std::string& what) {
   if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
   return text;
@@ -352,7 +354,8 @@ std::vector<Parameter> makeTable() {
                      "it the pose in which the file stands"),
               0, 10, false),
        resetting(custom(
-                     "animation", "NAME|N", "which animation of the file; the first unless given",
+                     "animation", "NAME|N|all",
+                     "which animation of the file, or all of them at once; the first unless given",
                      [](Look& look, const std::string& text) {
                        look.animation = nonEmpty(text, "--animation");
                      },
@@ -360,6 +363,27 @@ std::vector<Parameter> makeTable() {
                        return look.animation.empty() ? Json() : Json(look.animation);
                      }),
                  &Look::animation)});
+  section(
+      "Model",
+      {resetting(
+           custom(
+               "scene", "NAME|N", "which scene of the file; its own unless given",
+               [](Look& look, const std::string& text) { look.scene = nonEmpty(text, "--scene"); },
+               [](const Look& look) { return look.scene.empty() ? Json() : Json(look.scene); }),
+           &Look::scene),
+       resetting(
+           custom(
+               "variant", "NAME|N",
+               "which variant of the materials (KHR_materials_variants); the "
+               "default unless given",
+               [](Look& look, const std::string& text) {
+                 look.variant = nonEmpty(text, "--variant");
+               },
+               [](const Look& look) { return look.variant.empty() ? Json() : Json(look.variant); }),
+           &Look::variant),
+       choice("up", std::span<const std::string_view>(upAxes), &Look::up,
+              "which axis of the model points up; it is turned upright, its cameras "
+              "and lights with it")});
   section("Picture",
           {resetting(custom(
                          "resolution", "W,H", "width and height in pixels",

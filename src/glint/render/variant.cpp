@@ -126,7 +126,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
                    const Look& look, bool orthographic) {
   Variant v;
   v.program = programOf(look);
-  v.unlit = material.unlit || mesh.topology != Topology::triangles;
+  v.unlit = material.unlit || (mesh.topology != Topology::triangles && mesh.normals.empty());
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
   v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
   v.vertexColors = !mesh.colors.empty();
@@ -212,8 +212,8 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
     reasons.push_back({std::move(feature), present, present ? std::move(yes) : std::move(no)});
   };
   add("unlit", v.unlit,
-      mesh.topology == Topology::triangles ? "the material is unlit" : "points and lines are unlit",
-      "a lit material of triangles");
+      material.unlit ? "the material is unlit" : "points and lines without normals are unlit",
+      "a lit material of a mesh with normals");
   add("color-texture", v.colorTexture, "the material has a colour texture",
       "the material has none");
   add("vertex-colors", v.vertexColors, "the mesh has them", "the mesh has none");
