@@ -10,6 +10,8 @@
 #include "glint/gltf/file.h"
 #include "glint/gltf/patch.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/material_key.h"
+#include "glint/image/read_files.h"
 
 namespace glint {
 namespace {
@@ -41,9 +43,13 @@ std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     const bool last = i + 1 == scene.materials.size();
-    const bool shown = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+    const auto keys = materialKeys(material);
+    const bool byName = std::any_of(keys.begin() + 1, keys.end(), [&](const std::string& key) {
+      return look.material.contains(key);
+    });
+    const bool shown = last && std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                    [&](const Mesh& m) { return std::size_t(m.material) == i; });
-    if (look.material.contains(material.name) || (all && (!last || shown)))
+    if (byName || (all && (!last || shown)))
       patches.push_back({i, editedMaterial(material, look).shading});
   }
   return patches;
@@ -72,7 +78,10 @@ void copyReferred(const ConvertOptions& options, std::span<const std::byte> byte
                        ", outside of its folder: write " + options.out + " beside it");
     std::vector<std::byte> content = readFile((from / name).string());
     const fs::path target = to / name;
-    if (fs::exists(target) && readFile(target.string()) != content)
+    if (fs::weakly_canonical(target) == fs::weakly_canonical(options.out))
+      throw InputError(options.out + ": " + options.in + " refers to a file of this name: " +
+                       "give another name");
+    if (fs::exists(target) && readFile(target.string(), Noted::no) != content)
       throw InputError(target.string() + ": is another file than the one of " + options.in +
                        ": write to another folder");
     if (!fs::exists(target)) copies.emplace_back(target.string(), std::move(content));
@@ -101,8 +110,9 @@ int convert(const ConvertOptions& options) {
   if (patches.empty())
     printWarning("convert: no --material is given and the look has none: the same file is written");
   const auto patched = patchGltf(bytes, patches, options.in);
-  copyReferred(options, bytes);
+  if (options.inPlace) forgetReadFile(options.in);
   OutputFile file(options.out);
+  copyReferred(options, bytes);
   file.write(patched);
   file.commit();
   return done;
@@ -124,9 +134,9 @@ Command addConvert(CLI::App& app) {
       ->required();
   command
       ->add_option("--material", options->materials,
-                   "[NAME:]key=value,... as for render: parameters of every material, or of NAME; "
-                   "repeatable")
-      ->type_name("[NAME:]key=value,...")
+                   "[NAME:|NAME#N:|#N:]key=value,... as for render: parameters of every material, of "
+                   "those called NAME, of the N-th of them, or of the file's N-th; repeatable")
+      ->type_name("[NAME:|NAME#N:|#N:]key=value,...")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();

@@ -9,6 +9,7 @@
 #include "glint/budget/error_budget.h"
 #include "glint/gltf/scene_file.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/image/printable.h"
 #include "glint/options/outputs.h"
 #include "report.h"
 
@@ -93,7 +94,7 @@ Json infoJson(const Scene& scene, const Look& look) {
 }
 
 std::string oneLine(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return printable(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 void printChoice(const Json& choice) {
@@ -116,7 +117,7 @@ void printChoice(const Json& choice) {
 
 /// A skin or a mesh with how many `things` it has and those that have names.
 void printList(std::size_t index, const std::string& name, const Json& names, const char* thing) {
-  std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : name) << ", " << names.size()
+  std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : printable(name)) << ", " << names.size()
             << " " << thing << (names.size() == 1 ? "" : "s");
   bool first = true;
   for (const Json& n : names) {
@@ -128,13 +129,13 @@ void printList(std::size_t index, const std::string& name, const Json& names, co
 }
 
 void print(const Json& json) {
-  std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
+  std::cout << oneLine(json["model"]) << ": " << json["triangles"] << " triangles, "
             << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
             << json["radius"] << " about " << json["center"].dump() << "\n";
   std::cout << "\nMaterials\n";
   for (const Json& m : json["materials"]) {
     const std::string name = m["name"];
-    std::cout << "  " << (name.empty() ? "(no name)" : name) << "\n   ";
+    std::cout << "  " << (name.empty() ? "(no name)" : printable(name)) << "\n   ";
     for (const auto& [key, value] : m.items())
       if (key != "name") std::cout << " " << key << "=" << oneLine(value);
     std::cout << "\n";

@@ -6,6 +6,7 @@
 #include "glint/options/exit_status.h"
 #include "glint/options/heap.h"
 #include "glint/options/help.h"
+#include "glint/options/process.h"
 
 namespace {
 
@@ -16,6 +17,7 @@ constexpr const char* description =
 }  // namespace
 
 int main(int argc, char** argv) {
+  glint::prepareProcess();
   glint::adviseHeap();
   CLI::App app(description, "glint");
   app.set_version_flag("--version", "glint " GLINT_VERSION);

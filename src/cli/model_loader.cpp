@@ -6,6 +6,8 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
+#include "glint/image/task.h"
+#include "glint/options/exit_status.h"
 #include "glint/options/picture_text.h"
 #include "glint/gltf/scene_file.h"
 #include "glint/gltf/model_hash.h"
@@ -46,7 +48,7 @@ ModelLoader::ModelLoader(ModelList& list, PicturePlan& plan, const RenderOptions
       options_(options),
       look_(look),
       limit_(jobsOf(options)),
-      reader_([this] { readList(); }) {}
+      reader_(startThread([this] { readList(); })) {}
 
 ModelLoader::~ModelLoader() {
   {
@@ -54,10 +56,17 @@ ModelLoader::~ModelLoader() {
     abandoned_ = true;
     changed_.notify_all();
   }
-  reader_.join();
+  if (reader_.joinable()) reader_.join();
 }
 
 void ModelLoader::readList() {
+  isThreaded_ = true;
+  while (readModel()) continue;
+}
+
+// Begins to load the next model of the list; false at its end.
+bool ModelLoader::readModel() {
+  std::exception_ptr failure;
   try {
     while (const auto entry = list_.next()) {
       std::vector<PlannedPicture> pictures;
@@ -67,21 +76,25 @@ void ModelLoader::readList() {
         if (pictures.empty()) continue;
       } catch (const InputError& refusal) {
         pictures.resize(1);
-        error = printablePath(refusal.what());
+        error = refusal.what();
       }
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
+      if (isThreaded_)
+        changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
       if (abandoned_) break;
-      models_.push_back(std::async(std::launch::async, &ModelLoader::load, this, *entry,
-                                   std::move(pictures), std::move(error)));
+      models_.push_back(startTask(
+          [this, entry = *entry, pictures, error] { return load(entry, pictures, error); }));
       changed_.notify_all();
+      return true;
     }
   } catch (...) {
-    failure_ = std::current_exception();
+    failure = std::current_exception();
   }
   const std::lock_guard lock(mutex_);
+  failure_ = failure;
   ended_ = true;
   changed_.notify_all();
+  return false;
 }
 
 LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
@@ -117,11 +130,8 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     const auto decode = Clock::now();
     model.images = decodeImages(model.scene, look_);
     model.decodeTime = since(decode);
-  } catch (const Error& failure) {
-    model.error = printablePath(failure.what());
-  } catch (const std::bad_alloc&) {
-    model.error =
-        printablePath(entry.model) + ": out of memory: the model is too large for this machine";
+  } catch (const std::exception& failure) {
+    model.error = failureOf(failure, entry.model);
   }
   return model;
 }
@@ -147,6 +157,7 @@ void ModelLoader::lookThroughFrames(LoadedModel& model) const {
 }
 
 void ModelLoader::waitForFirst() {
+  if (!reader_.joinable()) readModel();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
   if (models_.empty()) return;
@@ -156,6 +167,7 @@ void ModelLoader::waitForFirst() {
 }
 
 std::optional<LoadedModel> ModelLoader::next() {
+  if (!reader_.joinable() && models_.empty() && !ended_) readModel();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
   if (Interrupt::signal() != 0) return {};

@@ -10,6 +10,7 @@
 #include "glint/budget/cost_file.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
+#include "glint/scene/material_key.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
@@ -260,7 +261,7 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
     const Variant v =
         variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
     if (v.unlit) continue;
-    Group& group = groups[material.name];
+    Group& group = groups[materialKey(material)];
     addSurface(group, setting, material, mesh, v);
     if (program == setting.look.shading) continue;
     group.interpolation = std::max(

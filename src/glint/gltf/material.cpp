@@ -7,6 +7,7 @@
 
 #include "glint/scene/material_parameters.h"
 #include "glint/gltf/pbr_conversion.h"
+#include "glint/scene/material_key.h"
 
 namespace glint::gltf {
 namespace {
@@ -145,6 +146,7 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   Material& standard = materials.emplace_back();
   standard.name = "#default";
   standard.shading = shadingFromPbr({});
+  countMaterials(materials);
   return materials;
 }
 

@@ -41,7 +41,7 @@ std::size_t findAnimation(const Scene& scene, const std::string& text) {
     const std::string& name = scene.animations[i].name;
     known += (i ? ", " : "") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
   }
-  throw InputError("--animation: " + scene.name + " has no animation '" + printable(text, 80) +
+  throw InputError("--animation: " + scene.name + " has no animation '" + gltf::printable(text, 80) +
                    "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
 }
 

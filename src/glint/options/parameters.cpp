@@ -135,7 +135,7 @@ Parameter lights() {
       "light", "TYPE:...",
       "a light; repeatable; replaces the default one. directional:x,y,z[:r,g,b] (x,y,z points TO "
       "the light), point:x,y,z[:r,g,b], spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines "
-      "along d; degrees), camera[:r,g,b] (shines along the view); point and spot are constant over "
+      "along d; degrees), camera[@x,y,z][:r,g,b] (fixed to the eye; x,y,z points to it in eye space, 0,0,1, along the view, unless given); point and spot are constant over "
       "distance, or with :falloff[,RANGE] at the end fall with its square from 1 world unit, to 0 "
       "at RANGE",
       [](Look& look, const std::string& text) {
@@ -209,8 +209,9 @@ Json materialEdits(const Look& look) {
 
 Parameter materials() {
   Parameter p = custom(
-      "material", "[NAME:]key=value,...",
-      "sets parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
+      "material", "[NAME:|NAME#N:|#N:]key=value,...",
+      "sets parameters of every material, of those called NAME, of the N-th of them, or of the "
+      "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): ambient, diffuse, specular, exponent, "
       "metalness (1: highlight in the material's colour, as real metals have it; 0: white; "
       "the notes' words say the opposite of their formula, which stands here), ior, color, and "
       "the forms highlight and fresnel; repeatable",

@@ -28,11 +28,11 @@ struct MaterialParameter {
 /// Ambient, diffuse, specular, exponent, metalness and ior; `color` stands beside them.
 std::span<const MaterialParameter> materialParameters();
 
-/// What a look makes of a scene's material: its own values with those of the edits for every
-/// material and for the material's name, in this order.
+/// What a look makes of a scene's material: its own values with those of the edits whose keys are of
+/// it (material_key.h), in their order.
 Material editedMaterial(const Material&, const Look&);
 
-/// Throws InputError if an edit names a material that the scene does not have.
+/// Throws InputError if an edit is of a material that the scene does not have.
 void checkMaterialNames(const Scene&, const Look&);
 
 }  // namespace glint
