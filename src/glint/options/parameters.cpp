@@ -236,6 +236,27 @@ Parameter costTable() {
   return resetting(std::move(p), &Look::costTable);
 }
 
+Parameter maxError() {
+  Parameter p = number(
+      "max-error", "E", 0, 1e6, &Look::maxError,
+      "takes the cheapest forms of lobe and reflectance whose proven bound for this scene is within "
+      "E, in linear light, or within Ncode: N codes of the 8-bit picture after exposure; where none "
+      "is, the exact ones");
+  p.value = "E|Ncode";
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
+    const bool codes = at != std::string::npos && text.compare(at, 4, "code") == 0;
+    read(look, codes ? text.substr(0, at) : text);
+    look.maxErrorInCodes = codes;
+  };
+  p.save = [save = p.save](const Look& look) {
+    if (!look.maxErrorInCodes || !look.maxError) return save(look);
+    return Json(save(look).dump() + "code");
+  };
+  p.reset = [](Look& look) { look.maxError.reset(), look.maxErrorInCodes = false; };
+  return slider(std::move(p), 1e-5, 1, true);
+}
+
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
 constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
 
@@ -258,10 +279,7 @@ std::vector<Parameter> makeTable() {
               "form of the reflectance in environment: exact without cancellation, the textbook's, "
               "Schlick's approximation, the same with its power by exp2, or a rational square "
               "fitted to the index"),
-       slider(number("max-error", "E", 0, 1e6, &Look::maxError,
-                     "takes the cheapest forms of lobe and reflectance whose proven bound for this "
-                     "scene is within E, in linear light; where none is, the exact ones"),
-              1e-5, 1, true),
+       maxError(),
        costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),

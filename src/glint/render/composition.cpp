@@ -12,6 +12,20 @@ std::string header(bool fileNames) {
                    : "#version 330 core\n";
 }
 
+// What shades a pixel that is partly covered without leaving the triangle; before everything else.
+std::string multisampleText(bool multisampled) {
+  if (!multisampled) return "#define SHADES_AT_OFFSET 0\n#define VARYING\n";
+  return R"(#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : require
+#define SHADES_AT_OFFSET 1
+#define VARYING
+#else
+#define SHADES_AT_OFFSET 0
+#define VARYING centroid
+#endif
+)";
+}
+
 std::string define(const char* name, int value) {
   return std::string("#define ") + name + " " + std::to_string(value) + "\n";
 }
@@ -35,7 +49,10 @@ std::string defines(const Variant& v) {
   text += define("ALPHA_BLEND", v.alphaBlend);
   text += define("EMISSION", v.emission);
   text += define("EMISSION_TEXTURE", v.emissionTexture);
-  text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
+  text += define("TEXTURES", v.colorTexture || v.emissionTexture || v.normalTexture);
+  const bool image = v.program == Shading::environment && v.environment == Environment::image;
+  text += define("LEVELS_OF_DETAIL",
+                 v.colorTexture || v.emissionTexture || v.normalTexture || (image && !v.unlit));
   constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
                                      "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
                                      "REFLECTION", "REFRACTION"};
@@ -65,8 +82,10 @@ std::string defines(const Variant& v) {
   text += define("VANISHING_NORMAL", v.vanishingNormal);
   text += define("NORMAL_TEXTURE", v.normalTexture);
   text += define("TWO_SIDED", v.twoSided);
-  text +=
-      std::string("#define CARRIED ") + (v.program == Shading::flat ? "flat" : "VARYING") + "\n";
+  const bool perFace = v.program == Shading::flat;
+  text += std::string("#define CARRIED ") + (perFace ? "flat" : "VARYING") + "\n";
+  text += std::string("#define CARRIED_AT(varying) ") +
+          (perFace ? "varying" : "AT_PLACE(varying)") + "\n";
   // What environment sees through a surface is refracted, not blended.
   text += define("OPAQUE_OUTPUT", v.program == Shading::environment);
   if (v.program == Shading::environment) {
@@ -157,9 +176,11 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
     std::replace(file.begin(), file.end(), '-', '_');
     files.push_back({file});
   }
-  const std::string head = header(fileNames);
+  const std::string head = header(fileNames) + multisampleText(v.multisampled);
   const std::string features = defines(v);
   std::vector<Part> vertex = files, fragment = files;
+  const auto blocks = std::ranges::find(fragment, "blocks.glsl", &Part::file);
+  fragment.insert(blocks + 1, {"sampling.glsl"});
   vertex.push_back({"vertex.glsl"});
   fragment.push_back({"fragment.glsl"});
   return {name, join(head + stageDefines(true) + features, vertex, sources, fileNames),
@@ -168,12 +189,19 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
 
 ComposedProgram composeBackground(Environment environment, const GlslSources& sources,
                                   bool fileNames) {
-  const std::vector<Part> files{
-      {"vector.glsl"}, {"environment_map.glsl"}, {"blocks.glsl"}, {"background.glsl"}};
-  const std::string head = header(fileNames), map = environmentDefines(environment);
-  const std::string features = define("LIGHTS", 0) + map;
-  return {"background", join(head + stageDefines(true) + features, files, sources, fileNames),
-          join(head + stageDefines(false) + features, files, sources, fileNames)};
+  const std::vector<Part> vertex{{"vector.glsl"}, {"blocks.glsl"}, {"background.glsl"}};
+  const std::vector<Part> fragment{{"vector.glsl"},
+                                   {"blocks.glsl"},
+                                   {"sampling.glsl"},
+                                   {"environment_map.glsl"},
+                                   {"background.glsl"}};
+  // The background covers every sample.
+  const std::string head = header(fileNames) + multisampleText(false);
+  const std::string features = define("LIGHTS", 0) + define("TEXTURES", 0) +
+                               define("LEVELS_OF_DETAIL", environment == Environment::image) +
+                               environmentDefines(environment);
+  return {"background", join(head + stageDefines(true) + features, vertex, sources, fileNames),
+          join(head + stageDefines(false) + features, fragment, sources, fileNames)};
 }
 
 }  // namespace glint

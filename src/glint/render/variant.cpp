@@ -128,7 +128,7 @@ Variant variantFor(const Mesh& mesh, const Material& material, const glm::dmat4&
   v.program = programOf(look);
   v.unlit = material.unlit || mesh.topology != Topology::triangles;
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
-  v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
+  v.multisampled = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
   v.vertexColors = !mesh.colors.empty();
   v.colorTexture = readsTexture(mesh, material.colorTexture);
   v.alphaMask = material.alphaMode == AlphaMode::mask;

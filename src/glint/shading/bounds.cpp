@@ -211,9 +211,8 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
   return std::min(1.25 * s.largest, 1.0);
 }
 
-double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
-  if (form == LobeForm::none) return 0.0;
-  const double off = blinn ? 8.0 * vectorError : vectorError;
+double lobeTurnBound(double alpha, bool blinn, double turn) {
+  const double off = blinn ? 8.0 * turn : turn;
   // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
   // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
   double geometry = 0.0;
@@ -223,6 +222,12 @@ double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
   } else {
     geometry = std::pow(std::numbers::sqrt2 * off, std::max(alpha, 0.0)) + off;
   }
+  return geometry;
+}
+
+double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
+  if (form == LobeForm::none) return 0.0;
+  const double geometry = lobeTurnBound(alpha, blinn, vectorError);
   double own = 1e-6;
   switch (form) {
     case LobeForm::exact:
