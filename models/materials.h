@@ -7,7 +7,8 @@
 namespace glint::models {
 
 /// A glTF material whose Phong parameters stand in extras.glint. The roughness beside them is the
-/// one that the conversion of docs/materials.md takes back to the same exponent: 2/r⁴ - 2 is four times Phong's.
+/// one that the conversion of docs/materials.md takes back to the same exponent: 2/r⁴ - 2 is four
+/// times Phong's.
 nlohmann::json material(const std::string& name, const nlohmann::json& phong,
                         const nlohmann::json& pbr);
 

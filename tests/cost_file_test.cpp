@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "glint/image/error.h"
 #include "glint/budget/cost_file.h"
+#include "glint/image/error.h"
 #include "gltf_text.h"
 
 namespace glint {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "glint/image/error.h"
-#include "glint/render/draw_list.h"
 #include "glint/options/parameters.h"
+#include "glint/render/draw_list.h"
 #include "scenes.h"
 
 using glint::DrawItem;

@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "glint/budget/error_budget.h"
+#include "glint/options/parameters.h"
 #include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
-#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "glint/shading/sum.h"

@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <random>
 
-#include "glint/gl/context.h"
 #include "glint/budget/error_budget.h"
+#include "glint/gl/context.h"
+#include "glint/options/parameters.h"
 #include "glint/reference/renderer.h"
 #include "glint/render/renderer.h"
-#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "random.h"
 #include "scenes.h"

@@ -11,11 +11,11 @@
 #include <fstream>
 #include <random>
 
-#include "glint/image/error.h"
 #include "glint/budget/cost_file.h"
+#include "glint/image/error.h"
+#include "glint/options/parameters.h"
 #include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
-#include "glint/options/parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/costs.h"
 #include "gltf_text.h"

@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "glint/image/error.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "glint/image/error.h"
 #include "glint/gltf/pbr_conversion.h"
+#include "glint/image/error.h"
 
 namespace glint {
 namespace {

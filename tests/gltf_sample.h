@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "glint/image/error.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
 
 /// A small glTF document that tests put together and break.
 class Sample {

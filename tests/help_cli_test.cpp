@@ -82,12 +82,13 @@ TEST(Help, ExamplesRunAsPrinted) {
   const std::vector<std::string> small{"--resolution", "40,30"};
   for (const char* made : {"baselines", "pictures", "thumbs", "turn"})
     std::filesystem::create_directory(folder / made);
-  for (const char* picture : {"a.png", "b.png", "baseline.png", "baselines/a.png", "pictures/a.png"})
+  for (const char* picture :
+       {"a.png", "b.png", "baseline.png", "baselines/a.png", "pictures/a.png"})
     ASSERT_EQ(run({"render", "helmet.glb", "-o", picture, "--resolution", "40,30"}).status, 0);
-  ASSERT_EQ(run({"render", "helmet.glb", "-o", "c.png", "--resolution", "40,30", "--save-look",
-                 "a.json"})
-                .status,
-            0);
+  ASSERT_EQ(
+      run({"render", "helmet.glb", "-o", "c.png", "--resolution", "40,30", "--save-look", "a.json"})
+          .status,
+      0);
   std::vector<std::string> pages{""};
   pages.insert(pages.end(), commands.begin(), commands.end());
   for (const std::string& command : pages) {
@@ -132,11 +133,10 @@ TEST(Help, VersionByALetter) {
 
 // As f3d users type it. Without a display the one line says what works without.
 TEST(Help, AModelAloneIsShown) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{shipped + "sphere.glb"},
-        {shipped + "sphere.glb", "--shading", "gouraud"},
-        {"--shading", "gouraud", shipped + "sphere.glb"},
-        {"view", shipped + "sphere.glb"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{shipped + "sphere.glb"},
+                                                {shipped + "sphere.glb", "--shading", "gouraud"},
+                                                {"--shading", "gouraud", shipped + "sphere.glb"},
+                                                {"view", shipped + "sphere.glb"}}) {
     SCOPED_TRACE(testing::PrintToString(words));
     const Ran ran = runGlint(words, {.environment = noDisplay});
     EXPECT_NE(ran.status, 0);

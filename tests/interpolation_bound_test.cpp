@@ -14,8 +14,8 @@
 #include <limits>
 #include <random>
 
-#include "glint/reference/renderer.h"
 #include "glint/options/parameters.h"
+#include "glint/reference/renderer.h"
 #include "glint/shading/sum.h"
 #include "random.h"
 #include "scenes.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/reference/terms.h"
 #include "glint/reference/renderer.h"
+#include "glint/reference/terms.h"
 #include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "glint/gl/context.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
+#include "glint/options/parameters.h"
 #include "glint/reference/renderer.h"
 #include "glint/render/renderer.h"
-#include "glint/gltf/scene_file.h"
 #include "glint/scene/look_text.h"
-#include "glint/options/parameters.h"
 #include "glint/shading/safe.h"
 #include "gltf_text.h"
 #include "reference_scenes.h"

@@ -105,9 +105,8 @@ TEST(ReferenceInterpolation, IsPerspectiveCorrect) {
   }
 }
 
-// docs/science.md G4: a floor from behind the eye to far ahead. Its pixels are those whose ray meets
-// it
-// between near and far plane, and the position is where.
+// docs/science.md G4: a floor from behind the eye to far ahead. Its pixels are those whose ray
+// meets it between near and far plane, and the position is where.
 TEST(ReferenceClipping, AFloorThroughTheEyesPlane) {
   const double near = 0.5, far = 40;
   Mesh mesh = triangles({{-100, -1, 50}, {100, -1, 50}, {0, -1, -100}});

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/image/error.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
 #include "reference_scenes.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "glint/gl/check.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/image/srgb.h"
 #include "glint/render/composition.h"
-#include "glint/gltf/scene_file.h"
 #include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"

@@ -495,8 +495,8 @@ TEST(Info, SaysWhatBecomesOfExtensionsSkinsAndMorphTargets) {
   const Ran morph = runGlint({"info", models + "morph.glb", "--json", "-"});
   expectDone(morph);
   const auto json = nlohmann::json::parse(morph.out);
-  EXPECT_EQ(json["morphs"], nlohmann::json::parse(
-                                R"([{"mesh": "Ball", "targets": ["Tall", "Cube"]}])"));
+  EXPECT_EQ(json["morphs"],
+            nlohmann::json::parse(R"([{"mesh": "Ball", "targets": ["Tall", "Cube"]}])"));
   EXPECT_TRUE(json["skins"].empty());
   EXPECT_TRUE(json["extensions"].empty());
   const auto extensions = nlohmann::json::parse(

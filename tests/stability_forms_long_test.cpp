@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "glint/gl/context.h"
-#include "glint/stability/search.h"
 #include "glint/options/parameters.h"
+#include "glint/stability/search.h"
 #include "glint/stability/suite.h"
 
 using namespace glint;

@@ -5,9 +5,9 @@
 
 #include <set>
 
+#include "glint/options/parameters.h"
 #include "glint/stability/profile.h"
 #include "glint/stability/search.h"
-#include "glint/options/parameters.h"
 #include "glint/stability/suite.h"
 #include "glsl_probe.h"
 

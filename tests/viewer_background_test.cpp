@@ -5,12 +5,12 @@
 #include <condition_variable>
 #include <limits>
 
+#include "reference_scenes.h"
+#include "scenes.h"
 #include "viewer/error_map.h"
 #include "viewer/pace.h"
 #include "viewer/reference_task.h"
 #include "viewer/worker.h"
-#include "reference_scenes.h"
-#include "scenes.h"
 
 namespace glint::viewer {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "scenes.h"
 #include "viewer/choice.h"
 #include "viewer/reference_task.h"
-#include "scenes.h"
 
 namespace glint::viewer {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "glint/scene/look_text.h"
-#include "glint/scene/lights.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/lights.h"
+#include "glint/scene/look_text.h"
 #include "viewer/edits.h"
 #include "viewer/light_edit.h"
 #include "viewer/materials.h"

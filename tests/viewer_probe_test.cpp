@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "glint/gltf/scene_file.h"
-#include "viewer/probe.h"
 #include "reference_scenes.h"
 #include "scenes.h"
+#include "viewer/probe.h"
 
 namespace glint::viewer {
 namespace {

@@ -4,8 +4,8 @@
 #include "camera_control.h"
 #include "edits.h"
 #include "glint/image/error.h"
-#include "glint/scene/look_text.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/look_text.h"
 #include "materials.h"
 
 namespace glint::viewer {

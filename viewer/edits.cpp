@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
-#include "glint/scene/look_text.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/look_text.h"
 #include "light_edit.h"
 #include "materials.h"
 #include "presets.h"

@@ -100,7 +100,8 @@ Interface::Interface(Window& window, double scale) : window_(window) {
   widgets::style().labelWidth = imgui::fontHeight() * 11;
   if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
     ImGui::DestroyContext();
-    throw ContextError("the window's driver cannot draw the panel: draw offscreen with glint render");
+    throw ContextError(
+        "the window's driver cannot draw the panel: draw offscreen with glint render");
   }
 }
 

@@ -22,9 +22,10 @@ int main(int argc, char** argv) {
   std::string model, glsl;
   app.add_option("MODEL", model,
                  "a glTF 2.0 model, .gltf or .glb; models can also be dropped on the window");
-  app.add_option("--glsl", glsl,
-                 "use the shader files in this folder in place of the built-in ones; changes to them "
-                 "show at once")
+  app.add_option(
+         "--glsl", glsl,
+         "use the shader files in this folder in place of the built-in ones; changes to them "
+         "show at once")
       ->type_name("DIR");
   app.add_option("--scale", options.scale,
                  "size of text and widgets, 0.5 to 4 [default: the screen's]")

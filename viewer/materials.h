@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "glint/scene/look.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/look.h"
 #include "glint/scene/scene.h"
 
 namespace glint::viewer {

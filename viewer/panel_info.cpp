@@ -6,8 +6,8 @@
 #include <set>
 
 #include "compose.h"
-#include "glint/scene/lights.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
 #include "materials.h"
 #include "panel.h"

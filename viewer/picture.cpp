@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "glint/gl/check.h"
+#include "glint/gltf/model_hash.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
 #include "glint/options/picture_text.h"
-#include "glint/gltf/model_hash.h"
 
 namespace glint::viewer {
 

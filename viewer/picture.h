@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "glint/image/image.h"
 #include "glint/budget/error_budget.h"
+#include "glint/image/image.h"
 #include "glint/render/renderer.h"
 
 namespace glint::viewer {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 
+#include "glint/gltf/patch.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/gltf/scene_file.h"
-#include "glint/gltf/patch.h"
 #include "glint/options/parameters.h"
 #include "materials.h"
 

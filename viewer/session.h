@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "document.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
-#include "glint/gltf/scene_file.h"
 #include "glint/scene/scene.h"
 #include "picking.h"
 #include "posing.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "glint/options/help.h"
 #include "glint/gl/context.h"
+#include "glint/options/help.h"
 
 namespace glint {
 

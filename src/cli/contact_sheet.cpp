@@ -10,8 +10,8 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/scene/look_text.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/look_text.h"
 #include "interrupt.h"
 
 namespace glint {

@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "commands.h"
-#include "glint/options/help.h"
-#include "glint/image/error.h"
-#include "glint/image/file.h"
-#include "glint/gltf/scene_file.h"
 #include "glint/gltf/file.h"
 #include "glint/gltf/patch.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/options/help.h"
 #include "glint/options/parameters.h"
 
 namespace glint {

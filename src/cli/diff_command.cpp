@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "commands.h"
-#include "glint/options/help.h"
 #include "diff_run.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/options/help.h"
 
 namespace glint {
 namespace {
@@ -188,7 +188,8 @@ Command addDiff(CLI::App& app) {
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type)->take_last();
   };
-  command->add_option("A", given->a, "the baseline: a PNG, EXR, PFM, HDR or JPEG file, or a folder of them");
+  command->add_option("A", given->a,
+                      "the baseline: a PNG, EXR, PFM, HDR or JPEG file, or a folder of them");
   command->add_option("B", given->b, "the picture or folder to check");
   CLI::Option* metric =
       command
@@ -199,9 +200,10 @@ Command addDiff(CLI::App& app) {
           ->allow_extra_args(false);
   CLI::Option* threshold =
       command
-          ->add_option("--threshold", given->thresholds,
-                       "limit of the metric before it: the largest value that passes (psnr, ssim: the "
-                       "smallest); without any limit the pictures must be identical")
+          ->add_option(
+              "--threshold", given->thresholds,
+              "limit of the metric before it: the largest value that passes (psnr, ssim: the "
+              "smallest); without any limit the pictures must be identical")
           ->type_name("T")
           ->allow_extra_args(false);
   text("--max-pixels", given->maxPixels, "N|P%", "how many pixels may be over the tolerance");
@@ -214,8 +216,7 @@ Command addDiff(CLI::App& app) {
   command->add_flag("--ignore-anti-aliasing", given->ignoreAntiAliasing,
                     "do not count pixels that look anti-aliased");
   command
-      ->add_option("--ignore", given->ignored,
-                   "ignore a rectangle, corners included; repeatable")
+      ->add_option("--ignore", given->ignored, "ignore a rectangle, corners included; repeatable")
       ->type_name("x1,y1-x2,y2")
       ->allow_extra_args(false);
   text("--mask", given->mask, "FILE", "ignore the pixels that are black in this picture");
@@ -226,7 +227,9 @@ Command addDiff(CLI::App& app) {
        "compare sRGB values or linear light; stored: as in the files, which must be of one kind "
        "[default: stored]");
   text("--layer", given->layer, "NAME", "the layer of EXR files to compare");
-  command->add_option("--pixels-per-degree", given->pixelsPerDegree, "viewing condition of FLIP [default: 67.0206]")
+  command
+      ->add_option("--pixels-per-degree", given->pixelsPerDegree,
+                   "viewing condition of FLIP [default: 67.0206]")
       ->type_name("P")
       ->check(CLI::Range(1e-3, 1000.0).description(""));
   text("--screen", given->screen, "distance,pixels,width",
@@ -240,7 +243,9 @@ Command addDiff(CLI::App& app) {
   text("--json", given->json, "FILE", "write all metrics as JSON; - is stdout");
   text("--junit", given->junit, "FILE", "write the results as JUnit XML, for a CI server");
   text("--html", given->html, "FILE", "write a report as one HTML file");
-  command->add_option("--jobs", given->jobs, "number of pairs compared at the same time [default: the number of processors]")
+  command
+      ->add_option("--jobs", given->jobs,
+                   "number of pairs compared at the same time [default: the number of processors]")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   CLI::Option* updating =

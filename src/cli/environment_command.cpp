@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "commands.h"
-#include "glint/options/help.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/options/help.h"
 #include "glint/shading/environment_map.h"
 
 namespace glint {

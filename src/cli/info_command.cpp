@@ -5,12 +5,12 @@
 #include <set>
 
 #include "commands.h"
-#include "glint/options/help.h"
-#include "glint/render/draw_list.h"
 #include "glint/budget/error_budget.h"
 #include "glint/gltf/scene_file.h"
-#include "glint/scene/material_parameters.h"
+#include "glint/options/help.h"
 #include "glint/options/outputs.h"
+#include "glint/render/draw_list.h"
+#include "glint/scene/material_parameters.h"
 #include "report.h"
 
 namespace glint {
@@ -191,13 +191,14 @@ void print(const Json& json) {
 }  // namespace
 
 Command addInfo(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("info", "list what a model contains, the shader variants it needs, and why");
+  CLI::App* command = app.add_subcommand(
+      "info", "list what a model contains, the shader variants it needs, and why");
   command->footer(examples({"info helmet.glb", "info helmet.glb --max-error 0.01",
                             "info helmet.glb --shading environment --json -"}));
   auto model = std::make_shared<std::string>(), jsonFile = std::make_shared<std::string>();
   command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb")->required();
-  command->add_option("--json", *jsonFile, "write the list as JSON; - is stdout")->type_name("FILE");
+  command->add_option("--json", *jsonFile, "write the list as JSON; - is stdout")
+      ->type_name("FILE");
   auto makeLook = addLookOptions(*command);
   return [=] {
     checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});

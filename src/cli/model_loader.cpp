@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "clock.h"
+#include "glint/gltf/model_hash.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
 #include "glint/options/picture_text.h"
-#include "glint/gltf/scene_file.h"
-#include "glint/gltf/model_hash.h"
 #include "glint/scene/material_parameters.h"
 #include "interrupt.h"
 

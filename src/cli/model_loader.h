@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
+#include "glint/gltf/scene_file.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
-#include "glint/gltf/scene_file.h"
 #include "picture_plan.h"
 
 namespace glint {

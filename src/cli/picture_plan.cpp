@@ -3,8 +3,8 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
-#include "model_loader.h"
 #include "glint/options/outputs.h"
+#include "model_loader.h"
 
 namespace glint {
 PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)

@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "glint/reference/terms.h"
 #include "glint/reference/renderer.h"
+#include "glint/reference/terms.h"
 #include "glint/render/renderer.h"
 #include "model_loader.h"
 

@@ -5,12 +5,12 @@
 
 #include "clock.h"
 #include "commands.h"
-#include "glint/options/help.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
+#include "glint/options/help.h"
+#include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "interrupt.h"
-#include "glint/options/outputs.h"
 #include "render_pictures.h"
 
 namespace glint {

@@ -17,7 +17,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->type_name("OUT")
       ->required()
       ->take_last();
-  command.add_option("--bit-depth", options.bitDepth, "bits per channel of a PNG, 8 or 16 [default: 8]")
+  command
+      .add_option("--bit-depth", options.bitDepth,
+                  "bits per channel of a PNG, 8 or 16 [default: 8]")
       ->type_name("BITS");
   command
       .add_option("--rendering-backend", options.backend,
@@ -28,12 +30,14 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command.add_option("--json", options.json, "write a report of the run; - is stdout")
       ->type_name("FILE");
   command
-      .add_option("--glsl", options.glsl, "use the shader files in this folder in place of the built-in ones")
+      .add_option("--glsl", options.glsl,
+                  "use the shader files in this folder in place of the built-in ones")
       ->type_name("DIR");
   command
-      .add_option("--turntable", options.turntable,
-                  "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
-                  "right")
+      .add_option(
+          "--turntable", options.turntable,
+          "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
+          "right")
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
   command
@@ -52,15 +56,17 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command.add_flag("--terms", options.terms,
-                   "also write the terms whose sum the picture is (ambient, diffuse and specular of "
-                   "each light, reflection, refraction, emission, background), normal and depth: as "
-                   "layers of an EXR, or one file each (OUT.ambient.png)");
+  command.add_flag(
+      "--terms", options.terms,
+      "also write the terms whose sum the picture is (ambient, diffuse and specular of "
+      "each light, reflection, refraction, emission, background), normal and depth: as "
+      "layers of an EXR, or one file each (OUT.ambient.png)");
   const char* batch = "Batches";
   command
-      .add_option("--from-list", options.list,
-                  "draw the models of this list, one per line; - reads stdin and draws each as soon "
-                  "as its line arrives; every picture is reported as one line of JSON on stdout")
+      .add_option(
+          "--from-list", options.list,
+          "draw the models of this list, one per line; - reads stdin and draws each as soon "
+          "as its line arrives; every picture is reported as one line of JSON on stdout")
       ->type_name("FILE")
       ->group(batch);
   command

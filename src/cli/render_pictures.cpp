@@ -4,11 +4,11 @@
 
 #include "clock.h"
 #include "commands.h"
+#include "glint/budget/error_budget.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
-#include "glint/budget/error_budget.h"
-#include "glint/options/picture_text.h"
 #include "glint/options/parameters.h"
+#include "glint/options/picture_text.h"
 #include "interrupt.h"
 #include "report.h"
 #include "term_files.h"

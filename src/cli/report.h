@@ -2,8 +2,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "glint/render/draw_list.h"
 #include "glint/budget/error_budget.h"
+#include "glint/render/draw_list.h"
 
 namespace glint {
 

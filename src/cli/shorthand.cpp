@@ -24,9 +24,8 @@ std::vector<std::string> expandShorthand(std::vector<std::string> arguments,
     arguments.erase(arguments.begin());
     if (arguments.empty() || isCommand(arguments.front()))  // else it is refused as unknown
       arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
-  } else if (isModel(first) ||
-             (first.starts_with('-') && std::ranges::any_of(arguments, isModel) &&
-              std::ranges::none_of(arguments, isCommand))) {
+  } else if (isModel(first) || (first.starts_with('-') && std::ranges::any_of(arguments, isModel) &&
+                                std::ranges::none_of(arguments, isCommand))) {
     arguments.insert(arguments.begin(), "view");
   }
   return arguments;

@@ -8,18 +8,18 @@
 #include <span>
 
 #include "commands.h"
-#include "glint/options/help.h"
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/report_page.h"
+#include "glint/options/help.h"
+#include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
 #include "glint/stability/plots.h"
 #include "glint/stability/profile.h"
 #include "glint/stability/search.h"
 #include "glint/stability/suite.h"
-#include "glint/options/outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -79,8 +79,7 @@ int runStability(const StabilityOptions& options) {
   context->makeCurrent();
   if (!context->remark().empty()) printWarning(context->remark());
   const GlStrings gl = glStrings();
-  const std::string highlight = highlightText(forms.highlight),
-                    fresnel(fresnelText(forms.fresnel));
+  const std::string highlight = highlightText(forms.highlight), fresnel(fresnelText(forms.fresnel));
   std::vector<stability::CaseResult> results;
   std::vector<stability::Quality> profile;
   std::optional<stability::SearchReport> search;
@@ -162,10 +161,11 @@ Command addStability(CLI::App& app) {
       ->allow_extra_args(false)
       ->take_all();
   command
-      ->add_option("--search", options->search,
-                   "also evaluate COUNT random points in every program and draw COUNT/10000 random "
-                   "scenes, half of them pathological, and fail if anything is NaN or infinite; 1e8 "
-                   "takes minutes")
+      ->add_option(
+          "--search", options->search,
+          "also evaluate COUNT random points in every program and draw COUNT/10000 random "
+          "scenes, half of them pathological, and fail if anything is NaN or infinite; 1e8 "
+          "takes minutes")
       ->type_name("COUNT")
       ->check(CLI::Range(1.0, 1e12).description(""))
       ->take_last();
@@ -173,7 +173,8 @@ Command addStability(CLI::App& app) {
   text("--output", options->output, "DIR",
        "write stability.html, a page with plots of this driver, into this folder");
   text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
-  text("--glsl", options->glsl, "DIR", "use the shader files in this folder in place of the built-in ones");
+  text("--glsl", options->glsl, "DIR",
+       "use the shader files in this folder in place of the built-in ones");
   return [options] { return runStability(*options); };
 }
 

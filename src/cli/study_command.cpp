@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "glint/options/help.h"
+#include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/gltf/scene_file.h"
+#include "glint/options/help.h"
+#include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "glint/study/cost_measurement.h"
 #include "glint/study/page.h"
 #include "glint/study/results.h"
 #include "interrupt.h"
-#include "glint/options/outputs.h"
 #include "progress.h"
 
 namespace glint {
@@ -205,9 +205,10 @@ Command addStudy(CLI::App& app) {
   command->add_flag("--quick", given->quick,
                     "512 x 512 pixels, fewer forms and frames: less than a minute on two cores");
   command
-      ->add_option("--repetitions", given->repetitions,
-                   "frames measured of each variant, after 10 that are not [default: 60; with --quick "
-                   "30]")
+      ->add_option(
+          "--repetitions", given->repetitions,
+          "frames measured of each variant, after 10 that are not [default: 60; with --quick "
+          "30]")
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
   command
@@ -234,10 +235,9 @@ Command addStudy(CLI::App& app) {
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--measure-costs", given->costs,
-          "instead of a study, measure the cost of each form on this driver (less than a "
-          "minute) and write the table that --cost-table reads; - is stdout")
+      ->add_option("--measure-costs", given->costs,
+                   "instead of a study, measure the cost of each form on this driver (less than a "
+                   "minute) and write the table that --cost-table reads; - is stdout")
       ->type_name("FILE")
       ->take_last();
   auto look = addLookOptions(*command);

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <string>
 
-#include "glint/image/error.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const int file = memfd_create("model", MFD_CLOEXEC);

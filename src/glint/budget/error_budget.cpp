@@ -6,8 +6,9 @@
 #include <limits>
 #include <map>
 
-#include "glint/budget/form_choice.h"
 #include "glint/budget/cost_file.h"
+#include "glint/budget/form_choice.h"
+#include "glint/budget/interpolation_bound.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
@@ -15,14 +16,12 @@
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/safe.h"
-#include "glint/budget/interpolation_bound.h"
 
 namespace glint {
 namespace {
 
 constexpr double u = 0x1p-24;
 constexpr double cosineError = 6e-7;  // of a dot product of rounded unit vectors, at most 10 u
-
 
 // What the bounds read of the surfaces of a material's name.
 struct Group {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t mostForms = 3;  // of one material: another saves less than its loop costs
 
-
 LobeForm lobeForm(Highlight form) { return LobeForm(int(form)); }
 FresnelForm fresnelForm(Fresnel form) { return FresnelForm(int(form)); }
 static_assert(int(LobeForm::none) == int(Highlight::none));

@@ -54,8 +54,9 @@ void checkGl(const char* where) {
 
 void requireContext(const char* where) {
   if (glGetString == nullptr || glGetString(GL_VERSION) == nullptr)
-    throw Error(std::string(where) +
-                ": no OpenGL context is current in this thread: open one and make it current first");
+    throw Error(
+        std::string(where) +
+        ": no OpenGL context is current in this thread: open one and make it current first");
 }
 
 }  // namespace glint

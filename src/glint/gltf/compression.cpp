@@ -110,7 +110,8 @@ class Decompressor {
     const Cursor views = root_.member("bufferViews");
     const auto view = static_cast<std::size_t>(from.required("bufferView").index(views.size()));
     const auto number = [&](const char* key) {
-      return static_cast<std::uint64_t>(views.item(view).member(key).integer(0, 0, maxCompressedBytes));
+      return static_cast<std::uint64_t>(
+          views.item(view).member(key).integer(0, 0, maxCompressedBytes));
     };
     const std::vector<unsigned char> packed =
         read(from,

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <map>
 
-#include "glint/image/texture.h"
 #include "glint/gltf/compression.h"
+#include "glint/image/texture.h"
 
 namespace glint::gltf {
 namespace {

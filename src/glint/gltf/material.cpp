@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "glint/scene/material_parameters.h"
 #include "glint/gltf/pbr_conversion.h"
+#include "glint/scene/material_parameters.h"
 
 namespace glint::gltf {
 namespace {

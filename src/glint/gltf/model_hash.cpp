@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "glint/gltf/file.h"
+#include "glint/gltf/patch.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/gltf/patch.h"
-#include "glint/gltf/file.h"
 
 namespace glint {
 namespace {

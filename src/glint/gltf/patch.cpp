@@ -9,10 +9,10 @@
 #include <string_view>
 #include <variant>
 
+#include "glint/gltf/pbr_conversion.h"
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
-#include "glint/gltf/pbr_conversion.h"
 
 namespace glint {
 namespace {

@@ -8,13 +8,13 @@
 #include <tuple>
 #include <utility>
 
-#include "glint/image/error.h"
 #include "glint/gltf/animation.h"
 #include "glint/gltf/document.h"
 #include "glint/gltf/material.h"
 #include "glint/gltf/mesh.h"
 #include "glint/gltf/nodes.h"
 #include "glint/gltf/texture.h"
+#include "glint/image/error.h"
 #include "glint/scene/lights.h"
 
 namespace glint {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "glint/image/texture.h"
 #include "glint/gltf/file.h"
+#include "glint/image/texture.h"
 
 namespace glint::gltf {
 namespace {

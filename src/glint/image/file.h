@@ -25,9 +25,8 @@ std::vector<std::byte> readFile(const std::string& path);
 ///
 /// The path "-" is standard output, and a path that exists and is not a regular file (/dev/null, a
 /// FIFO) is written directly; there what was written before an error cannot be taken back. A
-/// symbolic link stays, and the file it points to is replaced. Folders that are missing are made, and
-/// go again if nothing comes into them. New files have the permissions
-/// 0666 less the umask.
+/// symbolic link stays, and the file it points to is replaced. Folders that are missing are made,
+/// and go again if nothing comes into them. New files have the permissions 0666 less the umask.
 ///
 /// All members throw InputError: missing folder, no permission, disk full.
 class OutputFile {

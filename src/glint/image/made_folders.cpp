@@ -8,7 +8,8 @@ std::error_code MadeFolders::make(const fs::path& folder) {
   std::error_code error;
   const fs::path whole = fs::absolute(folder, error).lexically_normal();
   std::vector<fs::path> missing;
-  for (fs::path each = whole; !each.empty() && !fs::exists(each, error) && each != each.parent_path();
+  for (fs::path each = whole;
+       !each.empty() && !fs::exists(each, error) && each != each.parent_path();
        each = each.parent_path())
     if (each.has_filename()) missing.push_back(each);
   error.clear();

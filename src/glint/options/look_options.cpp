@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "glint/image/error.h"
 #include "glint/budget/cost_file.h"
+#include "glint/image/error.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 

@@ -259,10 +259,12 @@ std::vector<Parameter> makeTable() {
               "how the program environment computes reflectance: exact (without cancellation), the "
               "textbook's equations, Schlick's approximation, the same with its power by exp2, or "
               "a rational function fitted to the index"),
-       slider(number("max-error", "E", 0, 1e6, &Look::maxError,
-                     "use the cheapest forms of lobe and reflectance whose proven error for this scene "
-                     "is at most E, in linear light; the exact ones where there is none"),
-              1e-5, 1, true),
+       slider(
+           number(
+               "max-error", "E", 0, 1e6, &Look::maxError,
+               "use the cheapest forms of lobe and reflectance whose proven error for this scene "
+               "is at most E, in linear light; the exact ones where there is none"),
+           1e-5, 1, true),
        costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
@@ -303,25 +305,27 @@ std::vector<Parameter> makeTable() {
                 "show the environment behind the model")});
   section(
       "Camera",
-      {vector("camera-position", 1e30, &Look::cameraPosition, "position of the camera [default: from the model's size]"),
-       vector("camera-focal-point", 1e30, &Look::cameraFocalPoint, "the point that the camera looks at [default: the model's centre]"),
+      {vector("camera-position", 1e30, &Look::cameraPosition,
+              "position of the camera [default: from the model's size]"),
+       vector("camera-focal-point", 1e30, &Look::cameraFocalPoint,
+              "the point that the camera looks at [default: the model's centre]"),
        direction("camera-view-up", &Look::cameraViewUp, "up direction [default: 0,1,0]"),
        slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
                      "vertical angle of view [default: 30]"),
               1, 120, false, 30),
-       direction("camera-direction", &Look::cameraDirection,
-                 "direction in which the camera looks, where position and focal point do not say it"),
+       direction(
+           "camera-direction", &Look::cameraDirection,
+           "direction in which the camera looks, where position and focal point do not say it"),
        slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
                      "then turn the camera about the focal point, to its right"),
               -180, 180, false),
        slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
                      "then turn the camera about the focal point, upwards"),
               -90, 90, false),
-       slider(
-           number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
-                  "how much of the picture the model's bounding sphere fills, unless "
-                  "--camera-position is given"),
-           0.05, 20, true),
+       slider(number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
+                     "how much of the picture the model's bounding sphere fills, unless "
+                     "--camera-position is given"),
+              0.05, 20, true),
        flag("camera-orthographic", &Look::cameraOrthographic,
             "parallel projection; half the picture's height is the distance to the focal point "
             "times tan(view angle / 2)"),
@@ -348,10 +352,11 @@ std::vector<Parameter> makeTable() {
            &Look::clippingRange)});
   section(
       "Animation",
-      {slider(number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
-                     "time in the animation; after its end the last pose is kept [default: the file's "
-                     "rest pose]"),
-              0, 10, false),
+      {slider(
+           number("animation-time", "SECONDS", 0, 1e9, &Look::animationTime,
+                  "time in the animation; after its end the last pose is kept [default: the file's "
+                  "rest pose]"),
+           0, 10, false),
        resetting(custom(
                      "animation", "NAME|N", "which animation of the file [default: the first]",
                      [](Look& look, const std::string& text) {
@@ -361,31 +366,30 @@ std::vector<Parameter> makeTable() {
                        return look.animation.empty() ? Json() : Json(look.animation);
                      }),
                  &Look::animation)});
-  section("Picture",
-          {resetting(custom(
-                         "resolution", "W,H", "width and height in pixels",
-                         [](Look& look, const std::string& text) {
-                           look.resolution = parseResolution(text);
-                         },
-                         [](const Look& look) {
-                           return Json::array({look.resolution.x, look.resolution.y});
-                         }),
-                     &Look::resolution),
-           resetting(
-               custom(
-                   "anti-aliasing", "none|msaa:N|ssaa:N",
-                   "msaa: N coverage samples per pixel; ssaa: N x N shaded samples per pixel; "
-                   "averaged in linear light",
-                   [](Look& look, const std::string& text) {
-                     look.antiAliasing = parseAntiAliasing(text);
-                   },
-                   [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
-               &Look::antiAliasing),
-           color("background-color", &Look::backgroundColor, "colour behind the model"),
-           flag("no-background", &Look::noBackground, "transparent background"),
-           slider(number("exposure", "EV", -64, 64, &Look::exposure,
-                         "multiply the picture by 2^EV before it is encoded"),
-                  -8, 8, false)});
+  section(
+      "Picture",
+      {resetting(
+           custom(
+               "resolution", "W,H", "width and height in pixels",
+               [](Look& look, const std::string& text) { look.resolution = parseResolution(text); },
+               [](const Look& look) {
+                 return Json::array({look.resolution.x, look.resolution.y});
+               }),
+           &Look::resolution),
+       resetting(custom(
+                     "anti-aliasing", "none|msaa:N|ssaa:N",
+                     "msaa: N coverage samples per pixel; ssaa: N x N shaded samples per pixel; "
+                     "averaged in linear light",
+                     [](Look& look, const std::string& text) {
+                       look.antiAliasing = parseAntiAliasing(text);
+                     },
+                     [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
+                 &Look::antiAliasing),
+       color("background-color", &Look::backgroundColor, "colour behind the model"),
+       flag("no-background", &Look::noBackground, "transparent background"),
+       slider(number("exposure", "EV", -64, 64, &Look::exposure,
+                     "multiply the picture by 2^EV before it is encoded"),
+              -8, 8, false)});
   return table;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "glint/image/image.h"
-#include "glint/render/picture_terms.h"
 #include "glint/reference/scene.h"
+#include "glint/render/picture_terms.h"
 
 namespace glint {
 

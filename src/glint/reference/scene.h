@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "glint/render/draw_list.h"
-#include "glint/render/decode.h"
 #include "glint/reference/shade.h"
 #include "glint/reference/texture.h"
+#include "glint/render/decode.h"
+#include "glint/render/draw_list.h"
 
 namespace glint::reference {
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-
 /// The part of the light that arrives at a point that faces it, by KHR_lights_punctual, and the way
 /// to it, as share and unit vector.
 std::pair<double, glm::dvec3> arriving(const FileLight& light, const glm::dvec3& point) {

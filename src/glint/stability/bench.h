@@ -62,6 +62,7 @@ class Bench {
   Renderer& renderer() { return renderer_; }
 
   const SetParameter setParameter;
+
  private:
   Look forms_;
   GlslSources sources_;

@@ -5,8 +5,8 @@
 
 #include "glint/image/error.h"
 #include "glint/render/probe_search.h"
-#include "glint/shading/fresnel.h"
 #include "glint/scene/look_text.h"
+#include "glint/shading/fresnel.h"
 #include "glint/shading/safe.h"
 #include "glint/stability/bench.h"
 #include "glint/stability/scenes.h"

@@ -6,9 +6,9 @@
 
 #include "glint/image/error.h"
 #include "glint/render/probe_error.h"
+#include "glint/scene/look_text.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
-#include "glint/scene/look_text.h"
 #include "glint/shading/safe.h"
 #include "glint/stability/scenes.h"
 
@@ -20,9 +20,10 @@ using Json = nlohmann::ordered_json;
 constexpr double plottedExponents[] = {10, 100, 1e3, 1e4, 1e5, 1e6};
 constexpr double floor = 1e-9;  // of logarithmic axes of errors
 
-const std::vector<std::string> lobeForms{"pow",          "exact",        "lyon:8", "lyon-tuned:8",
-                                         "lyon-cross:8", "pade:8",       "gaussian"};
-const std::vector<std::string> fresnelForms{"textbook", "exact", "schlick", "schlick-exp2", "rational"};
+const std::vector<std::string> lobeForms{"pow",          "exact",  "lyon:8",  "lyon-tuned:8",
+                                         "lyon-cross:8", "pade:8", "gaussian"};
+const std::vector<std::string> fresnelForms{"textbook", "exact", "schlick", "schlick-exp2",
+                                            "rational"};
 
 double shortened(double x) { return std::isfinite(x) ? std::stod(numberText(float(x))) : -1; }
 

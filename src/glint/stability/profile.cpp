@@ -11,8 +11,8 @@
 #include "glint/render/probe_error.h"
 #include "glint/render/probe_search.h"
 #include "glint/shading/safe.h"
-#include "glint/stability/scenes.h"
 #include "glint/stability/profile_targets.h"
+#include "glint/stability/scenes.h"
 
 namespace glint::stability {
 namespace {

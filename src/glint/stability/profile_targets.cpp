@@ -90,12 +90,13 @@ void measureTargets(std::vector<Quality>& all) {
                          std::to_string(samples) + (positions.empty() ? "" : ": " + positions),
                          "4 of GL 3.0 for plain formats", samples >= 4 ? "as required" : "fewer",
                          "--anti-aliasing msaa; ssaa does without", samples < 4));
-  all.push_back(observed("depth", "GL_ARB_clip_control, float depth",
-                         GLINT_GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
-                         "an extension of 3.3",
-                         GLINT_GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
-                                                  : "coarse far from the near plane",
-                         "cases G1 and G2", !GLINT_GLAD_GL_ARB_clip_control));
+  all.push_back(
+      observed("depth", "GL_ARB_clip_control, float depth",
+               GLINT_GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
+               "an extension of 3.3",
+               GLINT_GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
+                                              : "coarse far from the near plane",
+               "cases G1 and G2", !GLINT_GLAD_GL_ARB_clip_control));
   GLint size = 0, texture = 0, block = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &size);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);

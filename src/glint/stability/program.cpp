@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "glint/render/composition.h"
 #include "glint/reference/renderer.h"
+#include "glint/render/composition.h"
 #include "glint/scene/camera.h"
 #include "glint/shading/safe.h"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "glint/reference/shade.h"
 #include "glint/render/draw_list.h"
 #include "glint/render/glsl_sources.h"
 #include "glint/render/probe.h"
-#include "glint/reference/shade.h"
 
 namespace glint::stability {
 

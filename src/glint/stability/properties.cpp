@@ -8,8 +8,8 @@
 #include "glint/scene/look_text.h"
 #include "glint/shading/safe.h"
 #include "glint/stability/bench.h"
-#include "glint/stability/scenes.h"
 #include "glint/stability/hunts.h"
+#include "glint/stability/scenes.h"
 
 namespace glint::stability {
 namespace {

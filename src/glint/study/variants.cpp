@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "glint/image/error.h"
 #include "glint/budget/error_budget.h"
+#include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 
 namespace glint {

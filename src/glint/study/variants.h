@@ -30,8 +30,8 @@ struct StudyFilter {
   bool isEmpty() const { return shading.empty() && highlight.empty() && fresnel.empty(); }
 };
 
-/// The texts of all forms of the lobe, or of the reflectance. Quick: of those with a number the ones
-/// with 4 and 16.
+/// The texts of all forms of the lobe, or of the reflectance. Quick: of those with a number the
+/// ones with 4 and 16.
 std::vector<std::string> lobeForms(bool quick);
 std::vector<std::string> reflectanceForms(bool quick);
 
