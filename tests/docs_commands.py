@@ -32,8 +32,10 @@ cmake() {
     --build*)
       command cmake "$@" -- -n >/dev/null || return
       # What would have been built stands in for it.
+      case "$2" in -*) return ;; esac
+      [ -e "$2/glint" ] && return
       mkdir -p "$2/tests"
-      ln -sf "$BUILD"/glint* "$2"; ln -sf "$BUILD"/tests/*_tests "$2/tests" ;;
+      ln -s "$BUILD"/glint* "$2"; ln -s "$BUILD"/tests/*_tests "$2/tests" ;;
     *) command cmake "$@" ;;
   esac
 }
