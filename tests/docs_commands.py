@@ -35,7 +35,7 @@ cmake() {
       case "$2" in -*) return ;; esac
       [ -e "$2/glint" ] && return
       mkdir -p "$2/tests"
-      ln -s "$BUILD"/glint* "$2"; ln -s "$BUILD"/tests/*_tests "$2/tests" ;;
+      ln -sf "$BUILD"/glint* "$2"; ln -sf "$BUILD"/tests/*_tests "$2/tests" ;;
     *) command cmake "$@" ;;
   esac
 }
