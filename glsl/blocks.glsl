@@ -36,4 +36,6 @@ layout(std140) uniform MaterialBlock {
   vec4 leaving;          // Boundary of back faces
   vec4 lobe;             // xy: constants of the lobe's form; zw: of the second form in use
   vec4 dimmerLobe;       // of the third and the fourth
+  vec4 textured;         // what textures multiply: metallic, roughness, reflectance, strength of occlusion
+  vec4 detail;           // x: the lobe's exponent over Phong's
 } material;

@@ -1,31 +1,15 @@
 // environment: the Blinn-Phong sum, plus what the surface reflects and refracts of the environment.
+// reflectance() stands before it where a dielectric needs it: a form of fresnel.glsl.
 #if !VERTEX_STAGE
-#if DIELECTRIC
-float reflectance(float cosine, Boundary boundary) {
-#if FRESNEL == FRESNEL_TEXTBOOK
-  return fresnelTextbook(cosine, boundary);
-#elif FRESNEL == FRESNEL_SCHLICK && SCHLICK_FIFTH
-  return fresnelSchlickFifth(cosine, boundary, material.surface.z);
-#elif FRESNEL == FRESNEL_SCHLICK
-  return fresnelSchlick(cosine, boundary, material.surface.z, frame.view.w);
-#elif FRESNEL == FRESNEL_SCHLICK_EXP2
-  return fresnelSchlickExp2(cosine, boundary, material.surface.z);
-#elif FRESNEL == FRESNEL_RATIONAL
-  return fresnelRational(cosine, boundary, material.surface.z, material.surface.w);
-#else
-  return fresnelExact(cosine, boundary);
-#endif
-}
-#endif
-
 vec3 environmentToward(vec3 eyeDirection, float spread) {
   return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection, spread);
 }
 
 vec3 shade(vec4 base) {
-  Pixel p = shadedPixel();
-  vec3 n = p.normal, v = p.view;
-  vec3 sum = surfaceColor(sumLights(p.position, n, v), base.rgb);
+  Pixel at = shadedPixel();
+  Parameters p = parametersHere();
+  vec3 n = at.normal, v = at.view;
+  vec3 sum = surfaceColor(sumLights(at.position, n, v, p), base.rgb, p.metalness);
   float cosine = dot(n, v);
   vec4 b = material.entering;
 #if TWO_SIDED
@@ -34,11 +18,11 @@ vec3 shade(vec4 base) {
   Boundary boundary = Boundary(b.x, b.y, b.z, b.w);
   vec3 f = vec3(0.0);
 #if DIELECTRIC
-  f += (1.0 - material.surface.x) * reflectance(cosine, boundary);
+  f += (1.0 - p.metalness) * reflectance(cosine, boundary);
 #endif
 #if METAL
   float x = 1.0 - clamp(cosine, 0.0, 1.0), x2 = x * x;
-  f += material.surface.x * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
+  f += p.metalness * (base.rgb + (1.0 - base.rgb) * (x2 * x2 * x));
 #endif
 #if OUTPUT == OUTPUT_SUM || OUTPUT == OUTPUT_REFRACTION
   vec3 radiance = sum;
@@ -47,11 +31,7 @@ vec3 shade(vec4 base) {
   vec3 radiance = sum + f * environmentToward(mirrored, spreadOf(mirrored));
 #endif
 #if REFRACTION
-#if ALPHA_BLEND
-  float t = 1.0 - (1.0 - material.surface.y) * base.a;
-#else
-  float t = material.surface.y;
-#endif
+  float t = p.transmission;
   radiance -= t * sum;
 #if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
   // Along the surface and against the normal.

@@ -11,6 +11,9 @@ uniform sampler2D colorTexture;
 VARYING in vec2 vEmissionTexcoord;
 uniform sampler2D emissionTexture;
 #endif
+#if PARAMETER_PLACES > 0 && PER_PIXEL
+VARYING in vec2 vParameterTexcoords[PARAMETER_PLACES];
+#endif
 out vec4 fragment;  // linear; straight alpha
 
 void main() {
@@ -55,7 +58,7 @@ void main() {
 #else
   vec3 radiance = shade(base) + emission;
 #endif
-#if ALPHA_BLEND && !OPAQUE_OUTPUT
+#if ALPHA_BLEND
   fragment = vec4(radiance, base.a);
 #else
   fragment = vec4(radiance, 1.0);

@@ -1,31 +1,14 @@
 // Adds the lights that have one form of the highlight: composed once for each form in use, under names
-// of its own (ADD_LIGHTS, ADD_LIGHT, LOBE_OF), for the lights from ..._FROM to before ..._END. What a
-// form reads of the material, LOBE_SHAPE, is loaded before the loops.
-
-#if LOBE && HIGHLIGHT != HIGHLIGHT_POW
-// pow alone takes the cosine itself.
-float LOBE_OF(float lambda, vec2 shape) {
-#if HIGHLIGHT == HIGHLIGHT_INTEGER
-  return lobeInteger(lambda, LOBE_POWER);
-#elif HIGHLIGHT == HIGHLIGHT_LYON || HIGHLIGHT == HIGHLIGHT_LYON_TUNED
-  return lobeLyon(lambda, shape.x, LOBE_POWER);
-#elif HIGHLIGHT == HIGHLIGHT_LYON_CROSS
-  return lobeLyonCross(lambda, shape.x, LOBE_POWER);
-#elif HIGHLIGHT == HIGHLIGHT_PADE
-  return lobePade(lambda, shape.x, shape.y, LOBE_POWER);
-#elif HIGHLIGHT == HIGHLIGHT_GAUSSIAN
-  return lobeGaussian(lambda, shape.x);
-#else
-  return lobeExact(lambda, shape.x);
-#endif
-}
-#endif
+// of its own (ADD_LIGHTS, ADD_LIGHT), for the lights from ..._FROM to before ..._END. What a form reads
+// of the material, LOBE_SHAPE, is loaded before the loops. LOBE_OF is the form, a function of
+// lobe.glsl that stands before this file.
 
 // Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
 // and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
-// (Blinn-Phong) where those are constant, and is not read otherwise.
+// (Blinn-Phong) where those are constant, and is not read otherwise. `even`: the exponent is 0, where
+// every form is 1 up to 90 degrees.
 void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 constant,
-               bool isConstant, vec2 shape) {
+               bool isConstant, vec2 shape, bool even) {
   float cosLight = dot(n, l);
   if (!(cosLight > 0.0)) return;
 #if DIFFUSE
@@ -38,28 +21,31 @@ void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 
   float square = dot(between, between);
   if (!(square > 1e-12)) return;
   vec3 h = isConstant ? between : between / sqrt(square);
-#if HIGHLIGHT == HIGHLIGHT_POW
-  float lobe = lobePow(dot(n, h), shape.x);
+#if LOBE_TAKES_COSINE
+  float lobe = LOBE_OF(dot(n, h), shape);
 #else
-  float lobe = LOBE_OF(blinnLambda(n, h), shape);
+  float lambda = blinnLambda(n, h);
+  float lobe = even ? float(lambda < 1.0) : LOBE_OF(lambda, shape);
 #endif
 #else
-#if HIGHLIGHT == HIGHLIGHT_POW
-  float lobe = lobePow(dot(2.0 * cosLight * n - l, v), shape.x);
+#if LOBE_TAKES_COSINE
+  float lobe = LOBE_OF(dot(2.0 * cosLight * n - l, v), shape);
 #else
-  float lobe = LOBE_OF(phongLambda(n, between, cosLight), shape);
+  float lambda = phongLambda(n, between, cosLight);
+  float lobe = even ? float(lambda < 1.0) : LOBE_OF(lambda, shape);
 #endif
 #endif
   sum.specular += intensity * lobe;
 #endif
 }
 
-void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
+void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v, Parameters p) {
   vec2 shape = LOBE_SHAPE;
+  bool even = LOBE_EVEN;
 #if DIRECTIONAL_END > DIRECTIONAL_FROM
   for (int i = DIRECTIONAL_FROM; i < DIRECTIONAL_END; ++i)
     ADD_LIGHT(sum, n, v, lights[i].position.xyz, lights[i].intensity.rgb, lights[i].constant.xyz,
-              bool(CONSTANT_VIEW), shape);
+              bool(CONSTANT_VIEW), shape, even);
 #endif
 #if POINT_END > POINT_FROM
   for (int i = POINT_FROM; i < POINT_END; ++i)
@@ -68,7 +54,7 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
 #if LIGHT_FALLOFF
     if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
 #endif
-    ADD_LIGHT(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape);
+    ADD_LIGHT(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape, even);
   }
 #endif
 #if SPOT_END > SPOT_FROM
@@ -80,7 +66,7 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v) {
 #if LIGHT_FALLOFF
     if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
 #endif
-    ADD_LIGHT(sum, n, v, l, intensity, vec3(0.0), false, shape);
+    ADD_LIGHT(sum, n, v, l, intensity, vec3(0.0), false, shape, even);
   }
 #endif
 }

@@ -11,16 +11,24 @@ CARRIED VERTEX_OUT vec3 vBackSpecular;
 #endif
 #endif
 
+#if TEXTURED_METALNESS
+CARRIED VERTEX_OUT float vMetalness;
+#endif
+
 #if VERTEX_STAGE
 void carryLight(vec3 point, vec3 n) {
   vec3 v = toViewer(point);
-  LightSum sum = sumLights(point, n, v);
+  Parameters p = parametersHere();
+  LightSum sum = sumLights(point, n, v, p);
+#if TEXTURED_METALNESS
+  vMetalness = p.metalness;
+#endif
   vDiffuse = sum.diffuse;
 #if SPECULAR
   vSpecular = sum.specular;
 #endif
 #if TWO_SIDED
-  sum = sumLights(point, -n, v);
+  sum = sumLights(point, -n, v, p);
   vBackDiffuse = sum.diffuse;
 #if SPECULAR
   vBackSpecular = sum.specular;
@@ -41,7 +49,12 @@ vec3 shade(vec4 base) {
 #endif
   }
 #endif
+#if TEXTURED_METALNESS
+  float metalness = clamp(vMetalness, 0.0, 1.0);
+#else
+  float metalness = material.surface.x;
+#endif
   return surfaceColor(LightSum(arrived(vec4(sum.diffuse, 0.0)).rgb, arrived(vec4(sum.specular, 0.0)).rgb),
-                      base.rgb);
+                      base.rgb, metalness);
 }
 #endif

@@ -1,7 +1,8 @@
 // phong: the Phong sum per pixel, with the interpolated normal.
 #if !VERTEX_STAGE
 vec3 shade(vec4 base) {
-  Pixel p = shadedPixel();
-  return surfaceColor(sumLights(p.position, p.normal, p.view), base.rgb);
+  Pixel at = shadedPixel();
+  Parameters p = parametersHere();
+  return surfaceColor(sumLights(at.position, at.normal, at.view, p), base.rgb, p.metalness);
 }
 #endif

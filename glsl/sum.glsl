@@ -1,27 +1,27 @@
 // All lights at the point `position` (eye space) with unit normal n and unit direction to the viewer
-// v: those of each form of the highlight in turn.
-LightSum sumLights(vec3 position, vec3 n, vec3 v) {
+// v, of the material p: those of each form of the highlight in turn.
+LightSum sumLights(vec3 position, vec3 n, vec3 v, Parameters p) {
   LightSum sum = LightSum(vec3(0.0), vec3(0.0));
 #if LOBE_FORMS > 0
-  addLights0(sum, position, n, v);
+  addLights0(sum, position, n, v, p);
 #endif
 #if LOBE_FORMS > 1
-  addLights1(sum, position, n, v);
+  addLights1(sum, position, n, v, p);
 #endif
 #if LOBE_FORMS > 2
-  addLights2(sum, position, n, v);
+  addLights2(sum, position, n, v, p);
 #endif
 #if LOBE_FORMS > 3
-  addLights3(sum, position, n, v);
+  addLights3(sum, position, n, v, p);
 #endif
-  sum.diffuse = material.strength.x * frame.ambientLight.rgb + material.strength.y * sum.diffuse;
-  sum.specular *= material.strength.z;
+  sum.diffuse = p.ambient * frame.ambientLight.rgb + p.diffuse * sum.diffuse;
+  sum.specular *= p.specular;
   return sum;
 }
 
 // C diffuse + S specular, S = m_sm C + (1 - m_sm).
-vec3 surfaceColor(LightSum sum, vec3 color) {
-  vec3 shine = material.surface.x * color + (1.0 - material.surface.x);
+vec3 surfaceColor(LightSum sum, vec3 color, float metalness) {
+  vec3 shine = metalness * color + (1.0 - metalness);
   return color * sum.diffuse + shine * sum.specular;
 }
 

@@ -15,6 +15,13 @@ VARYING out vec2 vColorTexcoord;
 layout(location = 4) in vec2 emissionTexcoord;
 VARYING out vec2 vEmissionTexcoord;
 #endif
+#if PARAMETER_PLACES > 0
+// Where the textures of parameters are looked up; of a face, at its centroid.
+layout(location = 8) in vec2 parameterTexcoords[PARAMETER_PLACES];
+#if PER_PIXEL
+VARYING out vec2 vParameterTexcoords[PARAMETER_PLACES];
+#endif
+#endif
 #if NORMAL_TEXTURE
 layout(location = 6) in vec4 tangent;
 layout(location = 7) in vec2 normalTexcoord;
@@ -32,6 +39,10 @@ vec3 eyeNormal() {
 }
 #endif
 
+#if ALPHA_BLEND
+invariant gl_Position;  // of the same depth as in layer.glsl
+#endif
+
 void main() {
   vec4 eye = draw.eyeFromModel * vec4(position, 1.0);
   gl_Position = frame.projection * eye;
@@ -43,6 +54,9 @@ void main() {
 #endif
 #if EMISSION_TEXTURE
   vEmissionTexcoord = emissionTexcoord;
+#endif
+#if PARAMETER_PLACES > 0 && PER_PIXEL
+  vParameterTexcoords = parameterTexcoords;
 #endif
 #if !UNLIT
   passVertex(eye.xyz, eyeNormal());

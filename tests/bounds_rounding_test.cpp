@@ -38,15 +38,15 @@ float powerOf(float x, int power) {
 }
 
 // The forms without error of the formula: lyon and pade where alpha is gamma.
-float lobeOf(LobeForm form, float lambda, float cosine, float alpha) {
+float lobeOf(Highlight form, float lambda, float cosine, float alpha) {
   switch (form) {
-    case LobeForm::pow:
+    case Highlight::pow:
       return cosine > 0 ? std::pow(std::min(cosine, 1.0f), alpha) : 0.0f;
-    case LobeForm::integer:
+    case Highlight::integer:
       return powerOf(std::max(1.0f - lambda, 0.0f), int(alpha));
-    case LobeForm::lyon:
+    case Highlight::lyon:
       return powerOf(std::max(1.0f - 1.0f * lambda, 0.0f), int(alpha));
-    case LobeForm::pade: {
+    case Highlight::pade: {
       const float top = 2.0f - 2.0f * lambda;
       return top > 0 ? powerOf(top / (2.0f + 0.0f * lambda), int(alpha)) : 0.0f;
     }
@@ -68,8 +68,8 @@ struct Random {
 
 TEST(Bounds, OfRoundingCoverLobesInSinglePrecision) {
   Random r;
-  constexpr LobeForm forms[] = {LobeForm::exact, LobeForm::pow, LobeForm::integer, LobeForm::lyon,
-                                LobeForm::pade};
+  constexpr Highlight forms[] = {Highlight::exact, Highlight::pow, Highlight::integer,
+                                 Highlight::lyon, Highlight::pade};
   double nearest[5][2] = {};
   for (int i = 0; i < draws(200000); ++i) {
     const int k = i % 5;
@@ -127,7 +127,7 @@ TEST(Bounds, OfRoundingCoverReflectancesInSinglePrecision) {
     if (!(exact >= steep + criticalRing(n1, n2))) continue;
     const double cosine = glm::dot(unit(n), unit(v));
     const double error = std::abs(fresnelExact(cosine, n1, n2) - fresnelExact(exact, n1, n2));
-    const double bound = fresnelRoundingBound(FresnelForm::exact, n1, n2);
+    const double bound = fresnelRoundingBound(Fresnel::exact, n1, n2);
     ASSERT_LE(error, bound) << n1 << " to " << n2 << " at " << exact;
     nearest = std::max(nearest, error / bound);
   }

@@ -21,7 +21,7 @@ int draws(int usual) {
 
 // The worst error of a lobe's form: where it is cut off, at 90 degrees and just beyond, and over
 // two scales of lambda, then nearer and nearer to the worst of them.
-double worstOfLobe(LobeForm form, int gamma, double alpha) {
+double worstOfLobe(Highlight form, int gamma, double alpha) {
   double worst = 0, at = 0;
   const auto attempt = [&](double x) {
     if (!(x >= 0 && x <= 2)) return;
@@ -47,11 +47,11 @@ double worstOfLobe(LobeForm form, int gamma, double alpha) {
 TEST(Bounds, OfLobesAreTheWorstThereIs) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
-  constexpr LobeForm forms[] = {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross,
-                                LobeForm::pade, LobeForm::gaussian};
+  constexpr Highlight forms[] = {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross,
+                                 Highlight::pade, Highlight::gaussian};
   double loosest = 0;
   for (int i = 0; i < draws(4000); ++i) {
-    const LobeForm form = forms[i % 5];
+    const Highlight form = forms[i % 5];
     const int gamma = 1 << int(7 * unit(random));
     // From 0.2 on: below, doubles next to lambda = 1 no longer reach what the lobe falls by there.
     double alpha = 0.2 * std::pow(5e6, unit(random));
@@ -67,8 +67,8 @@ TEST(Bounds, OfLobesAreTheWorstThereIs) {
 }
 
 TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
-  for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
-                        LobeForm::gaussian})
+  for (Highlight form : {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross,
+                         Highlight::pade, Highlight::gaussian})
     for (int gamma = 1; gamma <= 64; gamma *= 2) {
       EXPECT_EQ(lobeFormulaBound(form, gamma, 0), 0.0);
       for (double alpha : {1e-6, 1e-3, 1.0, 2.0, 1e6}) {
@@ -76,23 +76,23 @@ TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
         EXPECT_TRUE(bound >= 0 && bound <= 1) << int(form) << ":" << gamma << " " << alpha;
         EXPECT_LE(worstOfLobe(form, gamma, alpha), bound + 1e-12);
       }
-      if (form == LobeForm::lyon || form == LobeForm::pade) {  // exact there
+      if (form == Highlight::lyon || form == Highlight::pade) {  // exact there
         EXPECT_LE(lobeFormulaBound(form, gamma, gamma), 1e-12);
       }
     }
-  for (LobeForm form : {LobeForm::exact, LobeForm::pow, LobeForm::integer})
+  for (Highlight form : {Highlight::exact, Highlight::pow, Highlight::integer})
     EXPECT_EQ(lobeFormulaBound(form, 1, 20), 0.0);
   // Published: 0.0350 (gamma 8, alpha 1000), 0.0164 tuned, 0.134 / alpha.
-  EXPECT_NEAR(lobeFormulaBound(LobeForm::lyon, 8, 1000), 0.0350, 6e-5);
-  EXPECT_NEAR(lobeFormulaBound(LobeForm::lyonTuned, 8, 1000), 0.0164, 6e-5);
-  EXPECT_NEAR(lobeFormulaBound(LobeForm::gaussian, 1, 1e4), 0.1337e-4, 1e-8);
+  EXPECT_NEAR(lobeFormulaBound(Highlight::lyon, 8, 1000), 0.0350, 6e-5);
+  EXPECT_NEAR(lobeFormulaBound(Highlight::lyonTuned, 8, 1000), 0.0164, 6e-5);
+  EXPECT_NEAR(lobeFormulaBound(Highlight::gaussian, 1, 1e4), 0.1337e-4, 1e-8);
 }
 
 TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < draws(300); ++i) {
-    const auto form = FresnelForm(2 + i % 3);
+    const auto form = Fresnel(2 + i % 3);
     double n = 1 + 3 * unit(random);
     if (i % 3 == 1) n = 1 + std::pow(10, -7 + 6 * unit(random));
     if (i % 3 == 2) n = std::pow(10, 3 * unit(random));
@@ -104,9 +104,9 @@ TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {
     for (int j = 0; j < 3000; ++j) {
       const double t = (j + 0.5) / 3000;
       for (double c : {t, scale * t / (1 - t + scale * t)}) {
-        const double value = form == FresnelForm::schlick       ? schlick(c, constants, exponent)
-                             : form == FresnelForm::schlickExp2 ? schlickExp2(c, constants)
-                                                                : schlickRational(c, constants, k);
+        const double value = form == Fresnel::schlick       ? schlick(c, constants, exponent)
+                             : form == Fresnel::schlickExp2 ? schlickExp2(c, constants)
+                                                            : schlickRational(c, constants, k);
         worst = std::max(worst, std::abs(value - fresnelExact(c, constants)));
       }
     }
@@ -116,8 +116,8 @@ TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {
     // The same from the denser side, whose angles are compressed.
     EXPECT_NEAR(fresnelFormulaBound(form, n, 1, exponent), bound, 1e-6 * bound + 1e-12);
   }
-  EXPECT_EQ(fresnelFormulaBound(FresnelForm::schlick, 1.5, 1.5), 0.0);
-  EXPECT_EQ(fresnelFormulaBound(FresnelForm::exact, 1, 1.5), 0.0);
+  EXPECT_EQ(fresnelFormulaBound(Fresnel::schlick, 1.5, 1.5), 0.0);
+  EXPECT_EQ(fresnelFormulaBound(Fresnel::exact, 1, 1.5), 0.0);
 }
 
 // What rounding of the cosine does to the exact reflectance is largest at grazing incidence or next
@@ -129,7 +129,7 @@ TEST(Bounds, OfRoundingCoverEveryCosine) {
     const double n = i % 2 ? 1 + 3 * unit(random) : 1 + std::pow(10, -6 + 8 * unit(random));
     for (bool denser : {false, true}) {
       const double n1 = denser ? n : 1, n2 = denser ? 1 : n, steep = criticalCosine(n1, n2);
-      const double bound = fresnelRoundingBound(FresnelForm::exact, n1, n2);
+      const double bound = fresnelRoundingBound(Fresnel::exact, n1, n2);
       for (int j = 0; j < 300; ++j) {
         const double c = steep + criticalRing(n1, n2) +
                          (1 - steep) * (std::pow(10, -8 * unit(random)) - (denser ? 0 : 1e-8));
@@ -144,9 +144,9 @@ TEST(Bounds, OfRoundingCoverEveryCosine) {
   // Out of glass, what the ring leaves out would be ten times as much.
   EXPECT_EQ(criticalRing(1, 1.5), 0.0);
   EXPECT_EQ(criticalRing(1.5, 1), 1e-5);
-  EXPECT_LT(fresnelRoundingBound(FresnelForm::exact, 1.5, 1), 1e-3);
+  EXPECT_LT(fresnelRoundingBound(Fresnel::exact, 1.5, 1), 1e-3);
   EXPECT_GT(1 - fresnelExact(criticalCosine(1.5, 1) + 5e-7, 1.5, 1), 5e-3);
-  EXPECT_LT(fresnelRoundingBound(FresnelForm::exact, 1, 1.5), 5e-6);
+  EXPECT_LT(fresnelRoundingBound(Fresnel::exact, 1, 1.5), 5e-6);
 }
 
 TEST(Bounds, OfEnvironments) {

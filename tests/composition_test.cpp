@@ -177,13 +177,14 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
                       fragment = Preprocessor().run(program.fragment), both = vertex + fragment;
     const auto holds = [&](const char* what) { return both.find(what) != std::string::npos; };
     const int lights = v.directionalLights + v.pointLights + v.spotLights;
-    EXPECT_EQ(holds("sampler2D"), v.colorTexture || v.emissionTexture) << program.name;
+    EXPECT_EQ(holds("sampler2D"), v.colorTexture || v.emissionTexture || v.textured != 0)
+        << program.name;
     EXPECT_EQ(holds("LightBlock"), lights > 0) << program.name;
     EXPECT_EQ(holds("for ("), lights > 0) << program.name;
     EXPECT_EQ(holds("discard"), v.alphaMask) << program.name;
     EXPECT_EQ(holds("vertexColor"), v.vertexColors) << program.name;
     constexpr const char* lobes[] = {
-        "return lobeExact(", "= lobePow(",           "return lobeInteger(",
+        "return lobeExact(", "return lobePow(",      "return lobeInteger(",
         "return lobeLyon(",  "return lobeLyon(",     "return lobeLyonCross(",
         "return lobePade(",  "return lobeGaussian(", "none"};
     std::set<std::string_view> forms;  // a form without lights of its own is not there

@@ -27,12 +27,12 @@ TEST(CostTable, CountsTheProductsOfAPower) {
   EXPECT_EQ(productsOf(127), 12);
   EXPECT_EQ(productsOf(128), 7);
   const CostTable shipped;
-  EXPECT_EQ(shipped.lobe(LobeForm::integer, 127), shipped.integer.back());
-  EXPECT_EQ(shipped.lobe(LobeForm::lyonTuned, 64), shipped.lyon.back());
-  EXPECT_EQ(shipped.lobe(LobeForm::pade, 1), shipped.pade.front());
-  EXPECT_NE(shipped.reflectance(FresnelForm::schlick, 5, false),
-            shipped.reflectance(FresnelForm::schlick, 4, false));
-  EXPECT_EQ(shipped.reflectance(FresnelForm::exact, 5, true), shipped.fresnelDenser.exact);
+  EXPECT_EQ(shipped.lobe(Highlight::integer, 127), shipped.lobes.at(Highlight::integer).back());
+  EXPECT_EQ(shipped.lobe(Highlight::lyonTuned, 64), shipped.lobes.at(Highlight::lyon).back());
+  EXPECT_EQ(shipped.lobe(Highlight::pade, 1), shipped.lobes.at(Highlight::pade).front());
+  EXPECT_NE(shipped.reflectance(Fresnel::schlick, 5, false),
+            shipped.reflectance(Fresnel::schlick, 4, false));
+  EXPECT_EQ(shipped.reflectance(Fresnel::exact, 5, true), shipped.fresnelDenser.exact);
 }
 
 TEST(CostFile, HoldsEveryCost) {
@@ -41,19 +41,13 @@ TEST(CostFile, HoldsEveryCost) {
   file.noise = 1.25;
   // Every cost another, so that none can stand in another's place.
   double next = 1.0 / 3;
-  const auto set = [&](auto& costs) {
-    for (double& cost : costs) cost = next++;
-  };
   CostTable& t = file.costs;
-  for (double* cost : {&t.exact, &t.pow, &t.gaussian}) *cost = next++;
+  for (auto& [form, costs] : t.lobes)
+    for (double& cost : costs) cost = next++;
   for (ReflectanceCosts* c : {&t.fresnel, &t.fresnelDenser})
     for (double* cost :
          {&c->exact, &c->textbook, &c->schlickExp2, &c->rational, &c->schlick, &c->schlickExponent})
       *cost = next++;
-  set(t.integer);
-  set(t.lyon);
-  set(t.lyonCross);
-  set(t.pade);
   const CostFile read = readCostFile(written(costFileText(file)));
   EXPECT_EQ(read.costs, file.costs);
   EXPECT_EQ(read.noise, file.noise);

@@ -259,23 +259,31 @@ TEST(DrawList, BlendedDepthIsThatOfTheBoxsCentre) {
   EXPECT_NEAR(list.items.at(0).depth * list.camera.unit, 4, 1e-6);
 }
 
-TEST(DrawList, BothSidesOfBlendedThingsAreDrawnFarOnesFirst) {
+TEST(DrawList, BothSidesOfBlendedThingsAreDrawnAtOnce) {
   Scene scene = glint::test::sceneOf(glint::test::quad(), blended("b"));
   scene.materials[0].doubleSided = true;
   const DrawList list = listOf(scene, {});
-  ASSERT_EQ(list.items.size(), 2u);
-  EXPECT_EQ(list.items[0].faces, FaceSide::back);
-  EXPECT_EQ(list.items[1].faces, FaceSide::front);
+  ASSERT_EQ(list.items.size(), 1u);
+  EXPECT_EQ(list.items[0].faces, FaceSide::both);
 }
 
-TEST(DrawList, EnvironmentRefractsInsteadOfBlending) {
+// Alpha is coverage, whatever the program.
+TEST(DrawList, EveryProgramBlends) {
   const Scene scene = glint::test::sceneOf(glint::test::quad(), blended("b"));
-  Look look;
-  look.shading = glint::Shading::environment;
-  EXPECT_FALSE(listOf(scene, look).items.at(0).blended);
-  Scene unlit = scene;
-  unlit.materials[0].unlit = true;
-  EXPECT_TRUE(listOf(unlit, look).items.at(0).blended);
+  for (const glint::Shading shading :
+       {glint::Shading::flat, glint::Shading::gouraud, glint::Shading::phong,
+        glint::Shading::blinnPhong, glint::Shading::environment}) {
+    Look look;
+    look.shading = shading;
+    EXPECT_TRUE(listOf(scene, look).items.at(0).blended);
+    Scene solid = scene;
+    solid.materials[0].alpha = 1;
+    EXPECT_FALSE(listOf(solid, look).items.at(0).blended);
+    solid.meshes[0].colors.assign(solid.meshes[0].positions.size(), glm::vec4(1));
+    EXPECT_FALSE(listOf(solid, look).items.at(0).blended);
+    solid.meshes[0].colors.back().a = 0.99f;
+    EXPECT_TRUE(listOf(solid, look).items.at(0).blended);
+  }
 }
 
 TEST(DrawList, MaterialsAndCamerasThatDoNotExistAreRefused) {
@@ -294,7 +302,7 @@ TEST(MaterialBlocks, HoldTheEditedNumbers) {
   scene.materials[0].alpha = 0.5;
   scene.materials[0].alphaCutoff = 0.75;
   scene.materials[0].emission = {1, 2, 3};
-  scene.materials[0].transmission = 0.625;
+  scene.materials[0].shading.transmission = 0.625;
   Look look;
   look.material[""].specular = 0.125;
   look.blinnFactor = 3;

@@ -198,11 +198,11 @@ std::vector<Candidate> lobesOf(const Draw& d, const Points& points, const Radian
   for (const HighlightForm& each : forms) {
     Candidate c{highlightText(each), {}, 0, 0};
     setOff(c, shaded(d, points, each, Fresnel::exact), exact);
-    const auto lobe = LobeForm(int(each.form));
+    const auto lobe = each.form;
     const int power = each.form == Highlight::integer ? int(alpha) : each.gamma;
     if (specular) c.cost = double(d.look.light->size()) * CostTable().lobe(lobe, power);
     c.rounding = scale * (lobeRoundingBound(lobe, power, alpha, blinn) -
-                          lobeRoundingBound(LobeForm::exact, 1, alpha, blinn));
+                          lobeRoundingBound(Highlight::exact, 1, alpha, blinn));
     candidates.push_back(std::move(c));
   }
   return candidates;
@@ -217,10 +217,9 @@ std::vector<Candidate> reflectancesOf(const Draw& d, const Points& points, const
     if (each != Fresnel::exact && !dielectric) break;
     Candidate c{std::string(fresnelText(each)), {}, 0, 0};
     setOff(c, shaded(d, points, Highlight::exact, each), exact);
-    if (dielectric)
-      c.cost = CostTable().reflectance(FresnelForm(int(each)), d.look.schlickExponent, ior < 1);
-    c.rounding = radiance * std::max(fresnelRoundingBound(FresnelForm(int(each)), 1, ior) -
-                                         fresnelRoundingBound(FresnelForm::exact, 1, ior),
+    if (dielectric) c.cost = CostTable().reflectance(each, d.look.schlickExponent, ior < 1);
+    c.rounding = radiance * std::max(fresnelRoundingBound(each, 1, ior) -
+                                         fresnelRoundingBound(Fresnel::exact, 1, ior),
                                      0.0);
     candidates.push_back(std::move(c));
   }

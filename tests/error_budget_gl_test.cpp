@@ -71,7 +71,7 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     // Some are glass, seen from within.
     const bool within = i % 4 == 2 && r.coin();
     m.doubleSided = within;
-    if (r.below(3) == 0) m.transmission = r.unit();
+    if (r.below(3) == 0) m.shading.transmission = r.unit();
     Scene scene = test::sceneOf(test::sphere(24, 12), m);
     Look look;
     constexpr Shading programs[] = {Shading::phong, Shading::blinnPhong, Shading::environment,

@@ -42,7 +42,7 @@ Draw randomDraw(Random& r, bool automatic) {
   if (r.below(3) == 0) m.shading.exponent = std::round(m.shading.exponent) + 1;
   m.shading.color = r.color();
   m.shading.ior = r.coin() ? 1 + 2 * r.unit() : r.log(0.4, 4);
-  if (r.below(4) == 0) m.transmission = r.unit();
+  if (r.below(4) == 0) m.shading.transmission = r.unit();
   d.scene = test::sceneOf(test::quad(), m);
   for (glm::vec3& n : d.scene.meshes[0].normals)
     n = glm::normalize(glm::vec3(n) +
@@ -141,9 +141,9 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
     for (const Light& each : *d.look.light) light += each.intensity;
     const glm::dvec3 S = m.metalness * m.color + (1 - m.metalness);
     const double scale = m.specular * std::max({S.x * light.x, S.y * light.y, S.z * light.z});
-    double least = CostTable().exact;
-    for (LobeForm form : {LobeForm::lyon, LobeForm::lyonTuned, LobeForm::lyonCross, LobeForm::pade,
-                          LobeForm::gaussian})
+    double least = CostTable().lobe(Highlight::exact, 1);
+    for (Highlight form : {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross,
+                           Highlight::pade, Highlight::gaussian})
       for (int gamma = 1; gamma <= 64; gamma *= 2) {
         double worst = 0;
         for (int k = 0; k <= 4000; ++k)
@@ -173,7 +173,7 @@ TEST(ErrorBudget, GoesByTheTableOfCostsThatTheLookNames) {
   const HighlightForms shipped = chosen().choices.at(0).highlight;
   EXPECT_NE(shipped, HighlightForms(Highlight::gaussian));
   CostFile file;
-  file.costs.gaussian = 1;
+  file.costs.lobes[Highlight::gaussian] = {1};
   d.look.costTable = test::temporaryFolder() + "/gaussian.json";
   std::ofstream(d.look.costTable) << costFileText(file);
   const ResolvedLook resolved = chosen();
@@ -299,7 +299,7 @@ TEST(ErrorBudget, LightsFromBothSidesCountOnce) {
 // Of a highlight on glass only the share is seen that the glass does not let through.
 TEST(ErrorBudget, HighlightsOnGlassCountByTheirShare) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.8, 20));
-  scene.materials[0].transmission = 0.75;
+  scene.materials[0].shading.transmission = 0.75;
   Look look;
   look.shading = Shading::environment;
   look.light = {test::directional({0, 0, 1})};
@@ -334,7 +334,7 @@ TEST(ErrorBudget, DimLightsGetCheaperForms) {
   EXPECT_LE(resolved.bound, 2e-3);
   const auto lobe = [&](int light) {
     const HighlightForm form = forms.of(light);
-    return lobeFormulaBound(LobeForm(int(form.form)), form.gamma, 60.5);
+    return lobeFormulaBound(form.form, form.gamma, 60.5);
   };
   EXPECT_LT(lobe(0), lobe(1));
   double error = 0.5 * (lobe(0) + 1e-5);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
 #include "glsl_probe.h"
 
@@ -277,7 +278,7 @@ TEST_P(GlslLobe, HuntedWorstInput) {
 TEST_P(GlslLobe, FormsBySquaring) {
   struct Case {
     std::string name, function;
-    LobeForm form;
+    Highlight form;
     int gamma;
     double alpha;
     Column first, second;  ///< what the CPU gives
@@ -290,7 +291,7 @@ TEST_P(GlslLobe, FormsBySquaring) {
   for (double alpha : {1.0, 2.0, 3.0, 7.0, 20.0, 127.0, 128.0})
     cases.push_back({"integer",
                      call("lobeInteger", "", int(alpha)),
-                     LobeForm::integer,
+                     Highlight::integer,
                      int(alpha),
                      alpha,
                      {0},
@@ -300,28 +301,28 @@ TEST_P(GlslLobe, FormsBySquaring) {
       const double beta = alpha / gamma;
       cases.push_back({"lyon",
                        call("lobeLyon", "a, ", gamma),
-                       LobeForm::lyon,
+                       Highlight::lyon,
                        gamma,
                        alpha,
                        {float(beta)},
                        {0}});
       cases.push_back({"lyon-tuned",
                        call("lobeLyon", "a, ", gamma),
-                       LobeForm::lyonTuned,
+                       Highlight::lyonTuned,
                        gamma,
                        alpha,
                        {float(tunedSlope(alpha, gamma))},
                        {0}});
       cases.push_back({"lyon-cross",
                        call("lobeLyonCross", "a, ", gamma),
-                       LobeForm::lyonCross,
+                       Highlight::lyonCross,
                        gamma,
                        alpha,
                        {float(beta / 2)},
                        {0}});
       cases.push_back({"pade",
                        call("lobePade", "a, b, ", gamma),
-                       LobeForm::pade,
+                       Highlight::pade,
                        gamma,
                        alpha,
                        {float(1 + beta)},
@@ -341,11 +342,11 @@ TEST_P(GlslLobe, FormsBySquaring) {
     const double u = ulp1, g = each.gamma, beta = each.alpha / g;
     const auto bound = [&](std::size_t row, std::size_t) {
       const double x = lambda[row];
-      double base = 1 - (each.form == LobeForm::integer ? 1 : beta) * x, off = 3 * u;
+      double base = 1 - (each.form == Highlight::integer ? 1 : beta) * x, off = 3 * u;
       // b = 1 - y with y <= 1: y by 2 products (with the cross product 4), the difference once.
-      if (each.form == LobeForm::lyonTuned) base = 1 - tunedSlope(each.alpha, each.gamma) * x;
-      if (each.form == LobeForm::lyonCross) base = 1 - 0.5 * beta * x * (2 - x), off = 5 * u;
-      if (each.form == LobeForm::pade) {
+      if (each.form == Highlight::lyonTuned) base = 1 - tunedSlope(each.alpha, each.gamma) * x;
+      if (each.form == Highlight::lyonCross) base = 1 - 0.5 * beta * x * (2 - x), off = 5 * u;
+      if (each.form == Highlight::pade) {
         // Each side by 2 products and a sum, the division by 2.5 in 2^-23 (GLSL).
         const double top = 2 - (1 + beta) * x, bottom = 2 + (beta - 1) * x;
         base = top / bottom;

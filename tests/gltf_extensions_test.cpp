@@ -25,6 +25,8 @@ TEST(GltfExtensions, AreReadApproximatedOrIgnored) {
   sample.triangle();
   sample.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_materials_specular",
                                    "KHR_materials_clearcoat", "KHR_materials_unlit", "ACME_a\nb"};
+  sample.json["materials"] = {
+      {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}};
   sample.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_mesh_quantization"};
   const glint::Scene scene = load(sample);
   ASSERT_THAT(scene.extensions, SizeIs(5));
@@ -32,7 +34,7 @@ TEST(GltfExtensions, AreReadApproximatedOrIgnored) {
   EXPECT_EQ(scene.extensions[0].use, Use::read);
   EXPECT_TRUE(scene.extensions[0].required);
   EXPECT_EQ(scene.extensions[1].use, Use::approximated);
-  EXPECT_THAT(scene.extensions[1].note, HasSubstr("factor"));
+  EXPECT_THAT(scene.extensions[1].note, HasSubstr("strength"));
   EXPECT_FALSE(scene.extensions[1].required);
   EXPECT_EQ(scene.extensions[2].use, Use::ignored);
   EXPECT_EQ(scene.extensions[3].use, Use::ignored);
@@ -40,6 +42,24 @@ TEST(GltfExtensions, AreReadApproximatedOrIgnored) {
   EXPECT_EQ(scene.extensions[4].name, "KHR_mesh_quantization");
   // One warning for each that is ignored, of the same table.
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("KHR_materials_clearcoat"), HasSubstr("ACME")));
+}
+
+// What nobody would see is told by `info` alone; who requires metadata is drawn.
+TEST(GltfExtensions, WhatDoesNotShowIsNotWarnedOf) {
+  Sample sample;
+  sample.triangle();
+  sample.json["extensionsUsed"] = {"KHR_xmp_json_ld", "KHR_materials_sheen",
+                                   "KHR_materials_volume"};
+  sample.json["extensionsRequired"] = {"KHR_xmp_json_ld"};
+  sample.json["materials"] = {{{"extensions",
+                                {{"KHR_materials_sheen", {{"sheenColorFactor", {0, 0, 0}}}},
+                                 {"KHR_materials_volume", {{"thicknessFactor", 0}}}}}}};
+  const glint::Scene scene = load(sample);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  for (const FileExtension& each : scene.extensions) EXPECT_EQ(each.use, Use::unseen) << each.name;
+  sample.json["materials"][0]["extensions"]["KHR_materials_sheen"]["sheenColorFactor"] = {0, 0.5,
+                                                                                          0};
+  EXPECT_THAT(load(sample).warnings, ElementsAre(HasSubstr("KHR_materials_sheen")));
 }
 
 TEST(GltfExtensions, OnesThatAreIgnoredAreRefusedWhereRequired) {

@@ -59,7 +59,7 @@ TEST(GltfMaterial, FactorsAndExtensions) {
   EXPECT_EQ(material.shading.metalness, 0.25);
   EXPECT_EQ(material.shading.ior, 1.33);
   EXPECT_EQ(material.emission, glm::dvec3(4, 2, 0));
-  EXPECT_EQ(material.transmission, 0.9);
+  EXPECT_EQ(material.shading.transmission, 0.9);
   EXPECT_EQ(material.alphaMode, glint::AlphaMode::mask);
   EXPECT_EQ(material.alphaCutoff, 0.7);
   EXPECT_TRUE(material.doubleSided);
@@ -74,18 +74,37 @@ TEST(GltfMaterial, UnknownAlphaModeIsOpaque) {
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("unknown alphaMode \"GLASS?\"")));
 }
 
-TEST(GltfMaterial, FactorsAreHalvedWhereATextureIsNotRead) {
+// The numbers are those of the factors; bits say what the textures give in their place, as long as
+// the user gives none.
+TEST(GltfMaterial, TexturesOfNumbers) {
   MaterialSample sample;
-  Json& pbr = sample.material()["pbrMetallicRoughness"];
-  pbr = {{"metallicFactor", 0.5}, {"roughnessFactor", 0.5}};
-  const glint::ShadingParameters plain = sample.loaded().shading;
-  pbr = {{"metallicRoughnessTexture", {{"index", 0}}}};
-  pbr["roughnessFactor"] = 1;
-  const glint::Scene scene = sample.load();
-  EXPECT_THAT(scene.warnings, IsEmpty());
-  EXPECT_THAT(scene.images, IsEmpty());
-  EXPECT_EQ(scene.materials[0].shading.metalness, 0.5);
-  EXPECT_EQ(scene.materials[0].shading.exponent, plain.exponent);
+  sample.json["images"] = {{{"uri", std::string("data:image/png;base64,iVBORw0KGgo=")}}};
+  sample.json["textures"] = {{{"source", 0}}};
+  Json& material = sample.material();
+  material["pbrMetallicRoughness"] = {{"metallicRoughnessTexture", {{"index", 0}}},
+                                      {"metallicFactor", 0.5},
+                                      {"roughnessFactor", 0.5}};
+  material["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
+  material["extensions"] = {
+      {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularTexture", {{"index", 0}}}}},
+      {"KHR_materials_transmission",
+       {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 0}}}}}};
+  using namespace glint::textured;
+  const glint::Material all = sample.loaded();
+  EXPECT_EQ(all.textured, ambient | diffuse | specular | exponent | metalness | transmission);
+  EXPECT_EQ(all.shading.metalness, 0.5);
+  EXPECT_NEAR(all.shading.exponent, 0.5 * 16 - 0.5, 1e-12);
+  EXPECT_EQ(all.shading.transmission, 0.5);
+  EXPECT_EQ(all.parameterTextures.occlusionStrength, 0.25);
+  EXPECT_NEAR(all.parameterTextures.reflectance, 0.02, 1e-12);  // half of ((1.5 - 1) / 2.5)^2
+  // What the texture is multiplied by may leave nothing of it.
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  material["occlusionTexture"]["strength"] = 0;
+  material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0;
+  EXPECT_EQ(sample.loaded().textured, specular | exponent);
+  material["extras"]["glint"] = {{"exponent", 40}};
+  EXPECT_EQ(sample.loaded().textured, unsigned(specular));
+  EXPECT_EQ(sample.loaded().shading.exponent, 40);
 }
 
 TEST(GltfMaterial, ExtrasWin) {
@@ -142,7 +161,7 @@ TEST(GltfTexture, OnlyShownImagesAndReadCoordinatesAreKept) {
       {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}},
       {"emissiveFactor", {1, 1, 1}},
       {"emissiveTexture", {{"index", 1}, {"texCoord", 1}}},
-      {"occlusionTexture", {{"index", 2}}}};
+      {"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 2}}}}}}}};
   for (const auto& path : {sample.writeGltf(), sample.writeGlb()}) {
     const glint::Scene scene = glint::loadGltf(path);
     EXPECT_THAT(scene.warnings, IsEmpty());

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "glint/gltf/pbr_conversion.h"
 #include "glint/image/error.h"
+#include "glint/shading/pbr_conversion.h"
 
 namespace glint {
 namespace {
@@ -53,7 +53,7 @@ TEST(PatchGltf, LeavesEverythingElseAsItStands) {
     rest.erase(at, piece.size());
   };
   cut(R"(, "glint": {"ambient": 1, "diffuse": 1, "specular": 0, "exponent": 40, "metalness": 0, )"
-      R"("ior": 1.5, "color": [0.8, 0.2, 0.1]})");
+      R"("ior": 1.5, "transmission": 0, "color": [0.8, 0.2, 0.1]})");
   const Json json = Json::parse(out);
   const double roughness = json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"];
   EXPECT_NEAR(exponentFromRoughness(roughness), 40, 1e-9);

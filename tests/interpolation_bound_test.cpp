@@ -153,9 +153,9 @@ double worstOf(const Draw& d, Shading program, Random& r, int steps) {
   double worst = 0;
   const auto hunt = [&](std::size_t first, double side) {
     const auto light = [&](const glm::dvec3& position, const glm::dvec3& normal) {
-      const reference::Terms t =
-          reference::lightAt(stage.frame, item.surface, position, side * glm::normalize(normal));
-      return sumColor({t.matte, t.specular}, C, item.surface.metalness);
+      const reference::Terms t = reference::lightAt(stage.frame, item.surface, item.surface.numbers,
+                                                    position, side * glm::normalize(normal));
+      return sumColor({t.matte, t.specular}, C, item.surface.numbers.metalness);
     };
     const auto place = [&](const glm::dvec3& b, const std::vector<glm::dvec3>& of) {
       return b.x * of[indices[first]] + b.y * of[indices[first + 1]] + b.z * of[indices[first + 2]];

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
 
 namespace {
@@ -132,39 +133,39 @@ TEST(LobeApproximations, LyonCrossErrsAsTabulated) {  // docs/science.md 2.2, ga
 }
 
 TEST(LobeApproximations, TheOthersErrAsTabulated) {  // docs/science.md 2.3, 2.4
-  using glint::LobeForm;
+  using glint::Highlight;
   const struct {
-    LobeForm form;
+    Highlight form;
     int gamma;
     double alpha, max, maxDigit;
-  } rows[] = {{LobeForm::lyonTuned, 4, 10, 0.0208, 1e-4},
-              {LobeForm::lyonTuned, 8, 10, 0.0034, 1e-4},
-              {LobeForm::lyonTuned, 4, 20, 0.0283, 1e-4},
-              {LobeForm::lyonTuned, 8, 20, 0.0098, 1e-4},
-              {LobeForm::lyonTuned, 16, 20, 0.0016, 1e-4},
-              {LobeForm::lyonTuned, 32, 20, 0.0025, 1e-4},
-              {LobeForm::lyonTuned, 4, 100, 0.0345, 1e-4},
-              {LobeForm::lyonTuned, 8, 100, 0.0152, 1e-4},
-              {LobeForm::lyonTuned, 16, 100, 0.0067, 1e-4},
-              {LobeForm::lyonTuned, 32, 100, 0.0027, 1e-4},
-              {LobeForm::lyonTuned, 4, 1000, 0.0359, 1e-4},
-              {LobeForm::lyonTuned, 8, 1000, 0.0164, 1e-4},
-              {LobeForm::lyonTuned, 16, 1000, 0.0079, 1e-4},
-              {LobeForm::lyonTuned, 32, 1000, 0.0039, 1e-4},
-              {LobeForm::pade, 4, 20, 0.0068, 1e-4},
-              {LobeForm::pade, 4, 100, 0.0071, 1e-4},
-              {LobeForm::pade, 4, 1000, 0.0071, 1e-4},
-              {LobeForm::pade, 8, 20, 0.0015, 1e-4},
-              {LobeForm::pade, 8, 100, 0.0017, 1e-4},
-              {LobeForm::pade, 8, 1000, 0.0018, 1e-4},
-              {LobeForm::pade, 16, 20, 0.00016, 1e-5},
-              {LobeForm::pade, 16, 100, 0.00043, 1e-5},
-              {LobeForm::pade, 16, 1000, 0.00044, 1e-5},
-              {LobeForm::gaussian, 1, 20, 0.0066, 1e-4},
-              {LobeForm::gaussian, 1, 100, 0.0013, 1e-4},
-              {LobeForm::gaussian, 1, 1000, 0.00013, 1e-5},
-              {LobeForm::exact, 1, 20, 0, 1e-14},
-              {LobeForm::pow, 1, 1000, 0, 1e-12}};
+  } rows[] = {{Highlight::lyonTuned, 4, 10, 0.0208, 1e-4},
+              {Highlight::lyonTuned, 8, 10, 0.0034, 1e-4},
+              {Highlight::lyonTuned, 4, 20, 0.0283, 1e-4},
+              {Highlight::lyonTuned, 8, 20, 0.0098, 1e-4},
+              {Highlight::lyonTuned, 16, 20, 0.0016, 1e-4},
+              {Highlight::lyonTuned, 32, 20, 0.0025, 1e-4},
+              {Highlight::lyonTuned, 4, 100, 0.0345, 1e-4},
+              {Highlight::lyonTuned, 8, 100, 0.0152, 1e-4},
+              {Highlight::lyonTuned, 16, 100, 0.0067, 1e-4},
+              {Highlight::lyonTuned, 32, 100, 0.0027, 1e-4},
+              {Highlight::lyonTuned, 4, 1000, 0.0359, 1e-4},
+              {Highlight::lyonTuned, 8, 1000, 0.0164, 1e-4},
+              {Highlight::lyonTuned, 16, 1000, 0.0079, 1e-4},
+              {Highlight::lyonTuned, 32, 1000, 0.0039, 1e-4},
+              {Highlight::pade, 4, 20, 0.0068, 1e-4},
+              {Highlight::pade, 4, 100, 0.0071, 1e-4},
+              {Highlight::pade, 4, 1000, 0.0071, 1e-4},
+              {Highlight::pade, 8, 20, 0.0015, 1e-4},
+              {Highlight::pade, 8, 100, 0.0017, 1e-4},
+              {Highlight::pade, 8, 1000, 0.0018, 1e-4},
+              {Highlight::pade, 16, 20, 0.00016, 1e-5},
+              {Highlight::pade, 16, 100, 0.00043, 1e-5},
+              {Highlight::pade, 16, 1000, 0.00044, 1e-5},
+              {Highlight::gaussian, 1, 20, 0.0066, 1e-4},
+              {Highlight::gaussian, 1, 100, 0.0013, 1e-4},
+              {Highlight::gaussian, 1, 1000, 0.00013, 1e-5},
+              {Highlight::exact, 1, 20, 0, 1e-14},
+              {Highlight::pow, 1, 1000, 0, 1e-12}};
   for (const auto& row : rows) {
     const Errors e = errorsOf(
         [&](double x) { return glint::lobe(row.form, row.gamma, x, row.alpha); }, row.alpha);

@@ -1,4 +1,5 @@
 #include "glint/shading/lobe.h"
+#include "glint/shading/forms.h"
 
 #include <gtest/gtest.h>
 
@@ -238,9 +239,9 @@ TEST(Lobe, ReproducesTheTestVectors) {
 }
 
 double byName(int form, double lambda, double alpha) {
-  return glint::lobe(glint::LobeForm(form), 8, lambda, alpha);
+  return glint::lobe(glint::Highlight(form), 8, lambda, alpha);
 }
-constexpr int forms = int(glint::LobeForm::gaussian) + 1;
+constexpr int forms = int(glint::Highlight::gaussian) + 1;
 
 TEST(Lobe, NamedCases) {
   const dvec3 z(0, 0, 1);
@@ -282,7 +283,7 @@ TEST(Lobe, IsTotalAndWithinTheUnitInterval) {
     for (const int gamma : {-8, 0, 1, 2, 3, 64, 1 << 30}) {
       for (const double lambda : odd) {
         for (const double alpha : odd) {
-          const double value = glint::lobe(glint::LobeForm(form), gamma, lambda, alpha);
+          const double value = glint::lobe(glint::Highlight(form), gamma, lambda, alpha);
           EXPECT_TRUE(value >= 0.0 && value <= 1.0)
               << form << ' ' << gamma << ' ' << lambda << ' ' << alpha;
         }

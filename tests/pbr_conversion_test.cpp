@@ -1,4 +1,4 @@
-#include "glint/gltf/pbr_conversion.h"
+#include "glint/shading/pbr_conversion.h"
 
 #include <gtest/gtest.h>
 

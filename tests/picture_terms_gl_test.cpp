@@ -47,7 +47,7 @@ Scene everything() {
   scene.materials.assign(5, materialOf(0.9, 0.8, 0.7, 12, 0.3, {0.8, 0.5, 0.3}));
   scene.materials[0].emission = {0.05, 0.02, 0.1};
   scene.materials[1].unlit = true;
-  scene.materials[2].transmission = 0.6;
+  scene.materials[2].shading.transmission = 0.6;
   scene.materials[3].alphaMode = glint::AlphaMode::blend;
   scene.materials[3].alpha = 0.4;
   scene.materials[3].doubleSided = true;

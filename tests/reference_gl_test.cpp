@@ -454,7 +454,7 @@ const Special specials[] = {
     {"a picture around it, seen through glass",
      [](Scene& scene, Look& look) {
        scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
-       for (Material& m : scene.materials) m.transmission = 0.6;
+       for (Material& m : scene.materials) m.shading.transmission = 0.6;
        look.hdriFile = smoothPicture();
        look.environmentRotation = 35;
      }},
@@ -492,7 +492,7 @@ const Special specials[] = {
     {"glass, both sides, schlick",
      [](Scene& scene, Look& look) {
        scene = loadGltf(GLINT_SOURCE_DIR "/models/torus.glb");
-       for (Material& m : scene.materials) m.transmission = 0.6;
+       for (Material& m : scene.materials) m.shading.transmission = 0.6;
        look.twoSided = true;
        look.fresnel = Fresnel::schlick;
        look.cameraPosition = glm::dvec3(0.6, 0.1, 0);  // inside
@@ -503,6 +503,26 @@ const Special specials[] = {
        look.fresnel = Fresnel::textbook;
        look.mediumIor = 1.33;
        look.environment = Environment::sky;
+     }},
+    {"blended panes that cross",
+     [](Scene& scene, Look& look) {
+       Material glass = paint();
+       glass.alphaMode = AlphaMode::blend;
+       glass.alpha = 0.4;
+       glass.doubleSided = true;
+       // One mesh, nearest first, and each cuts the others.
+       Mesh mesh = scenes::triangles({{-24, -20, 6},
+                                      {24, -20, -6},
+                                      {0, 24, 0},
+                                      {-24, -18, -6},
+                                      {24, -22, 6},
+                                      {2, 22, 1},
+                                      {-20, -24, 0},
+                                      {22, -10, 3},
+                                      {-4, 24, -4}});
+       scene = scenes::sceneOf({{mesh, glass}});
+       look.resolution = {64, 64};
+       scenes::lookAlongZ(scene, look, 32);
      }},
     {"blended, both sides",
      [](Scene& scene, Look&) {
@@ -552,7 +572,7 @@ TEST_P(AgainstReference, EveryForm) {
   Renderer renderer;
   Model model;
   model.scene = loadGltf(GLINT_SOURCE_DIR "/models/torus.glb");
-  for (Material& m : model.scene.materials) m.transmission = 0.6;
+  for (Material& m : model.scene.materials) m.shading.transmission = 0.6;
   model.bounds = boundsOf(model.scene);
   printHeading();
   for (const std::string& form : highlightTexts()) {

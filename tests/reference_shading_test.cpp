@@ -153,7 +153,7 @@ TEST(ReferenceShading, FlatAndGouraudCarryTheLight) {
 // A glass plane in a white room: what is not reflected is let through, so that all is 1.
 TEST(ReferenceEnvironment, AWhiteFurnaceStaysWhite) {
   Material glass;
-  glass.transmission = 1;
+  glass.shading.transmission = 1;
   glass.shading.ambient = 0;
   glass.doubleSided = true;
   for (const double ior : {1.0, 1.5, 2.4, 0.7}) {

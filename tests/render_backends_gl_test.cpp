@@ -38,7 +38,7 @@ Scene mixedScene() {
   glass.alphaMode = glint::AlphaMode::blend;
   glass.alpha = 0.4;
   glass.doubleSided = true;
-  glass.transmission = 0.8;
+  glass.shading.transmission = 0.8;
   scene.materials.push_back(glass);
   glint::Mesh ball = sphere(20, 10);
   ball.material = 1;
@@ -114,6 +114,10 @@ TEST_P(Programs, CompileForEverySampledVariant) {
       // The samplers that the variant holds are there, and no others.
       EXPECT_EQ(program.uniform("colorTexture") >= 0, v.colorTexture);
       EXPECT_EQ(program.uniform("emissionTexture") >= 0, v.emissionTexture);
+      EXPECT_EQ(program.uniform("metallicRoughnessTexture") >= 0, v.metallicRoughnessTexture);
+      EXPECT_EQ(program.uniform("occlusionTexture") >= 0, v.occlusionTexture);
+      EXPECT_EQ(program.uniform("specularTexture") >= 0, v.specularTexture);
+      EXPECT_EQ(program.uniform("transmissionTexture") >= 0, v.transmissionTexture);
     }) << text.name;
   }
   for (auto environment :

@@ -30,7 +30,7 @@ Look mirrorLook(const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 3) {
 // Glass that lets everything through, in a colour that takes nothing.
 Material glass(double transmission = 1, double ior = 1.5) {
   Material m = materialOf(1, 1, 1, 20);
-  m.transmission = transmission;
+  m.shading.transmission = transmission;
   m.shading.ior = ior;
   return m;
 }
@@ -72,15 +72,12 @@ class EnvironmentProgram : public OnStage {
 TEST_P(EnvironmentProgram, WhiteFurnaceShowsNothingOfGlass) {
   for (double ior : {0.6, 1.0, 1.33, 1.5, 2.4, 100.0})
     for (double metalness : {0.0, 0.4, 1.0})
-      for (bool byBlending : {false, true}) {
+      for (double alpha : {1.0, 0.0}) {
         Material m = glass(1, ior);
         m.shading.metalness = metalness;
         m.doubleSided = true;
-        if (byBlending) {
-          m.transmission = 0;
-          m.alphaMode = glint::AlphaMode::blend;
-          m.alpha = 0;
-        }
+        m.alphaMode = glint::AlphaMode::blend;
+        m.alpha = alpha;  // 0: there is no surface, and the background shows
         Look look = mirrorLook({1, 2, 3}, 64);
         look.cameraViewAngle = 40;  // the sphere and something around it
         const Image image = draw(sceneOf(sphere(48, 24), m), look);
@@ -92,9 +89,12 @@ TEST_P(EnvironmentProgram, WhiteFurnaceShowsNothingOfGlass) {
             ++covered;
             expectColor(c, glm::dvec3(1), 2e-6);
           }
-        EXPECT_GT(covered, 800u);
+        if (alpha == 1)
+          EXPECT_GT(covered, 800u);
+        else
+          EXPECT_EQ(covered, 0u);
         if (HasFailure()) {
-          FAIL() << "index " << ior << " metalness " << metalness << " blended " << byBlending;
+          FAIL() << "index " << ior << " metalness " << metalness << " alpha " << alpha;
         }
       }
 }
@@ -121,9 +121,9 @@ TEST_P(EnvironmentProgram, LeavesThroughBackFacesWithTotalReflection) {
   // The critical angle of n = 1.5 is 41.81 degrees, cosine 0.745356.
   for (double cosine : {0.74, 0.6, 0.3, 0.05}) {
     EXPECT_EQ(seen(turnedAway(cosine), m, mirrorLook()), glm::dvec3(1)) << cosine;
-    m.transmission = 1;  // and nothing is refracted
+    m.shading.transmission = 1;  // and nothing is refracted
     EXPECT_EQ(seen(turnedAway(cosine), m, mirrorLook()), glm::dvec3(1)) << cosine;
-    m.transmission = 0;
+    m.shading.transmission = 0;
   }
   for (double cosine : {0.76, 0.8, 0.95, 1.0}) {
     expectColor(seen(turnedAway(cosine), m, mirrorLook()), glm::dvec3(reflectance(cosine, 1.5, 1)),
@@ -185,18 +185,21 @@ TEST_P(EnvironmentProgram, TransparencyReplacesTheSum) {
     Look look = mirrorLook();
     look.ambientLight = glm::dvec3(0.5);
     Material m = materialOf(1, 0, 0, 1, 0, c);
-    m.transmission = t;
+    m.shading.transmission = t;
     const double cosine = 0.7, r = reflectance(cosine, 1, 1.5);
     const glm::dvec3 expected = (1 - t) * 0.5 * c + r + t * (1 - r) * c;
     expectColor(seen(inclined(cosine), m, look), expected,
                 16 * rounding + 2 * reflectanceTolerance(cosine, 1, 1.5));
-    // 1 - alpha of a blended material is transparency too; the picture stays opaque.
-    m.transmission = 0;
+    // Alpha is coverage: all of that is blended over the background.
     m.alphaMode = glint::AlphaMode::blend;
-    m.alpha = 1 - t;
-    const Image image = draw(sceneOf(inclined(cosine), m), look);
-    expectColor(middle(image), expected, 16 * rounding + 2 * reflectanceTolerance(cosine, 1, 1.5));
-    EXPECT_EQ(pixel(image, 1, 1).w, 1);
+    look.backgroundColor = {0.25, 0.5, 1};
+    for (const double alpha : {0.0, 0.375, 1.0}) {
+      m.alpha = alpha;
+      const Image image = draw(sceneOf(inclined(cosine), m), look);
+      expectColor(middle(image), alpha * expected + (1 - alpha) * look.backgroundColor,
+                  16 * rounding + 2 * reflectanceTolerance(cosine, 1, 1.5));
+      EXPECT_EQ(pixel(image, 1, 1).w, 1);
+    }
   }
 }
 

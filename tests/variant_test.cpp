@@ -31,7 +31,7 @@ using glint::test::everyShading;
 using glint::test::lightOf;
 using glint::test::plainInputs;
 
-bool isPerPixel(Shading s) {
+bool computesPixels(Shading s) {
   return s == Shading::phong || s == Shading::blinnPhong || s == Shading::environment;
 }
 
@@ -41,7 +41,7 @@ Variant plainVariant(Shading program) {
   v.program = program;
   v.directionalLights = 1;
   v.diffuse = v.specular = true;
-  v.pixelPosition = isPerPixel(program);
+  v.pixelPosition = computesPixels(program);
   v.dielectric = program == Shading::environment;
   return v;
 }
@@ -132,7 +132,7 @@ const Case cases[] = {
        v.specular = false;
        v.directionalLights = 0;
        v.pointLights = 1;
-       v.pixelPosition = isPerPixel(s);
+       v.pixelPosition = computesPixels(s);
      }},
     {"specular alone", [](VariantInputs& in) { in.material.shading.diffuse = 0; },
      [](Variant& v, Shading) { v.diffuse = false; }},
@@ -234,7 +234,7 @@ const Case cases[] = {
        v.constantView = true;
        v.directionalLights = 0;
        v.pointLights = 1;
-       v.pixelPosition = isPerPixel(s);
+       v.pixelPosition = computesPixels(s);
      }},
     {"uneven scale",
      [](VariantInputs& in) {
@@ -260,12 +260,12 @@ const Case cases[] = {
      },
      [](Variant&, Shading) {}},
     {"vanishing normals", [](VariantInputs& in) { in.mesh.normalsMayCancel = true; },
-     [](Variant& v, Shading s) { v.vanishingNormal = isPerPixel(s); }},
+     [](Variant& v, Shading s) { v.vanishingNormal = computesPixels(s); }},
     {"vanishing normals seen in parallel",
      [](VariantInputs& in) { in.mesh.normalsMayCancel = in.orthographic = true; },
      [](Variant& v, Shading s) {
        v.constantView = true;
-       v.vanishingNormal = v.pixelPosition = isPerPixel(s);
+       v.vanishingNormal = v.pixelPosition = computesPixels(s);
      }},
     {"double sided", [](VariantInputs& in) { in.material.doubleSided = true; },
      [](Variant& v, Shading s) {
@@ -302,10 +302,88 @@ const Case cases[] = {
      [](VariantInputs& in) { in.material.emissionTexture.emplace(); }, [](Variant&, Shading) {}},
     {"mask", [](VariantInputs& in) { in.material.alphaMode = AlphaMode::mask; },
      [](Variant& v, Shading) { v.alphaMask = true; }},
-    {"blend", [](VariantInputs& in) { in.material.alphaMode = AlphaMode::blend; },
+    {"blend",
+     [](VariantInputs& in) {
+       in.material.alphaMode = AlphaMode::blend;
+       in.material.alpha = 0.5;
+     },
+     [](Variant& v, Shading) { v.alphaBlend = true; }},
+    {"blend with an alpha of 1",
+     [](VariantInputs& in) { in.material.alphaMode = AlphaMode::blend; }, [](Variant&, Shading) {}},
+    {"blend with vertex colours that let something through",
+     [](VariantInputs& in) {
+       in.material.alphaMode = AlphaMode::blend;
+       in.mesh.colors.assign(4, glm::vec4(1));
+       in.mesh.colors[2].a = 0.5f;
+     },
+     [](Variant& v, Shading) { v.alphaBlend = v.vertexColors = true; }},
+    {"blend with a texture of which nothing is known",
+     [](VariantInputs& in) {
+       in.material.alphaMode = AlphaMode::blend;
+       in.material.colorTexture.emplace();
+     },
+     [](Variant& v, Shading) { v.alphaBlend = v.colorTexture = true; }},
+    {"blend with texels that are opaque where they show",
+     [](VariantInputs& in) {
+       in.material.alphaMode = AlphaMode::blend;
+       in.material.colorTexture.emplace();
+       in.mesh.opaqueTexels = true;
+     },
+     [](Variant& v, Shading) { v.colorTexture = true; }},
+    {"metallic-roughness texture",
+     [](VariantInputs& in) {
+       in.material.parameterTextures.metallicRoughness.emplace();
+       in.material.textured = glint::textured::exponent | glint::textured::metalness;
+     },
+     [](Variant& v, Shading) {
+       v.textured = glint::textured::exponent | glint::textured::metalness;
+       v.metallicRoughnessTexture = true;
+       v.parameterPlaceCount = 1;
+     }},
+    {"metallic-roughness texture whose place numbers have taken",
+     [](VariantInputs& in) { in.material.parameterTextures.metallicRoughness.emplace(); },
+     [](Variant&, Shading) {}},
+    {"metallic-roughness texture beside a colour texture at the same place",
+     [](VariantInputs& in) {
+       in.material.parameterTextures.metallicRoughness.emplace();
+       in.material.colorTexture.emplace();
+       in.material.textured = glint::textured::exponent;
+     },
      [](Variant& v, Shading s) {
-       v.alphaBlend = true;
-       v.refraction = s == Shading::environment;
+       const bool pixels = s != Shading::flat && s != Shading::gouraud;
+       v.textured = glint::textured::exponent;
+       v.metallicRoughnessTexture = v.colorTexture = true;
+       v.parameterPlaces[0] = pixels ? -1 : 0;
+       v.parameterPlaceCount = pixels ? 0 : 1;
+     }},
+    {"occlusion texture",
+     [](VariantInputs& in) {
+       in.material.parameterTextures.occlusion.emplace();
+       in.material.textured = glint::textured::ambient;
+     },
+     [](Variant& v, Shading) {
+       v.textured = glint::textured::ambient;
+       v.occlusionTexture = true;
+       v.parameterPlaceCount = 1;
+     }},
+    {"occlusion texture without ambient light",
+     [](VariantInputs& in) {
+       in.material.parameterTextures.occlusion.emplace();
+       in.material.textured = glint::textured::ambient;
+       in.look.ambientLight = glm::dvec3(0);
+     },
+     [](Variant&, Shading) {}},
+    {"transmission texture",
+     [](VariantInputs& in) {
+       in.material.shading.transmission = 0.5;
+       in.material.parameterTextures.transmission.emplace();
+       in.material.textured = glint::textured::transmission;
+     },
+     [](Variant& v, Shading s) {
+       if (s != Shading::environment) return;
+       v.textured = glint::textured::transmission;
+       v.refraction = v.transmissionTexture = true;
+       v.parameterPlaceCount = 1;
      }},
     {"msaa:4",
      [](VariantInputs& in) {
@@ -368,7 +446,7 @@ const Case cases[] = {
        in.look.twoSided = true;
      },
      [](Variant& v, Shading) { v.twoSided = true; }},
-    {"transmission", [](VariantInputs& in) { in.material.transmission = 0.1; },
+    {"transmission", [](VariantInputs& in) { in.material.shading.transmission = 0.1; },
      [](Variant& v, Shading s) { v.refraction = s == Shading::environment; }},
 };
 

@@ -97,7 +97,27 @@ inline std::set<Variant> sampledVariants() {
         in.material.emissionTexture = Texture{};
       },
       [](VariantInputs& in) { in.material.alphaMode = AlphaMode::mask; },
-      [](VariantInputs& in) { in.material.alphaMode = AlphaMode::blend; },
+      [](VariantInputs& in) {
+        in.material.alphaMode = AlphaMode::blend;
+        in.material.alpha = 0.5;
+      },
+      [](VariantInputs& in) {
+        in.material.parameterTextures.metallicRoughness = Texture{};
+        in.material.textured =
+            textured::exponent | textured::metalness | textured::specular | textured::diffuse;
+      },
+      [](VariantInputs& in) {
+        in.material.parameterTextures.occlusion = Texture{};
+        in.material.parameterTextures.occlusion->texcoord = 0;
+        in.material.parameterTextures.specular = Texture{};
+        in.material.parameterTextures.specular->transform[2] = {0.5, 0.25};
+        in.material.textured |= textured::ambient | textured::specular;
+      },
+      [](VariantInputs& in) {
+        in.material.shading.transmission = 0.5;
+        in.material.parameterTextures.transmission = Texture{};
+        in.material.textured |= textured::transmission;
+      },
       [](VariantInputs& in) { in.look.antiAliasing = {}; },
       [](VariantInputs& in) { in.look.environment = Environment::sky; },
       [](VariantInputs& in) { in.look.environment = Environment::white; },
@@ -111,7 +131,7 @@ inline std::set<Variant> sampledVariants() {
       [](VariantInputs& in) { in.look.fresnel = Fresnel::rational; },
       [](VariantInputs& in) { in.material.shading.metalness = 1; },
       [](VariantInputs& in) { in.material.shading.metalness = 0.5; },
-      [](VariantInputs& in) { in.material.transmission = 0.5; },
+      [](VariantInputs& in) { in.material.shading.transmission = 0.5; },
       [](VariantInputs& in) { in.material.shading.ior = 0.5; },
   };
   constexpr std::size_t count = std::size(changes);

@@ -10,7 +10,7 @@ namespace glint::viewer {
 namespace {
 
 TEST(LobePlot, PeaksAtTheMirrorDirection) {
-  SumInput input;
+  LobeInput input;
   input.exponent = 30;
   for (const bool blinn : {false, true}) {
     input.blinn = blinn;
@@ -24,9 +24,9 @@ TEST(LobePlot, PeaksAtTheMirrorDirection) {
 }
 
 TEST(LobePlot, ShowsHowFarAnApproximationIsOff) {
-  SumInput input;
+  LobeInput input;
   input.exponent = 64;
-  input.highlight = "gaussian";
+  input.highlight = Highlight::gaussian;
   // 0.134 / alpha, stated above gaussian() in src/glint/shading/lobe.h.
   const double error = lobePlot(input, 0).largestDifference;
   EXPECT_GT(error, 0.8 * 0.134 / 64);
@@ -34,11 +34,11 @@ TEST(LobePlot, ShowsHowFarAnApproximationIsOff) {
 }
 
 TEST(FresnelPlot, KnowsTheAnglesOfGlass) {
-  const FresnelPlot in = fresnelPlot("exact", 1, 1.5, 5);
+  const FresnelPlot in = fresnelPlot(Fresnel::exact, 1, 1.5, 5);
   EXPECT_NEAR(in.normalIncidence, 0.04, 1e-12);
   EXPECT_NEAR(in.brewster, 56.309932474020215, 1e-9);  // atan 1.5
   EXPECT_FALSE(in.critical);
-  const FresnelPlot out = fresnelPlot("exact", 1.5, 1, 5);
+  const FresnelPlot out = fresnelPlot(Fresnel::exact, 1.5, 1, 5);
   ASSERT_TRUE(out.critical);
   EXPECT_NEAR(*out.critical, 41.810314895778596, 1e-9);  // asin 1/1.5
   EXPECT_NEAR(out.exact.points.back().y, 1, 1e-12);
@@ -46,7 +46,7 @@ TEST(FresnelPlot, KnowsTheAnglesOfGlass) {
 
 TEST(FresnelPlot, SchlicksErrorForGlass) {
   // The largest error of Schlick's form for n = 1.5 is about 0.036.
-  const double error = fresnelPlot("schlick", 1, 1.5, 5).largestDifference;
+  const double error = fresnelPlot(Fresnel::schlick, 1, 1.5, 5).largestDifference;
   EXPECT_GT(error, 0.02);
   EXPECT_LT(error, 0.05);
 }

@@ -178,7 +178,8 @@ void polarLobe(const LobePlot& plot) {
   rose(plot.chosen, chosenColor, 1.2f);
 }
 
-void lobePlots(Settings& settings, const SumInput& input, const std::string& form) {
+void lobePlots(Settings& settings, const LobeInput& input) {
+  const std::string form = highlightText(input.highlight);
   bool& polar = settings.polar;
   if (ImGui::RadioButton("polar", polar)) polar = true;
   ImGui::SameLine();
@@ -213,13 +214,13 @@ void lobePlots(Settings& settings, const SumInput& input, const std::string& for
   differencePlot(plot.chosen, plot.exact, plot.largestDifference, {-90, -45, 0, 45, 90});
 }
 
-void fresnelPlots(bool& inside, const std::string& form, double n1, double n2,
-                  double schlickExponent) {
+void fresnelPlots(bool& inside, Fresnel fresnel, double n1, double n2, double schlickExponent) {
   if (ImGui::RadioButton("entering", !inside)) inside = false;
   ImGui::SameLine();
   if (ImGui::RadioButton("leaving", inside)) inside = true;
   if (inside) std::swap(n1, n2);
-  const FresnelPlot plot = fresnelPlot(form, n1, n2, schlickExponent);
+  const std::string form(fresnelText(fresnel));
+  const FresnelPlot plot = fresnelPlot(fresnel, n1, n2, schlickExponent);
   const Plot axes({0, 0}, {90, 1.02}, 170);
   for (const auto& [x, text] : {std::pair{0.0, "0"}, {30.0, "30"}, {60.0, "60"}, {90.0, "90"}})
     axes.gridX(x, text);
@@ -293,23 +294,21 @@ void drawPlots(PanelContext& context) {
     look = withChoice(look, *picture->choice);
   const Material material = effectiveMaterial(session.model->scene, look, session.material);
   const ShadingParameters& s = material.shading;
-  SumInput input;
+  LobeInput input;
   input.exponent = s.exponent;
-  input.specular = s.specular;
   input.blinnFactor = look.blinnFactor;
   input.blinn = usesBlinn(look.shading);
-  input.highlight = highlightText(highlightOf(material, look).brightest);
+  input.highlight = highlightOf(material, look).brightest;
   openWanted(session, lobe);
   if (ImGui::CollapsingHeader(input.blinn ? "Lobe (Blinn-Phong)###lobe" : "Lobe (Phong)###lobe",
                               ImGuiTreeNodeFlags_DefaultOpen))
-    lobePlots(context.settings, input, input.highlight);
+    lobePlots(context.settings, input);
   seeWanted(session, lobe);
   const bool fresnelOpen = look.shading == Shading::environment;
   ImGui::SetNextItemOpen(fresnelOpen, ImGuiCond_Once);
   openWanted(session, fresnel);
   if (ImGui::CollapsingHeader("Fresnel reflectance"))
-    fresnelPlots(inside, std::string(fresnelText(fresnelOf(material, look))), look.mediumIor, s.ior,
-                 look.schlickExponent);
+    fresnelPlots(inside, fresnelOf(material, look), look.mediumIor, s.ior, look.schlickExponent);
   seeWanted(session, fresnel);
   openWanted(session, plot == PlotView::widths);
   if (ImGui::CollapsingHeader(style().greek ? "\u03b1'/\u03b1 of equally wide highlights###width"

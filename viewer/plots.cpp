@@ -28,7 +28,7 @@ Curve difference(const Curve& chosen, const Curve& exact) {
   return d;
 }
 
-LobePlot lobePlot(const SumInput& input, double incidence) {
+LobePlot lobePlot(const LobeInput& input, double incidence) {
   LobePlot plot;
   plot.incidence = incidence;
   const glm::dvec3 N(0, 0, 1), L = at(-incidence);
@@ -40,15 +40,16 @@ LobePlot lobePlot(const SumInput& input, double incidence) {
       if (angle > -90 && angle < 90) angles.push_back(angle);
   angles.push_back(incidence);
   std::sort(angles.begin(), angles.end());
+  const double alpha = input.blinn ? input.blinnFactor * input.exponent : input.exponent;
   for (const double angle : angles) {
     const glm::dvec3 V = at(angle);
-    const double exact = lobeValue(input, "exact", N, L, V);
-    const double chosen = lobeValue(input, input.highlight, N, L, V);
+    const double lambda = input.blinn ? blinnLambda(N, L, V) : phongLambda(N, L, V);
+    const double exact = lobeExact(lambda, alpha);
+    const double chosen = lobe(input.highlight.form, input.highlight.gamma, lambda, alpha);
     plot.exact.points.emplace_back(angle, exact);
     plot.chosen.points.emplace_back(angle, chosen);
     plot.largestDifference = std::max(plot.largestDifference, std::abs(exact - chosen));
   }
-  const double alpha = input.blinn ? input.blinnFactor * input.exponent : input.exponent;
   // cos^alpha(d) = 1/2, d the angle of R and V (Phong) or N and H (half as large).
   if (alpha > 1e-9) {
     const double d = std::acos(std::exp2(-1 / alpha)) / perDegree;
@@ -57,7 +58,7 @@ LobePlot lobePlot(const SumInput& input, double incidence) {
   return plot;
 }
 
-FresnelPlot fresnelPlot(const std::string& form, double n1, double n2, double schlickExponent) {
+FresnelPlot fresnelPlot(Fresnel form, double n1, double n2, double schlickExponent) {
   FresnelPlot plot;
   std::vector<double> angles;
   for (int i = 0; i <= 180; ++i) angles.push_back(i * 0.5);
@@ -68,11 +69,12 @@ FresnelPlot fresnelPlot(const std::string& form, double n1, double n2, double sc
     angles.push_back(*plot.critical);
     std::sort(angles.begin(), angles.end());
   }
+  const ReflectanceInput input = reflectanceInput(form, n1, n2, schlickExponent);
   for (const double angle : angles) {
     const double c = angle == 90 ? 0 : std::cos(angle * perDegree);
     const PolarizedReflectance r = fresnelPolarized(c, n1, n2);
     const double exact = fresnelExact(c, n1, n2);
-    const double chosen = fresnelValue(form, c, n1, n2, schlickExponent);
+    const double chosen = reflectance(form, c, input);
     plot.exact.points.emplace_back(angle, exact);
     plot.chosen.points.emplace_back(angle, chosen);
     plot.perpendicular.points.emplace_back(angle, r.perpendicular);

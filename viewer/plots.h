@@ -2,10 +2,9 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "formulas.h"
+#include "glint/scene/look.h"
 
 namespace glint::viewer {
 
@@ -17,6 +16,13 @@ struct Curve {
 /// The chosen curve less the exact one, which have the same x.
 Curve difference(const Curve& chosen, const Curve& exact);
 
+/// What a lobe is a function of, beside directions.
+struct LobeInput {
+  double exponent = 20, blinnFactor = 4;
+  bool blinn = false;
+  HighlightForm highlight;
+};
+
 /// The lobe in the plane of incidence.
 struct LobePlot {
   double incidence = 0;  ///< of the light, degrees from the normal
@@ -26,7 +32,7 @@ struct LobePlot {
   double halfWidth = 0;          ///< degrees from the peak to where the lobe is a half; 0: nowhere
 };
 
-LobePlot lobePlot(const SumInput&, double incidenceDegrees);
+LobePlot lobePlot(const LobeInput&, double incidenceDegrees);
 
 /// Reflectance over the angle of incidence, [0, 90] degrees.
 struct FresnelPlot {
@@ -37,7 +43,7 @@ struct FresnelPlot {
   double largestDifference = 0;    ///< of exact and chosen
 };
 
-FresnelPlot fresnelPlot(const std::string& form, double n1, double n2, double schlickExponent);
+FresnelPlot fresnelPlot(Fresnel form, double n1, double n2, double schlickExponent);
 
 /// Which exponent alpha' gives Blinn-Phong a highlight as wide as Phong's with alpha, over the
 /// angle of incidence, [0, 85] degrees: alpha'/alpha for equal width at half the peak, in the plane

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "glint/image/srgb.h"
 #include "glint/reference/pixel.h"
@@ -35,6 +36,7 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
     one.origin = mesh.origin;
     one.normalsMayCancel = mesh.normalsMayCancel;
     one.material = mesh.material;
+    one.opaqueTexels = mesh.opaqueTexels;
     one.texcoords.resize(mesh.texcoords.size());
     one.topology = mesh.topology;
     const std::size_t corners = cornersOf(mesh.topology);
@@ -57,11 +59,9 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
 
 // The item of a list that draws this side of an instance, or -1.
 int itemOf(const DrawList& list, int instance, bool back) {
-  const FaceSide side = back ? FaceSide::back : FaceSide::front;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const DrawItem& item = list.items[i];
-    if (item.instance == instance && (item.faces == FaceSide::both || item.faces == side))
-      return int(i);
+    if (item.instance == instance && (item.faces == FaceSide::both || !back)) return int(i);
   }
   return -1;
 }
@@ -77,8 +77,7 @@ bool covers(const reference::Primitive& primitive, const glm::ivec2& grid, glm::
 }
 
 struct LayerValue {
-  int item;   ///< of the stage
-  int order;  ///< in the picture's list
+  int item;  ///< of the stage
   std::size_t hit;
   reference::Attributes attributes;
   glm::dvec3 radiance;
@@ -126,7 +125,7 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
   probe.alpha = a.base.a;
   if (s.unlit) return;
   glm::dvec3 N = reference::shadingNormal(s, a), position = a.position;
-  if (s.program == reference::Program::flat) {
+  if (s.program == Shading::flat) {
     N = s.twoSided && !a.front ? -a.faceNormal : a.faceNormal;
     const auto& eye = stage.vertices[stage.items[std::size_t(layer.item)].vertices].eye;
     position = (eye[0] + eye[1] + eye[2]) / 3.0;
@@ -147,9 +146,9 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
                             shader.attributes(layer.item, 0, probe.pixel.x, probe.pixel.y));
   };
   const reference::Terms dark = termsWith({}, stage.frame.ambientLight);
-  probe.ambient = sumColor({dark.matte, glm::dvec3(0.0)}, probe.color, s.metalness);
+  probe.ambient = sumColor({dark.matte, glm::dvec3(0.0)}, probe.color, a.numbers.metalness);
   probe.emission = a.emission;
-  probe.environment = s.program == reference::Program::environment;
+  probe.environment = s.program == Shading::environment;
   probe.reflection = dark.reflection;
   probe.refraction = dark.refraction;
   probe.transparency = dark.transparency;
@@ -162,8 +161,8 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
     const reference::Terms terms = termsWith({light}, glm::dvec3(0.0));
     LightProbe each;
     each.name = i < named.size() ? named[i] : "light";
-    each.diffuse = sumColor({terms.matte, glm::dvec3(0.0)}, probe.color, s.metalness);
-    each.specular = sumColor({glm::dvec3(0.0), terms.specular}, probe.color, s.metalness);
+    each.diffuse = sumColor({terms.matte, glm::dvec3(0.0)}, probe.color, a.numbers.metalness);
+    each.specular = sumColor({glm::dvec3(0.0), terms.specular}, probe.color, a.numbers.metalness);
     const glm::dvec3 L = light.type == reference::Light::Type::directional
                              ? light.place
                              : safeNormalize(light.place - position);
@@ -215,8 +214,7 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
     const reference::Attributes a = shader.attributes(item, 0, pixel.x, pixel.y);
     if (drawn.mask && a.base.a < drawn.alphaCutoff) continue;
     const glm::dvec3 radiance = reference::shade(stage.frame, drawn.surface, a).radiance;
-    layers.push_back(
-        {item, itemOf(where.list, hits[k].instance, hits[k].backFace), k, a, radiance});
+    layers.push_back({item, k, a, radiance});
     if (!drawn.blended) break;
   }
   probe.layers = int(layers.size());
@@ -227,10 +225,7 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
     probe.hit = hits[layers.front().hit];
     setTerms(probe, stage, layers.front(), lightsOf(withFileLights(scene, look)));
     probe.remark = remarkFor(stage, layers);
-    // In drawing order: what is blended comes after what is opaque.
-    std::vector<LayerValue> drawn = layers;
-    std::ranges::stable_sort(drawn, {}, &LayerValue::order);
-    for (const LayerValue& layer : drawn) {
+    for (const LayerValue& layer : std::views::reverse(layers)) {
       const double alpha =
           stage.items[std::size_t(layer.item)].blended ? layer.attributes.base.a : 1.0;
       probe.expected = layer.radiance * alpha + (1 - alpha) * probe.expected;

@@ -66,7 +66,7 @@ void Session::saveModel(const std::filesystem::path& path) {
   std::vector<MaterialPatch> patches;
   for (std::size_t i = 0; i < model->scene.materials.size(); ++i) {
     const Material& each = model->scene.materials[i];
-    if (names.contains(each.name)) patches.push_back({i, editedMaterial(each, document.a).shading});
+    if (names.contains(each.name)) patches.push_back(patchOf(i, editedMaterial(each, document.a)));
   }
   const std::string source = model->path.string();
   const std::vector<std::byte> original = readFile(source);

@@ -45,7 +45,7 @@ std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
     const bool shown = std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                    [&](const Mesh& m) { return std::size_t(m.material) == i; });
     if (look.material.contains(material.name) || (all && (!last || shown)))
-      patches.push_back({i, editedMaterial(material, look).shading});
+      patches.push_back(patchOf(i, editedMaterial(material, look)));
   }
   return patches;
 }

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,7 +10,9 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
+#include "glint/render/decode.h"
 #include "glint/render/draw_list.h"
+#include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
 #include "report.h"
 
@@ -30,13 +33,20 @@ Json materialJson(const Material& m, const std::set<int>& read) {
   json["alphaMode"] = modes[int(m.alphaMode)];
   json["doubleSided"] = m.doubleSided;
   json["unlit"] = m.unlit;
-  json["transmission"] = m.transmission;
   json["emission"] = vectorJson(m.emission);
   const auto texture = [&](const char* key, const std::optional<Texture>& t) {
     if (t) json[key] = {{"image", t->image}, {"read", read.contains(t->image)}};
   };
   texture("colorTexture", m.colorTexture);
   texture("emissionTexture", m.emissionTexture);
+  texture("normalTexture", m.normalTexture);
+  const ParameterTextures& t = m.parameterTextures;
+  texture("metallicRoughnessTexture", t.metallicRoughness);
+  texture("occlusionTexture", t.occlusion);
+  texture("specularTexture", t.specular);
+  texture("transmissionTexture", t.transmission);
+  for (const MaterialParameter& p : materialParameters())
+    if (m.textured & p.textured) json["fromTextures"].push_back(p.name);
   return json;
 }
 
@@ -84,10 +94,16 @@ Json infoJson(const Scene& scene, const Look& look) {
   for (const FileMorph& m : scene.morphs)
     json["morphs"].push_back({{"mesh", m.name}, {"targets", m.targets}});
   json["extensions"] = Json::array();
-  constexpr const char* uses[] = {"read", "approximated", "ignored"};
+  constexpr const char* uses[] = {"read", "approximated", "ignored", "unseen"};
   for (const FileExtension& e : scene.extensions)
     json["extensions"].push_back(
         {{"name", e.name}, {"use", uses[int(e.use)]}, {"note", e.note}, {"required", e.required}});
+  json["leftOut"] = Json::array();
+  for (const LeftOut& each : leftOut(scene, look))
+    json["leftOut"].push_back({{"material", each.material},
+                               {"what", each.what},
+                               {"reason", each.reason},
+                               {"shows", each.shows}});
   json["variants"] = variantsJson(scene, list, look);
   json["warnings"] = scene.warnings;
   return json;
@@ -174,6 +190,10 @@ void print(const Json& json) {
     if (e["note"] != "") std::cout << " (" << oneLine(e["note"]) << ")";
     std::cout << "\n";
   }
+  if (!json["leftOut"].empty()) std::cout << "\nNot used by this picture\n";
+  for (const Json& each : json["leftOut"])
+    std::cout << "  " << oneLine(each["material"]) << ": " << oneLine(each["what"]) << " ("
+              << oneLine(each["reason"]) << ")\n";
   if (json.contains("choice")) printChoice(json["choice"]);
   std::cout << "\nShader variants\n";
   for (const Json& v : json["variants"]) {
@@ -203,14 +223,19 @@ Command addInfo(CLI::App& app) {
   return [=] {
     checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});
     const Look look = makeLook();
-    const Scene scene = loadGltf(*model, poseOf(look));
+    Scene scene = loadGltf(*model, poseOf(look));
     checkMaterialNames(scene, look);
+    // Whether what may blend does is told by its texels.
+    const auto blends = [](const Material& m) { return m.alphaMode == AlphaMode::blend; };
+    if (std::ranges::any_of(scene.materials, blends)) decodeImages(scene, look);
     const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);
     if (makeLook.savesResolved(look)) makeLook.saveResolved(resolved.look);
     Json json = infoJson(scene, resolved.look);
     if (look.maxError || !resolved.programReason.empty())
       json["choice"] = choiceJson(resolved, look);
     for (const std::string& warning : scene.warnings) printWarning(*model + ": " + warning);
+    for (const LeftOut& each : leftOut(scene, resolved.look))
+      if (each.shows) printWarning(*model + ": " + leftOutText(each));
     if (*jsonFile != "-" && makeLook.saveFile() != "-") print(json);
     if (!jsonFile->empty())
       writeText(*jsonFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

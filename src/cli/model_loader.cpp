@@ -9,6 +9,7 @@
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
 #include "glint/options/picture_text.h"
+#include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
 #include "interrupt.h"
 
@@ -110,6 +111,8 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     checkMaterialNames(model.scene, look_);
     const auto decode = Clock::now();
     model.images = decodeImages(model.scene, look_);
+    for (const LeftOut& each : leftOut(model.scene, look_))
+      if (each.shows) model.scene.warnings.push_back(leftOutText(each));
     model.decodeTime = since(decode);
   } catch (const Error& failure) {
     model.error = printablePath(failure.what());

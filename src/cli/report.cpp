@@ -68,8 +68,7 @@ std::size_t triangleCount(const Scene& scene, const DrawList& list) {
   std::size_t count = 0;
   for (const DrawItem& item : list.items) {
     const Mesh& mesh = scene.meshes[std::size_t(item.mesh)];
-    if (mesh.topology == Topology::triangles && item.faces != FaceSide::back)
-      count += mesh.indices.size() / 3;
+    if (mesh.topology == Topology::triangles) count += mesh.indices.size() / 3;
   }
   return count;
 }

@@ -18,21 +18,13 @@ constexpr double mostCost = 1e6;
 // The one list of what is in a file: calls visit(group, name, where it stands in the table).
 template <class Table, class Visit>
 void forCosts(Table& table, const Visit& visit) {
-  visit("highlight", "exact", table.exact);
-  visit("highlight", "pow", table.pow);
-  visit("highlight", "integer", table.integer);
-  visit("highlight", "lyon", table.lyon);
-  visit("highlight", "lyon-cross", table.lyonCross);
-  visit("highlight", "pade", table.pade);
-  visit("highlight", "gaussian", table.gaussian);
+  for (auto& [form, costs] : table.lobes) visit("highlight", row(form).name, costs);
   for (const auto& [group, costs] : {std::pair("fresnel", &table.fresnel),
                                      std::pair("fresnel-denser-side", &table.fresnelDenser)}) {
-    visit(group, "exact", costs->exact);
-    visit(group, "textbook", costs->textbook);
-    visit(group, "schlick", costs->schlick);
-    visit(group, "schlick-exponent", costs->schlickExponent);
-    visit(group, "schlick-exp2", costs->schlickExp2);
-    visit(group, "rational", costs->rational);
+    for (const FresnelRow& form : fresnelRows()) {
+      visit(group, form.name, costs->*form.cost);
+      if (form.form == Fresnel::schlick) visit(group, "schlick-exponent", costs->schlickExponent);
+    }
   }
 }
 
@@ -52,10 +44,11 @@ class Reader {
            std::to_string(version));
     CostFile file;
     std::size_t known = 0;
-    forCosts(file.costs, [&](const char* group, const char* name, auto& cost) {
+    forCosts(file.costs, [&](const char* group, std::string_view name, auto& cost) {
+      const std::string full = std::string(group) + " " + std::string(name);
       if (!json.contains(group) || !json[group].is_object() || !json[group].contains(name))
-        fail("lacks the cost of " + std::string(group) + " " + name);
-      set(json[group][name], std::string(group) + " " + name, cost);
+        fail("lacks the cost of " + full);
+      set(json[group][std::string(name)], full, cost);
       ++known;
     });
     if (json["highlight"].size() + json["fresnel"].size() + json["fresnel-denser-side"].size() !=
@@ -83,11 +76,11 @@ class Reader {
     if (!(cost >= 0 && cost <= mostCost)) fail(name + " is not from 0 to 1e6");
   }
 
-  template <std::size_t Count>
-  void set(const Json& json, const std::string& name, std::array<double, Count>& costs) const {
-    if (!json.is_array() || json.size() != Count)
-      fail(name + " is not a list of " + std::to_string(Count) + " numbers");
-    for (std::size_t i = 0; i < Count; ++i) set(json[i], name, costs[i]);
+  void set(const Json& json, const std::string& name, std::vector<double>& costs) const {
+    if (costs.size() == 1) return set(json, name, costs[0]);
+    if (!json.is_array() || json.size() != costs.size())
+      fail(name + " is not a list of " + std::to_string(costs.size()) + " numbers");
+    for (std::size_t i = 0; i < costs.size(); ++i) set(json[i], name, costs[i]);
   }
 
   const std::string& path_;
@@ -104,8 +97,14 @@ std::string costFileText(const CostFile& file) {
       {"highlight", Json::object()},
       {"fresnel", Json::object()},
       {"fresnel-denser-side", Json::object()}};
-  forCosts(file.costs, [&](const char* group, const char* name, const auto& cost) {
-    json[group][name] = cost;
+  forCosts(file.costs, [&](const char* group, std::string_view name, const auto& cost) {
+    Json& entry = json[group][std::string(name)];
+    if constexpr (std::is_same_v<decltype(cost), const double&>)
+      entry = cost;
+    else if (cost.size() == 1)
+      entry = cost[0];
+    else
+      entry = cost;
   });
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -15,6 +15,7 @@
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/bounds.h"
+#include "glint/shading/pbr_conversion.h"
 #include "glint/shading/safe.h"
 
 namespace glint {
@@ -28,6 +29,7 @@ struct Group {
   FormNeeds needs;
   double interpolation = 0;  // of shading once per face or vertex
   double rounding = 0;       // but for the lobes' and the reflectances'
+  double radiance = 0;       // the most that such a surface shows
 };
 
 // How bright an environment is and how fast it changes with direction. A picture's changes are
@@ -156,9 +158,33 @@ double refractionError(const ShadingParameters& m, const Look& look, bool twoSid
   return 2e-6 * n + worst;
 }
 
+// The numbers of the material, and where textures give them the largest that they can give.
+ShadingParameters brightestNumbers(const Material& material, const Variant& v) {
+  ShadingParameters m = material.shading;
+  if (v.textured & textured::diffuse) m.diffuse = 1;    // of pbr_conversion.h, as is
+  if (v.textured & textured::specular) m.specular = 1;  // the bound of highlightPeak()
+  return m;
+}
+
+// The exponents of the lobe that occur. A texture may hold every roughness up to the material's:
+// then both ends, and some between them. Over the exponent the error of a form falls to its root
+// (where there is one) and rises from there, so that an end has the largest.
+std::vector<double> exponentsOf(const Material& material, const Variant& v, const Look& look) {
+  if (!(v.textured & textured::exponent)) return {lobeExponent(material, look)};
+  const double scale = usesBlinn(look.shading) ? look.blinnFactor : 1.0;
+  const double low = scale * exponentFromRoughness(material.parameterTextures.roughness);
+  const double high = scale * exponentFromRoughness(0);
+  std::vector<double> exponents{low};
+  constexpr int steps = 16;
+  for (int i = 1; i <= steps; ++i)
+    exponents.push_back(
+        std::max(low, high * std::pow(std::max(low, 0.5) / high, 1.0 - double(i) / steps)));
+  return exponents;
+}
+
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
                 const Variant& v) {
-  const ShadingParameters& m = material.shading;
+  const ShadingParameters m = brightestNumbers(material, v);
   FormNeeds& needs = group.needs;
   glm::dvec3 C = m.color;
   if (v.vertexColors) {
@@ -166,16 +192,20 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     for (const glm::vec4& color : mesh.colors) most = glm::max(most, color);
     C *= glm::dvec3(most);
   }
-  const glm::dvec3 S = m.metalness * C + (1.0 - m.metalness);
+  const bool mixed = (v.textured & textured::metalness) != 0;  // any metalness up to this one
+  const glm::dvec3 S = mixed ? glm::max(C, 1.0) : m.metalness * C + (1.0 - m.metalness);
+  const double dielectric = mixed ? 1.0 : 1.0 - m.metalness;
   const glm::dvec3& light = setting.reach.together;
   if (v.specular) {
     needs.specular = true;
     // What lets light through shows that much less of the sum.
-    const double shown = v.program == Shading::environment ? 1 - material.transmission : 1.0;
+    const bool veiled =
+        v.program == Shading::environment && (v.textured & textured::transmission) == 0;
+    const double shown = veiled ? 1 - m.transmission : 1.0;
     needs.shine = glm::max(needs.shine, shown * m.specular * S);
-    const double exponent = lobeExponent(material, setting.look);
-    if (std::ranges::find(needs.exponents, exponent) == needs.exponents.end())
-      needs.exponents.push_back(exponent);
+    for (const double exponent : exponentsOf(material, v, setting.look))
+      if (std::ranges::find(needs.exponents, exponent) == needs.exponents.end())
+        needs.exponents.push_back(exponent);
   }
   const double shine = v.specular ? m.specular * largest(S * light) : 0.0;
   const double matte =
@@ -188,6 +218,9 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
                         ((v.diffuse ? m.diffuse * largest(C) : 0.0) +
                          (v.specular ? m.specular * largest(S) : 0.0)) +
                     2.0 * u * largest(material.emission);
+  // An exponent of the relative error e changes a lobe by at most e / exp(1); the fourth power, two
+  // products and a difference give 8 u, where the exponent is above 1, and at most 8 u of it below.
+  if (v.textured & textured::exponent) rounding += 8.0 * u * shine;
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
     const auto [radiance, steep] = setting.surroundings;
@@ -195,7 +228,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     if (v.dielectric) {
       needs.dielectric = true;
       needs.denserSide = needs.denserSide || v.denserSide;
-      const FormNeeds::Mirror mirror{(1.0 - m.metalness) * radiance * through, m.ior, v.twoSided};
+      const FormNeeds::Mirror mirror{dielectric * radiance * through, m.ior, v.twoSided};
       if (std::ranges::find(needs.mirrors, mirror) == needs.mirrors.end())
         needs.mirrors.push_back(mirror);
     }
@@ -208,6 +241,21 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
       rounding += largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided));
   }
   group.rounding = std::max(group.rounding, rounding);
+  double radiance = matte + shine + largest(material.emission);
+  if (v.program == Shading::environment)
+    radiance += setting.surroundings.radiance * (1.0 + largest(C));
+  group.radiance = std::max(group.radiance, radiance);
+}
+
+// What lies over one another is a mean of its layers, so that errors of shading do not grow. Each
+// layer rounds alpha, its complement, two products and a sum, and alpha itself is interpolated:
+// within 8 u of the brightest. No more layers are drawn than there are triangles.
+void addBlending(std::map<std::string, Group>& groups, std::size_t triangles, const Look& look) {
+  constexpr double mostLayers = 1024;  // of the renderer's
+  double brightest = look.noBackground ? 0.0 : largest(look.backgroundColor);
+  for (const auto& [name, group] : groups) brightest = std::max(brightest, group.radiance);
+  const double rounding = 8.0 * u * std::min(double(triangles), mostLayers) * brightest;
+  for (auto& [name, group] : groups) group.rounding += rounding;
 }
 
 std::string number(double value) {
@@ -251,12 +299,14 @@ using Groups = std::map<std::string, Group>;
 
 Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
   Groups groups;
+  std::size_t blended = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material material =
         editedMaterial(scene.materials[std::size_t(mesh.material)], setting.look);
     const Variant v =
         variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
+    if (v.alphaBlend) blended += mesh.indices.size() / 3;
     if (v.unlit) continue;
     Group& group = groups[material.name];
     addSurface(group, setting, material, mesh, v);
@@ -266,6 +316,7 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
                                                  setting.look, setting.camera, setting.lights, v},
                                                 program));
   }
+  if (blended > 0) addBlending(groups, blended, setting.look);
   return groups;
 }
 

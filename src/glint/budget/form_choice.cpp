@@ -6,18 +6,13 @@
 #include <limits>
 
 #include "glint/shading/bounds.h"
+#include "glint/shading/lobe.h"
 #include "glint/shading/safe.h"
 
 namespace glint {
 namespace {
 
 constexpr std::size_t mostForms = 3;  // of one material: another saves less than its loop costs
-
-LobeForm lobeForm(Highlight form) { return LobeForm(int(form)); }
-FresnelForm fresnelForm(Fresnel form) { return FresnelForm(int(form)); }
-static_assert(int(LobeForm::none) == int(Highlight::none));
-static_assert(int(LobeForm::lyonCross) == int(Highlight::lyonCross));
-static_assert(int(FresnelForm::rational) == int(Fresnel::rational));
 
 // A form of the lobe for one light of intensity 1 on a surface of m_s S = 1.
 struct Lobe {
@@ -27,12 +22,12 @@ struct Lobe {
 };
 
 Lobe lobeOf(const HighlightForm& form, const FormNeeds& needs, const CostTable& costs, bool blinn) {
-  const LobeForm f = lobeForm(form.form);
+  const Highlight f = form.form;
   Lobe lobe{form};
   for (const double exponent : needs.exponents) {
     lobe.error = std::max(lobe.error, lobeFormulaBound(f, form.gamma, exponent));
     lobe.rounding = std::max(lobe.rounding, lobeRoundingBound(f, form.gamma, exponent, blinn));
-    const int power = form.form == Highlight::integer ? int(exponent) : form.gamma;
+    const int power = row(f).wholePowers ? int(exponent) : form.gamma;
     lobe.cost = std::max(lobe.cost, costs.lobe(f, power));
   }
   return lobe;
@@ -41,14 +36,14 @@ Lobe lobeOf(const HighlightForm& form, const FormNeeds& needs, const CostTable& 
 // All forms that may pay, from the most exact to the cheapest: each costs less than all that are
 // more exact.
 std::vector<Lobe> lobeCandidates(const FormNeeds& needs, const CostTable& costs, bool blinn) {
-  std::vector<HighlightForm> forms{Highlight::exact, Highlight::pow, Highlight::none};
-  if (std::ranges::all_of(needs.exponents, [](double e) { return e > 0; })) {
-    if (std::ranges::all_of(needs.exponents, isIntegerPower))
-      forms.emplace_back(Highlight::integer);
-    for (const Highlight form :
-         {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross, Highlight::pade})
-      for (int gamma = 1; gamma <= 64; gamma *= 2) forms.emplace_back(form, gamma);
-    forms.emplace_back(Highlight::gaussian);
+  const bool aboveZero = std::ranges::all_of(needs.exponents, [](double e) { return e > 0; });
+  const bool whole = std::ranges::all_of(needs.exponents, isIntegerPower);
+  std::vector<HighlightForm> forms;
+  for (const HighlightRow& each : highlightRows()) {
+    if ((!each.atZero && !aboveZero) || (each.wholePowers && !whole)) continue;
+    if (!each.hasGamma) forms.emplace_back(each.form);
+    for (int gamma = 1; each.hasGamma && gamma <= 64; gamma *= 2)
+      forms.emplace_back(each.form, gamma);
   }
   std::vector<Lobe> all;
   for (const HighlightForm& form : forms) all.push_back(lobeOf(form, needs, costs, blinn));
@@ -147,14 +142,13 @@ Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& l
                           const CostTable& costs) {
   Reflectance r{fresnel};
   if (!needs.dielectric) return r;
-  const FresnelForm form = fresnelForm(fresnel);
-  r.cost = costs.reflectance(form, look.schlickExponent, needs.denserSide);
+  r.cost = costs.reflectance(fresnel, look.schlickExponent, needs.denserSide);
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
-    const double error = fresnelFormulaBound(form, n1, n2, look.schlickExponent);
-    double rounding = fresnelRoundingBound(form, n1, n2, look.schlickExponent);
+    const double error = fresnelFormulaBound(fresnel, n1, n2, look.schlickExponent);
+    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent);
     if (m.back)
-      rounding = std::max(rounding, fresnelRoundingBound(form, n2, n1, look.schlickExponent));
+      rounding = std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent));
     r.error = std::max(r.error, m.radiance * error);
     r.rounding = std::max(r.rounding, m.radiance * rounding);
   }
@@ -173,9 +167,8 @@ ChosenForms cheapestForms(const FormNeeds& needs, const LightReach& lights, cons
                           const CostTable& costs, bool blinn, double budget) {
   std::vector<Reflectance> reflectances{reflectanceOf(Fresnel::exact, needs, look, costs)};
   if (needs.dielectric)
-    for (const Fresnel form :
-         {Fresnel::textbook, Fresnel::schlick, Fresnel::schlickExp2, Fresnel::rational})
-      reflectances.push_back(reflectanceOf(form, needs, look, costs));
+    for (const FresnelRow& each : fresnelRows().subspan(1))
+      reflectances.push_back(reflectanceOf(each.form, needs, look, costs));
   std::vector<Lobe> candidates;
   if (needs.specular) candidates = lobeCandidates(needs, costs, blinn);
   const Lobe exactLobe = lobeOf(Highlight::exact, needs, costs, blinn);

@@ -334,6 +334,7 @@ std::vector<Corner> cornersOf(const Mold& mold, const Light& light, const Camera
 
 double interpolationBound(const PlacedMesh& p, Shading program) {
   const Variant& v = p.variant;
+  if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
   if (v.normalTexture) return unbounded;
   const Mold mold = moldOf(p, program);

@@ -21,7 +21,8 @@ struct PlacedMesh {
 };
 
 /// How far the exact sum of `flat` or `gouraud` is from that of `phong` at any point of the mesh,
-/// in linear radiance; infinity where no bound is known: with a normal map, which `phong` alone
+/// in linear radiance; infinity where no bound is known: where textures give parameters, with a
+/// normal map, which `phong` alone
 /// reads, where a light that weakens with the square of the distance may touch a triangle, and for
 /// `flat` where the normals of a face are not its own. For lights of every kind and exponents from
 /// 0 on. It is the largest over the triangles that show of the sum over the lights, light by light

@@ -35,7 +35,17 @@ int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height
   return given;
 }
 
+/// With samples a multisampled texture; without them one whose texels are read as they are.
 int makeStorage(const TextureHandle& texture, GLenum format, int width, int height, int samples) {
+  if (samples == 0) {
+    const bool depth = format == GL_DEPTH_COMPONENT32F;
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), width, height, 0,
+                 depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return 0;
+  }
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.id());
   glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format, width, height, GL_TRUE);
   GLint given = 0;
@@ -43,9 +53,8 @@ int makeStorage(const TextureHandle& texture, GLenum format, int width, int heig
   return given;
 }
 
-void attach(const TextureHandle& color) {
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
-                         color.id(), 0);
+void attach(GLenum point, const TextureHandle& texture, GLenum target) {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, point, target, texture.id(), 0);
 }
 
 void attach(GLenum point, const Renderbuffer& buffer) {
@@ -55,22 +64,16 @@ void attach(GLenum point, const Renderbuffer& buffer) {
 /// The samples that a tiny target comes with, or 0 if the driver cannot make it.
 int trySamples(int samples) {
   const TextureHandle color = TextureHandle::make();
-  const Renderbuffer depth = Renderbuffer::make();
+  const TextureHandle depth = TextureHandle::make();
   const Framebuffer framebuffer = Framebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   const int given = makeStorage(color, GL_RGBA32F, 1, 1, samples);
   makeStorage(depth, GL_DEPTH_COMPONENT32F, 1, 1, samples);
-  attach(color);
-  attach(GL_DEPTH_ATTACHMENT, depth);
+  attach(GL_COLOR_ATTACHMENT0, color, GL_TEXTURE_2D_MULTISAMPLE);
+  attach(GL_DEPTH_ATTACHMENT, depth, GL_TEXTURE_2D_MULTISAMPLE);
   const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   const bool valid = glGetError() == GL_NO_ERROR;
   return complete && valid ? given : 0;
-}
-
-void checkComplete() {
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Error(std::string("the driver cannot make the framebuffer: ") + statusWords(status));
 }
 
 void checkSize(int width, int height) {
@@ -120,6 +123,12 @@ void main() {
 
 }  // namespace
 
+void checkFramebuffer() {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(std::string("the driver cannot make the framebuffer: ") + statusWords(status));
+}
+
 int maxSamples() {
   GLint announced = 0, drawn = 0, read = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &announced);
@@ -138,7 +147,6 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
   checkSamples(samples);
   checkGl("before making a framebuffer");
   const int multi = samples > 1 ? samples : 0;
-  depth_ = Renderbuffer::make();
   color_ = Renderbuffer::make();
   drawn_ = Framebuffer::make();
   makeStorage(color_, GL_RGBA32F, width, height, 0);
@@ -147,22 +155,36 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
     glBindFramebuffer(GL_FRAMEBUFFER, single_.id());
     attach(GL_COLOR_ATTACHMENT0, color_);
     checkGl("making a framebuffer");
-    checkComplete();
+    checkFramebuffer();
     samplesColor_ = TextureHandle::make();
     samples_ = std::max(makeStorage(samplesColor_, GL_RGBA32F, width, height, multi), 1);
     resolve_ = resolveProgram(samples_);
     noVertices_ = VertexArray::make();
   }
-  makeStorage(depth_, GL_DEPTH_COMPONENT32F, width, height, multi);
+  depth_ = makeDepths();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
-  if (multi)
-    attach(samplesColor_);
+  attachColors();
+  attachDepths(depth_);
+  checkGl("making a framebuffer");
+  checkFramebuffer();
+  bind();
+}
+
+TextureHandle RenderTarget::makeDepths() const {
+  TextureHandle depths = TextureHandle::make();
+  makeStorage(depths, GL_DEPTH_COMPONENT32F, width_, height_, samples_ > 1 ? samples_ : 0);
+  return depths;
+}
+
+void RenderTarget::attachDepths(const TextureHandle& depths) const {
+  attach(GL_DEPTH_ATTACHMENT, depths, textureTarget());
+}
+
+void RenderTarget::attachColors() const {
+  if (samples_ > 1)
+    attach(GL_COLOR_ATTACHMENT0, samplesColor_, GL_TEXTURE_2D_MULTISAMPLE);
   else
     attach(GL_COLOR_ATTACHMENT0, color_);
-  attach(GL_DEPTH_ATTACHMENT, depth_);
-  checkGl("making a framebuffer");
-  checkComplete();
-  bind();
 }
 
 void RenderTarget::bind() const {

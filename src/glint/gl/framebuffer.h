@@ -10,6 +10,9 @@ namespace glint {
 /// framebuffers are incomplete. llvmpipe has 4 and no other (2 and 3 give 4).
 int maxSamples();
 
+/// Throws Error if what is bound cannot be drawn into.
+void checkFramebuffer();
+
 /// A picture in the driver's memory: RGBA32F colour and DEPTH_COMPONENT32F, with more than one
 /// sample multisampled and beside it the colour with one sample.
 class RenderTarget {
@@ -41,13 +44,23 @@ class RenderTarget {
   /// The whole picture, bottom row first.
   void readRows(float* rgba) const { readRows(rgba, 0, height_); }
 
+  /// The depths of each sample, as a texture to be read while nothing draws into them; and more of
+  /// the same kind (DepthLayers).
+  const TextureHandle& depths() const { return depth_; }
+  TextureHandle makeDepths() const;
+  /// Attach depths of that kind, or the colours, to the framebuffer that is bound.
+  void attachDepths(const TextureHandle& depths) const;
+  void attachColors() const;
+  GLenum textureTarget() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+
   /// The framebuffer with the resolved picture, to be blitted from.
   GLuint resolved() const { return samples_ > 1 ? single_.id() : drawn_.id(); }
 
  private:
   int width_, height_, samples_ = 1;
-  Renderbuffer color_, depth_;
+  Renderbuffer color_;
   TextureHandle samplesColor_;  // in place of color_ where there are samples
+  TextureHandle depth_;
   Program resolve_;
   VertexArray noVertices_;
   Framebuffer drawn_, single_;  // after the renderbuffers: deleted before them

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 #include "glint/gltf/compression.h"
 #include "glint/image/texture.h"
@@ -24,9 +25,8 @@ constexpr std::array table = {
     Entry{"KHR_materials_unlit", Use::read, ""},
     Entry{"KHR_materials_ior", Use::read, ""},
     Entry{"KHR_materials_emissive_strength", Use::read, ""},
-    Entry{"KHR_materials_specular", Use::approximated, "the factor; no texture, no colour"},
-    Entry{"KHR_materials_transmission", Use::approximated,
-          "the factor, by the program environment; no texture"},
+    Entry{"KHR_materials_specular", Use::approximated, "its strength; not its colour"},
+    Entry{"KHR_materials_transmission", Use::read, "by the program environment"},
     Entry{"KHR_mesh_quantization", Use::read, ""},
     Entry{"KHR_texture_transform", Use::read, ""},
     Entry{"KHR_lights_punctual", Use::read, "with an exposure of glint's own"},
@@ -35,6 +35,68 @@ constexpr std::array table = {
     Entry{"KHR_draco_mesh_compression", Use::read, "", "GLINT_DRACO"},
     Entry{"EXT_texture_webp", Use::read, "", "GLINT_WEBP"},
 };
+
+/// What no picture shows: what is said about the model, and what it does when it is not a picture.
+constexpr std::array unseen = {
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "KHR_interactivity",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_audio_emitter",
+    "KHR_implicit_shapes",
+    "KHR_physics_rigid_bodies",
+    "EXT_feature_metadata",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "AGI_articulations",
+    "AGI_stk_metadata",
+    "FB_ngon_encoding",
+    "GODOT_single_root",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+    "MSFT_audio_emitter",
+    "OMI_collider",
+    "OMI_physics_body",
+    "OMI_physics_shape",
+    "VRM",
+    "VRMC_vrm",
+    "VRMC_springBone",
+    "VRMC_node_constraint",
+};
+
+/// Extensions of materials that are not read, and the factor of theirs that is 0 where they show
+/// nothing.
+constexpr std::pair<const char*, const char*> factors[] = {
+    {"KHR_materials_anisotropy", "anisotropyStrength"},
+    {"KHR_materials_clearcoat", "clearcoatFactor"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"},
+    {"KHR_materials_dispersion", "dispersion"},
+    {"KHR_materials_iridescence", "iridescenceFactor"},
+    {"KHR_materials_sheen", "sheenColorFactor"},
+    {"KHR_materials_volume", "thicknessFactor"},
+};
+
+bool isAbove0(const Json& value) {
+  const auto above = [](const Json& v) { return v.is_number() && v.get<double>() > 0; };
+  return above(value) || (value.is_array() && std::ranges::any_of(value, above));
+}
+
+/// Whether some material has something to show of an extension that is not read.
+bool shows(Cursor root, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(factors, [&](const auto& each) { return name == each.first; });
+  if (found == std::end(factors)) return true;
+  const Cursor materials = root.member("materials");
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Cursor factor =
+        materials.item(i).member("extensions").member(name.c_str()).member(found->second);
+    if (factor.exists() && isAbove0(factor.json())) return true;
+  }
+  return false;
+}
 
 bool isInBuild(const Entry& entry) {
   if (!entry.option) return true;
@@ -47,6 +109,8 @@ bool isInBuild(const Entry& entry) {
 FileExtension describeExtension(const std::string& name) {
   FileExtension result{name, Use::ignored, "not supported by this version"};
   const auto found = std::ranges::find(table, name, &Entry::name);
+  if (std::ranges::find(unseen, name) != unseen.end())
+    return {name, Use::unseen, "nothing that a picture shows"};
   if (found == table.end()) return result;
   if (!isInBuild(*found)) {
     result.note = std::string("left out of this build (") + found->option + " is off)";
@@ -70,6 +134,10 @@ std::vector<FileExtension> extensionsOf(Cursor root) {
       result[place->second].required |= required;
     }
   }
+  // Who does not know what is required may not go on, whatever it would show.
+  for (FileExtension& each : result)
+    if (each.use == Use::ignored && !each.required && !shows(root, each.name))
+      each = {each.name, Use::unseen, "no material shows any of it"};
   return result;
 }
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "glint/gltf/pbr_conversion.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/pbr_conversion.h"
 
 namespace glint::gltf {
 namespace {
@@ -15,12 +15,14 @@ constexpr double largestFactor = 1e6;
 
 ShadingParameters shadingFromPbr(const PbrParameters& pbr) {
   const ConvertedParameters c = convertPbr(pbr);
-  return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1)};
+  return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1), 0};
 }
 
-/// Takes what `extras.glint` says. It is the user's own text, so that no fault in it is an error.
-void readExtras(const Json& material, const std::string& label, ShadingParameters& shading,
+/// Takes what `extras.glint` says: numbers that stand there take the place of textures. It is the
+/// user's own text, so that no fault in it is an error.
+void readExtras(const Json& material, const std::string& label, Material& edited,
                 Messages& messages) {
+  ShadingParameters& shading = edited.shading;
   const auto extras = material.find("extras");
   if (extras == material.end() || !extras->is_object()) return;
   const auto glint = extras->find("glint");
@@ -61,6 +63,7 @@ void readExtras(const Json& material, const std::string& label, ShadingParameter
           std::string(place).append(".").append(name).append(" is not known and is ignored"));
     } else {
       take(name, *it, shading.*key->value, key->min, key->max);
+      if (it->is_number()) edited.textured &= ~key->textured;
     }
   }
 }
@@ -77,6 +80,43 @@ glm::dvec4 readColor(Cursor from, std::size_t count, const glm::dvec4& fallback)
 
 double unit(Cursor from, double fallback) { return std::clamp(from.number(fallback), 0.0, 1.0); }
 
+/// What the extensions that are read say beside what is.
+void readUnused(Cursor extensions, Material& material) {
+  const Cursor specular = extensions.member("KHR_materials_specular");
+  if (readColor(specular.member("specularColorFactor"), 3, glm::dvec4(1)) !=
+          glm::dvec4(1, 1, 1, 1) ||
+      specular.member("specularColorTexture").exists())
+    material.unusedProperties.emplace_back("the colour of KHR_materials_specular");
+}
+
+/// What textures give in place of numbers: bits only for what they can change.
+void readParameterTextures(Cursor from, const PbrParameters& pbr, Material& material,
+                           TextureReader& textures) {
+  const Cursor extensions = from.member("extensions");
+  if (extensions.member("KHR_materials_unlit").exists()) return;
+  ParameterTextures& to = material.parameterTextures;
+  to.metallic = pbr.metallic;
+  to.roughness = pbr.roughness;
+  to.reflectance = dielectricReflectance(pbr);
+  const Cursor occlusion = from.member("occlusionTexture");
+  to.occlusionStrength = unit(occlusion.member("strength"), 1);
+  const auto take = [&](std::optional<Texture>& texture, Cursor info, unsigned bits) {
+    if (bits == 0) return;
+    texture = textures.read(info, true);
+    if (texture) material.textured |= bits;
+  };
+  const bool metals = pbr.metallic > 0, gloss = pbr.roughness > smallestRoughness;
+  take(to.metallicRoughness, from.member("pbrMetallicRoughness").member("metallicRoughnessTexture"),
+       (metals ? textured::metalness | textured::diffuse | textured::specular : 0u) |
+           (gloss ? textured::exponent | textured::specular : 0u));
+  take(to.specular, extensions.member("KHR_materials_specular").member("specularTexture"),
+       to.reflectance > 0 ? unsigned(textured::specular) : 0u);
+  take(to.occlusion, occlusion, to.occlusionStrength > 0 ? unsigned(textured::ambient) : 0u);
+  take(to.transmission,
+       extensions.member("KHR_materials_transmission").member("transmissionTexture"),
+       material.shading.transmission > 0 ? unsigned(textured::transmission) : 0u);
+}
+
 Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) {
   Material material;
   from.checkObject();
@@ -84,12 +124,8 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   const Cursor pbr = from.member("pbrMetallicRoughness");
   const Cursor extensions = from.member("extensions");
 
-  double metallic = unit(pbr.member("metallicFactor"), 1);
-  double roughness = unit(pbr.member("roughnessFactor"), 1);
-  if (pbr.member("metallicRoughnessTexture").exists()) {
-    metallic *= 0.5;
-    roughness *= 0.5;
-  }
+  const double metallic = unit(pbr.member("metallicFactor"), 1);
+  const double roughness = unit(pbr.member("roughnessFactor"), 1);
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
   material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
@@ -113,8 +149,9 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
     material.normalScale =
         std::clamp(normal.member("scale").number(1), -largestFactor, largestFactor);
   }
-  material.transmission =
+  material.shading.transmission =
       unit(extensions.member("KHR_materials_transmission").member("transmissionFactor"), 0);
+  readUnused(extensions, material);
   material.unlit = extensions.member("KHR_materials_unlit").exists();
   material.doubleSided = from.member("doubleSided").boolean(false);
   material.alphaCutoff = std::max(from.member("alphaCutoff").number(0.5), 0.0);
@@ -127,7 +164,8 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
     messages.warn(from.path() + " has the unknown alphaMode \"" + printable(mode, 20) +
                   "\", drawn as OPAQUE");
   }
-  readExtras(from.json(), from.path(), material.shading, messages);
+  readParameterTextures(from, {metallic, roughness, ior, unit(specular, 1)}, material, textures);
+  readExtras(from.json(), from.path(), material, messages);
   return material;
 }
 

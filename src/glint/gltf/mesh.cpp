@@ -1,4 +1,5 @@
 #include "glint/gltf/mesh.h"
+#include "glint/scene/material_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -238,8 +239,8 @@ void Builder::readColors() {
 }
 
 void Builder::readTexcoords(const Material& material) {
-  for (const auto& texture :
-       {material.colorTexture, material.emissionTexture, material.normalTexture}) {
+  for (const std::optional<Texture>* each : texturesOf(material)) {
+    const std::optional<Texture>& texture = *each;
     if (!texture) continue;
     const auto set = static_cast<std::size_t>(texture->texcoord);
     auto& sets = built_.mesh.texcoords;

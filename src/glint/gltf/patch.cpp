@@ -9,10 +9,10 @@
 #include <string_view>
 #include <variant>
 
-#include "glint/gltf/pbr_conversion.h"
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/pbr_conversion.h"
 
 namespace glint {
 namespace {
@@ -199,10 +199,11 @@ std::vector<std::byte> putTogether(const File& file, std::string json,
   return out;
 }
 
-std::string glintText(const ShadingParameters& values) {
+std::string glintText(const ShadingParameters& values, unsigned textured) {
   std::string text = "{";
   for (const MaterialParameter& p : materialParameters())
-    text += "\"" + std::string(p.name) + "\": " + numberText(values.*p.value) + ", ";
+    if ((p.textured & textured) == 0)
+      text += "\"" + std::string(p.name) + "\": " + numberText(values.*p.value) + ", ";
   const glm::dvec3& c = values.color;
   return text + "\"color\": [" + numberText(c.r) + ", " + numberText(c.g) + ", " + numberText(c.b) +
          "]}";
@@ -284,7 +285,7 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
                        " any more: load it again");
     if (patch.index == materials.size()) makeDefaultExplicit(text, patch.index);
     const Path material{std::string("materials"), patch.index};
-    text.set(below(material, {"extras", "glint"}), glintText(patch.values));
+    text.set(below(material, {"extras", "glint"}), glintText(patch.values, patch.textured));
     setNearestPbr(text, material, patch.values);
   }
   return putTogether(file, text.text(), bytes);

@@ -13,7 +13,13 @@ namespace glint {
 struct MaterialPatch {
   std::size_t index = 0;  ///< in the file; the number of its materials stands for the default one
   ShadingParameters values;
+  unsigned textured = 0;  ///< bits of namespace textured: left to the material's textures
 };
+
+/// That of an edited material.
+inline MaterialPatch patchOf(std::size_t index, const Material& edited) {
+  return {index, edited.shading, edited.textured};
+}
 
 /// The file's bytes with the numbers in `extras.glint` of the materials, and beside them the
 /// nearest values that other viewers read: base colour and index of refraction, and where no

@@ -163,7 +163,10 @@ const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& ke
       part.mesh = static_cast<int>(scene.meshes.size());
       scene.meshes.emplace_back();
     }
-    scene.meshes[static_cast<std::size_t>(part.mesh)] = std::move(built->mesh);
+    Mesh& made = scene.meshes[static_cast<std::size_t>(part.mesh)];
+    // What was found out about its texels holds in every pose with the same coordinates.
+    built->mesh.opaqueTexels = made.opaqueTexels && made.texcoords == built->mesh.texcoords;
+    made = std::move(built->mesh);
     changed.push_back(part.mesh);
   }
   return result.parts;
@@ -202,6 +205,12 @@ void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
   const LightMeter meter = meterLights(scene);
   scene.lightScale = meter.scale;
   lightsOn.emplace(nodes.begin(), nodes.end());
+  for (std::size_t i = 0; i < scene.lights.size() && !scene.instances.empty(); ++i) {
+    const std::string& name = scene.lights[i].name;
+    if (meter.shares[i] > 0 || scene.lights[i].intensity == glm::dvec3(0.0)) continue;
+    messages.warn("light " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'") +
+                  " lights nothing that can be seen: every surface that it reaches turns away");
+  }
   if (nodes.size() <= maxLights) return;
   messages.warn("has " + std::to_string(nodes.size()) + " lights: the " +
                 std::to_string(maxLights) + " that light it most are used");

@@ -213,8 +213,8 @@ Parameter materials() {
       "material", "[NAME:]key=value,...",
       "set parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
       "metalness (1: the highlight has the material's colour, as on real metals; 0: it is white; "
-      "the lecture notes' words say the opposite of their formula, which is used), ior, color, "
-      "and the forms highlight and fresnel; repeatable",
+      "the lecture notes' words say the opposite of their formula, which is used), ior, "
+      "transmission, color, and the forms highlight and fresnel; repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -238,7 +238,6 @@ Parameter costTable() {
 }
 
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
-constexpr std::array<std::string_view, 3> environmentNames{"studio", "sky", "white"};
 
 std::vector<Parameter> makeTable() {
   std::vector<Parameter> table;
@@ -285,7 +284,7 @@ std::vector<Parameter> makeTable() {
            slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
                          "index of refraction of the medium around the viewer"),
                   1, 3, false, 1, "n1"),
-           choice("environment", environmentNames, &Look::environment,
+           choice("environment", environmentTexts(), &Look::environment,
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "glint/shading/pbr_conversion.h"
 #include "glint/shading/safe.h"
 
 namespace glint::reference {
@@ -62,8 +63,54 @@ double edgeDistanceOf(const Footprint& f) {
   return nearest;
 }
 
-bool carriesLight(const Surface& s) {
-  return !s.unlit && (s.program == Program::flat || s.program == Program::gouraud);
+bool carriesLight(const Surface& s) { return !s.unlit && !isPerPixel(s.program); }
+
+// The numbers of the material, as gltf's physically based one is converted (pbr_conversion.h), from
+// what `texel` finds in a texture.
+template <typename Texel>
+Numbers numbersOf(const Item& item, Texel texel) {
+  Numbers numbers = item.surface.numbers;
+  const auto gives = [&](unsigned bit) { return (item.textured & bit) != 0; };
+  PbrParameters pbr;
+  pbr.metallic = item.parameters.metallic;
+  pbr.roughness = item.parameters.roughness;
+  double reflectance = item.parameters.reflectance;
+  if (item.metallicRoughness) {
+    const glm::dvec4 t = texel(*item.metallicRoughness);
+    pbr.roughness *= t.g;
+    pbr.metallic *= t.b;
+  }
+  if (item.specular) reflectance *= texel(*item.specular).a;
+  const ConvertedParameters converted = convertPbr(pbr);
+  if (gives(textured::exponent)) numbers.exponent = converted.exponent;
+  if (gives(textured::metalness)) numbers.metalness = converted.metalness;
+  if (gives(textured::diffuse)) numbers.diffuse = converted.diffuse;
+  if (gives(textured::specular)) {
+    const double m = std::clamp(pbr.metallic, 0.0, 1.0);
+    numbers.specular = (1 - m) * highlightPeak(reflectance, converted.exponent) +
+                       m * highlightPeak(1, converted.exponent);
+  }
+  if (gives(textured::ambient))
+    numbers.ambient *= 1 + item.parameters.occlusionStrength * (texel(*item.occlusion).r - 1);
+  if (gives(textured::transmission)) numbers.transmission *= texel(*item.transmission).r;
+  return numbers;
+}
+
+Numbers numbersAt(const Item& item, const Footprint& f) {
+  if (item.textured == 0) return item.surface.numbers;
+  return numbersOf(item, [&](const Looked& looked) {
+    return sampleTexture(looked.sampler, looked.texcoords, f);
+  });
+}
+
+// At the mean of some vertices, from the full size: neither a vertex nor a face has a footprint.
+Numbers numbersAt(const Item& item, std::span<const std::uint32_t> vertices) {
+  if (item.textured == 0) return item.surface.numbers;
+  return numbersOf(item, [&](const Looked& looked) {
+    glm::dvec2 place(0.0);
+    for (const std::uint32_t v : vertices) place += looked.texcoords[v] / double(vertices.size());
+    return looked.sampler.sampleLevel(place, -1);
+  });
 }
 
 }  // namespace
@@ -102,13 +149,17 @@ void PixelShader::light() {
   const Vertices& v = stage_.vertices[item.vertices];
   const auto& t = primitive_.vertex;
   const double side = item.surface.twoSided && !primitive_.front ? -1 : 1;
-  if (item.surface.program == Program::flat) {
+  if (item.surface.program == Shading::flat) {
     const glm::dvec3 centroid = (v.eye[t[0]] + v.eye[t[1]] + v.eye[t[2]]) / 3.0;
-    carried_[0] = lightAt(stage_.frame, item.surface, centroid, side * faceNormal_);
+    numbers_[0] = numbersAt(item, t);
+    carried_[0] = lightAt(stage_.frame, item.surface, numbers_[0], centroid, side * faceNormal_);
     return;
   }
-  for (std::size_t i = 0; i < 3; ++i)
-    carried_[i] = lightAt(stage_.frame, item.surface, v.eye[t[i]], side * v.normals[t[i]]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    numbers_[i] = numbersAt(item, std::span(&t[i], 1));
+    carried_[i] =
+        lightAt(stage_.frame, item.surface, numbers_[i], v.eye[t[i]], side * v.normals[t[i]]);
+  }
 }
 
 Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int column, int row) {
@@ -134,7 +185,7 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   a.emission = emissionOf(item, f);
   a.faceNormal = faceNormal_;
   a.normal = normalAt(f);
-  if (stage_.frame.image && item.surface.program == Program::environment) {
+  if (stage_.frame.image && item.surface.program == Shading::environment) {
     const auto place = [&](int x, int y) {
       return primitive_.footprint(x + 0.5, stage_.grid.y - y - 0.5);
     };
@@ -146,14 +197,19 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
     a.positionAlong = positionAt(along) - a.position;
     a.normalAlong = normalAt(along) - a.normal;
   }
-  if (item.surface.program == Program::flat) {
+  if (item.surface.program == Shading::flat) {
+    a.numbers = numbers_[0];
     a.matte = carried_[0].matte;
     a.specular = carried_[0].specular;
-  } else if (item.surface.program == Program::gouraud) {
+  } else if (item.surface.program == Shading::gouraud) {
+    a.numbers.metalness = 0;
     for (int i = 0; i < 3; ++i) {
       a.matte += a.barycentrics[i] * carried_[std::size_t(i)].matte;
       a.specular += a.barycentrics[i] * carried_[std::size_t(i)].specular;
+      a.numbers.metalness += a.barycentrics[i] * numbers_[std::size_t(i)].metalness;
     }
+  } else {
+    a.numbers = numbersAt(item, f);
   }
   return a;
 }

@@ -29,7 +29,8 @@ class PixelShader {
   std::uint32_t number_ = 0;
   Primitive primitive_;
   glm::dvec3 faceNormal_{0.0};
-  std::array<Terms, 3> carried_;  ///< flat: the first; gouraud: of the vertices
+  std::array<Terms, 3> carried_;    ///< flat: the first; gouraud: of the vertices
+  std::array<Numbers, 3> numbers_;  ///< likewise
 };
 
 }  // namespace glint::reference

@@ -53,7 +53,6 @@ bool makeTriangle(Primitive& p, const std::array<Corner, 3>& c, const Item& item
   if (!(std::abs(size) > 0) || !std::isfinite(size)) return false;
   p.front = (size > 0) != item.mirrored;
   if (item.faces == FaceSide::front && !p.front) return false;
-  if (item.faces == FaceSide::back && p.front) return false;
   if (size < 0)
     for (glm::dvec3& edge : p.edges) edge = -edge;
   p.scale = 1 / std::abs(size);

@@ -123,12 +123,14 @@ void ReferenceRenderer::drawStrip(int firstRow, int endRow, Strip& strip) const 
   blend(firstRow, endRow, strip);
 }
 
+// Exactly: at each sample all that is blended and nearer than what is opaque, from the back.
 void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
   const std::size_t width = std::size_t(stage_.grid.x);
   const auto& primitives = strips_[stripOf(firstRow)];
   auto from = std::find_if(primitives.begin(), primitives.end(),
                            [&](const Entry& r) { return stage_.items[r.item].blended; });
   PixelShader shader(stage_);
+  strip.fragments.clear();
   for (; from != primitives.end(); ++from) {
     const reference::Item& item = stage_.items[from->item];
     const auto p = reference::makePrimitive(item, stage_.vertices[item.vertices], from->primitive);
@@ -137,10 +139,18 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
       const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
       const double depth = p->footprint(column + 0.5, stage_.grid.y - row - 0.5).depth;
       if (!(depth > strip.depth[at] * (1 + sameDepth)) || depth > 1) return;
-      const glm::dvec4 over = shader.fragment(int(from->item), from->primitive, column, row);
-      strip.color[at] =
-          glm::dvec4(glm::dvec3(over) * over.a, over.a) + (1 - over.a) * strip.color[at];
+      strip.fragments.push_back(
+          {at, depth, shader.fragment(int(from->item), from->primitive, column, row)});
     });
+  }
+  // Stable: of surfaces that coincide the last drawn lies on top.
+  std::ranges::stable_sort(strip.fragments, [](const Fragment& a, const Fragment& b) {
+    return a.at != b.at ? a.at < b.at : a.depth < b.depth;
+  });
+  for (const Fragment& f : strip.fragments) {
+    const glm::dvec4& over = f.color;
+    strip.color[f.at] =
+        glm::dvec4(glm::dvec3(over) * over.a, over.a) + (1 - over.a) * strip.color[f.at];
   }
 }
 

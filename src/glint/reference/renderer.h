@@ -16,7 +16,7 @@ namespace glint {
 /// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
 /// perspective-correct interpolation, samples between the near and the far plane) but does not snap
 /// vertices to a subpixel grid. Where depths agree to 1e-12 the first drawn stays in front.
-/// Alpha-blended items follow the others from back to front, as in GL.
+/// What is blended is composed exactly, at every sample from the back to the front.
 class ReferenceRenderer {
  public:
   /// Transforms and sorts by strips of rows; draws nothing yet. Scene and images must outlive it.
@@ -53,9 +53,15 @@ class ReferenceRenderer {
   struct Entry {
     std::uint32_t item, primitive;
   };
+  struct Fragment {
+    std::size_t at;  ///< in the strip
+    double depth;
+    glm::dvec4 color;
+  };
   struct Strip {
     std::vector<glm::dvec4> color;
     std::vector<double> depth;
+    std::vector<Fragment> fragments;     ///< of what is blended
     std::vector<std::uint32_t> visible;  ///< 1 + index into the strip's primitives; 0 is none
   };
   void sortIntoStrips();

@@ -111,72 +111,27 @@ Vertices verticesOf(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return v;
 }
 
-LobeForm lobeForm(Highlight form) {
-  switch (form) {
-    case Highlight::exact:
-      return LobeForm::exact;
-    case Highlight::pow:
-      return LobeForm::pow;
-    case Highlight::integer:
-      return LobeForm::integer;
-    case Highlight::lyon:
-      return LobeForm::lyon;
-    case Highlight::lyonTuned:
-      return LobeForm::lyonTuned;
-    case Highlight::lyonCross:
-      return LobeForm::lyonCross;
-    case Highlight::pade:
-      return LobeForm::pade;
-    case Highlight::gaussian:
-      return LobeForm::gaussian;
-    case Highlight::none:
-      return LobeForm::none;
-  }
-  return LobeForm::exact;
-}
-
-FresnelForm fresnelForm(Fresnel form) {
-  switch (form) {
-    case Fresnel::exact:
-      return FresnelForm::exact;
-    case Fresnel::textbook:
-      return FresnelForm::textbook;
-    case Fresnel::schlick:
-      return FresnelForm::schlick;
-    case Fresnel::schlickExp2:
-      return FresnelForm::schlickExp2;
-    case Fresnel::rational:
-      return FresnelForm::rational;
-  }
-  return FresnelForm::exact;
-}
-
 Surface surfaceFor(const Material& material, const Variant& variant, const Look& look) {
   Surface s;
-  s.program = Program(int(programOf(look)));
+  s.program = programOf(look);
   s.unlit = variant.unlit;
   s.twoSided = material.doubleSided || look.twoSided;
   const HighlightForms highlight = material.highlight.value_or(look.highlight);
   const auto lobe = [](const HighlightForm& form, int from) {
-    return Surface::Lobe{lobeForm(form.form), std::max(form.gamma, 1), from};
+    return Surface::Lobe{form.form, std::max(form.gamma, 1), from};
   };
   s.lobes = {lobe(highlight.brightest, 0)};
   for (const HighlightForms::Dimmer& each : highlight.dimmer)
     s.lobes.push_back(lobe(each.form, each.from));
-  s.fresnel = fresnelForm(material.fresnel.value_or(look.fresnel));
-  s.ambient = material.shading.ambient;
-  s.diffuse = material.shading.diffuse;
-  s.specular = material.shading.specular;
-  s.exponent = material.shading.exponent;
-  s.metalness = material.shading.metalness;
+  s.fresnel = material.fresnel.value_or(look.fresnel);
+  const ShadingParameters& m = material.shading;
+  s.numbers = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, m.transmission};
   s.blinnFactor = look.blinnFactor;
   s.schlickExponent = look.schlickExponent;
   s.ior = material.shading.ior;
   s.mediumIor = look.mediumIor;
   s.sides = fresnelSides(s.ior, s.mediumIor);
-  if (s.fresnel == FresnelForm::rational) s.rationalSlope = rationalMinimax(s.mediumIor, s.ior);
-  s.transmission = material.transmission;
-  s.blend = material.alphaMode == AlphaMode::blend;
+  if (s.fresnel == Fresnel::rational) s.rationalSlope = rationalMinimax(s.mediumIor, s.ior);
   return s;
 }
 
@@ -223,6 +178,17 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
     item.normalTexcoords = texcoordsOf(*item.mesh, *material.normalTexture);
     item.normalScale = material.normalScale;
   }
+  item.textured = from.variant.textured;
+  item.parameters = material.parameterTextures;
+  const auto take = [&](std::optional<Looked>& to, bool read,
+                        const std::optional<Texture>& texture) {
+    if (read) to = Looked{samplerFor(*texture, scene, images), texcoordsOf(*item.mesh, *texture)};
+  };
+  take(item.metallicRoughness, from.variant.metallicRoughnessTexture,
+       item.parameters.metallicRoughness);
+  take(item.occlusion, from.variant.occlusionTexture, item.parameters.occlusion);
+  take(item.specular, from.variant.specularTexture, item.parameters.specular);
+  take(item.transmission, from.variant.transmissionTexture, item.parameters.transmission);
   return item;
 }
 

@@ -23,6 +23,12 @@ struct Vertices {
   glm::dmat3 eyeFromModel{1.0};  ///< without translation
 };
 
+/// A texture and where its mesh looks it up.
+struct Looked {
+  TextureSampler sampler;
+  std::vector<glm::dvec2> texcoords;
+};
+
 /// An item of the draw list with all that the reference reads of it.
 struct Item {
   const Mesh* mesh = nullptr;
@@ -36,6 +42,9 @@ struct Item {
   std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
   std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of those
   double normalScale = 1;
+  unsigned textured = 0;  ///< bits of namespace textured: what the following give
+  ParameterTextures parameters;
+  std::optional<Looked> metallicRoughness, occlusion, specular, transmission;
 };
 
 /// A scene before the camera, in double throughout. Of the draw list it takes the order, the

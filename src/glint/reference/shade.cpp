@@ -8,26 +8,12 @@
 namespace glint::reference {
 namespace {
 
-bool usesBlinn(Program program) {
-  return program == Program::blinnPhong || program == Program::environment;
-}
-
 double dielectricReflectance(const Surface& surface, const FresnelConstants& boundary,
                              bool entering, double cosine) {
-  switch (surface.fresnel) {
-    case FresnelForm::exact:
-      return fresnelExact(cosine, boundary);
-    case FresnelForm::textbook:
-      return entering ? fresnelTextbook(cosine, surface.mediumIor, surface.ior)
-                      : fresnelTextbook(cosine, surface.ior, surface.mediumIor);
-    case FresnelForm::schlick:
-      return schlick(cosine, boundary, surface.schlickExponent);
-    case FresnelForm::schlickExp2:
-      return schlickExp2(cosine, boundary);
-    case FresnelForm::rational:
-      return schlickRational(cosine, boundary, surface.rationalSlope);
-  }
-  return 0.0;
+  const double outer = surface.mediumIor, inner = surface.ior;
+  return reflectance(surface.fresnel, cosine,
+                     {entering ? outer : inner, entering ? inner : outer, boundary,
+                      surface.schlickExponent, surface.rationalSlope});
 }
 
 void addEnvironment(const Frame& frame, const Surface& surface, const Attributes& a,
@@ -36,7 +22,7 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   const double cosine = glm::dot(N, V);
   const bool entering = a.front || !surface.twoSided;
   const FresnelConstants& boundary = entering ? surface.sides.entering : surface.sides.leaving;
-  const double m = surface.metalness;
+  const double m = a.numbers.metalness;
   glm::dvec3 F(0.0);
   if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
   if (m > 0) F += m * metalReflectance(cosine, C);
@@ -56,8 +42,7 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
     return safeNormalize(reflect(-toViewer(frame, at.position), shadingNormal(surface, at)));
   };
   terms.reflection = F * environmentToward(frame, mirrored(a), frame.image ? spread(mirrored) : 0);
-  const double opacity = surface.blend ? a.base.a : 1.0;
-  terms.transparency = 1 - (1 - surface.transmission) * opacity;
+  terms.transparency = a.numbers.transmission;
   if (terms.transparency == 0) return;
   const double n1 = entering ? surface.mediumIor : surface.ior;
   const double n2 = entering ? surface.ior : surface.mediumIor;
@@ -84,13 +69,13 @@ glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position) {
   return V == glm::dvec3(0.0) ? glm::dvec3(0, 0, 1) : V;
 }
 
-Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& position,
-              const glm::dvec3& normal) {
+Terms lightAt(const Frame& frame, const Surface& surface, const Numbers& numbers,
+              const glm::dvec3& position, const glm::dvec3& normal) {
   SumParameters p;
-  p.ambient = surface.ambient;
-  p.diffuse = surface.diffuse;
-  p.specular = surface.specular;
-  p.exponent = surface.exponent;
+  p.ambient = numbers.ambient;
+  p.diffuse = numbers.diffuse;
+  p.specular = numbers.specular;
+  p.exponent = numbers.exponent;
   p.blinnFactor = surface.blinnFactor;
   const glm::dvec3 V = toViewer(frame, position);
   const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
@@ -127,16 +112,16 @@ Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
     terms.radiance = C;
     return terms;
   }
-  const bool carried = surface.program == Program::flat || surface.program == Program::gouraud;
+  const bool carried = !isPerPixel(surface.program);
   const glm::dvec3 N = carried ? glm::dvec3(0.0) : shadingNormal(surface, a);
   if (carried) {
     terms.matte = a.matte;
     terms.specular = a.specular;
   } else {
-    terms = lightAt(frame, surface, a.position, N);
+    terms = lightAt(frame, surface, a.numbers, a.position, N);
   }
-  terms.sum = sumColor({terms.matte, terms.specular}, C, surface.metalness);
-  if (surface.program == Program::environment) addEnvironment(frame, surface, a, N, terms);
+  terms.sum = sumColor({terms.matte, terms.specular}, C, a.numbers.metalness);
+  if (surface.program == Shading::environment) addEnvironment(frame, surface, a, N, terms);
   const glm::dvec3 sum = (1 - terms.transparency) * terms.sum;
   switch (surface.part) {
     case Part::all:

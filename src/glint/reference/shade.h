@@ -6,8 +6,8 @@
 
 #include "glint/render/environment_image.h"
 #include "glint/shading/environment_map.h"
+#include "glint/shading/forms.h"
 #include "glint/shading/fresnel.h"
-#include "glint/shading/lobe.h"
 
 // The shading of the reference renderer: double precision, by the formulas of src/shading alone.
 // Everything is in eye space: the eye at the origin, looking along -Z.
@@ -36,31 +36,33 @@ struct Frame {
   glm::dmat3 environmentFromEye{1.0};
 };
 
-enum class Program { flat, gouraud, phong, blinnPhong, environment };
 /// Which part of the radiance a surface shows.
 enum class Part { all, sum, reflection, refraction };
 
+/// The numbers of a material at one point of its surface.
+struct Numbers {
+  double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0, transmission = 0;
+};
+
 /// A material under a look.
 struct Surface {
-  Program program = Program::phong;
+  Shading program = Shading::phong;
   bool unlit = false;
   bool twoSided = false;  ///< back faces turn the normal
   /// The forms of the lobe, each for the lights from a rank on.
   struct Lobe {
-    LobeForm form = LobeForm::exact;
+    Highlight form = Highlight::exact;
     int gamma = 8;  ///< of the forms that have one
     int from = 0;
   };
   std::vector<Lobe> lobes{Lobe{}};
-  FresnelForm fresnel = FresnelForm::exact;
-  double ambient = 1, diffuse = 1, specular = 0, exponent = 20, metalness = 0;
+  Fresnel fresnel = Fresnel::exact;
+  Numbers numbers;  ///< where no texture gives them
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
   FresnelSides sides;        ///< of ior and mediumIor
-  double rationalSlope = 0;  ///< k of FresnelForm::rational
-  double transmission = 0;
-  Part part = Part::all;  ///< `sum` goes with emission
-  bool blend = false;     ///< 1 - alpha adds to the transparency of the program environment
+  double rationalSlope = 0;  ///< k of Fresnel::rational
+  Part part = Part::all;     ///< `sum` goes with emission
 };
 
 /// What reaches shading at one point: all of a pixel's error that is not in here is shading error.
@@ -78,6 +80,7 @@ struct Attributes {
   glm::dvec3 faceNormal{0.0};  ///< unit, of the front side
   glm::dvec4 base{1.0};        ///< C and alpha: material, vertex colour and texture
   glm::dvec3 emission{0.0};    ///< material and texture
+  Numbers numbers;             ///< material and textures; flat and gouraud read the metalness alone
   /// What position and normal change by to the other pixel of the pair, across and down: GL's
   /// differences. Set where the environment is a picture.
   glm::dvec3 positionAcross{0.0}, positionAlong{0.0}, normalAcross{0.0}, normalAlong{0.0};
@@ -105,8 +108,8 @@ glm::dvec3 toViewer(const Frame& frame, const glm::dvec3& position);
 
 /// The light at a point with unit normal; sets `matte` and `specular` of the result. Flat shading
 /// and Gouraud shading use the lobe of Phong.
-Terms lightAt(const Frame& frame, const Surface& surface, const glm::dvec3& position,
-              const glm::dvec3& normal);
+Terms lightAt(const Frame& frame, const Surface& surface, const Numbers& numbers,
+              const glm::dvec3& position, const glm::dvec3& normal);
 
 /// Evaluates the surface's program. The attributes may come from anywhere: from the reference's own
 /// rasterisation or from what a GL driver interpolated.

@@ -47,8 +47,14 @@ void ReferenceRenderer::keep(const PictureTerm& term) {
       item.emission = glm::dvec3(0.0);
       if (item.surface.unlit) item.color = glm::dvec4(0, 0, 0, item.color.a);
     }
-    if (term.kind == Kind::diffuse) item.surface.specular = 0;
-    if (term.kind == Kind::specular) item.surface.diffuse = 0;
+    if (term.kind == Kind::diffuse) {
+      item.surface.numbers.specular = 0;
+      item.textured &= ~textured::specular;
+    }
+    if (term.kind == Kind::specular) {
+      item.surface.numbers.diffuse = 0;
+      item.textured &= ~textured::diffuse;
+    }
     item.surface.part = term.kind == Kind::reflection   ? reference::Part::reflection
                         : term.kind == Kind::refraction ? reference::Part::refraction
                                                         : reference::Part::sum;

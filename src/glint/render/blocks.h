@@ -39,7 +39,9 @@ struct MaterialBlock {
   glm::vec4 leaving{0};
   glm::vec4 lobe{0};
   glm::vec4 dimmerLobe{0};
+  glm::vec4 textured{0};
+  glm::vec4 detail{0};
 };
-static_assert(sizeof(MaterialBlock) == 128);
+static_assert(sizeof(MaterialBlock) == 160);
 
 }  // namespace glint

@@ -1,8 +1,13 @@
 #include "glint/render/composition.h"
-#include "glint/scene/look_text.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <utility>
 #include <vector>
+
+#include "glint/render/features.h"
+#include "glint/scene/look_text.h"
+#include "glint/shading/pbr_conversion.h"
 
 namespace glint {
 namespace {
@@ -12,8 +17,15 @@ std::string header(bool fileNames) {
                    : "#version 330 core\n";
 }
 
-std::string define(const char* name, int value) {
-  return std::string("#define ") + name + " " + std::to_string(value) + "\n";
+std::string define(std::string_view name, int value) {
+  return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
+}
+
+// As GLSL writes it: with a point.
+std::string realText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%#.9g", value);
+  return text;
 }
 
 std::string stageDefines(bool vertex) {
@@ -26,15 +38,36 @@ std::string environmentDefines(Environment environment) {
          define("ENVIRONMENT_MAP", int(environment));
 }
 
+bool isPerVertex(const Variant& v) { return !v.unlit && !isPerPixel(v.program); }
+
+// Where a texture of parameters is looked up, in the stage that reads it.
+std::string placeText(const Variant& v, std::size_t texture) {
+  const int place = v.parameterPlaces[texture];
+  if (place < 0) return "vColorTexcoord";
+  return std::string(isPerVertex(v) ? "parameterTexcoords[" : "vParameterTexcoords[") +
+         std::to_string(place) + "]";
+}
+
+std::string parameterDefines(const Variant& v) {
+  constexpr std::pair<const char*, unsigned> parameters[] = {
+      {"AMBIENT", textured::ambient},     {"DIFFUSE", textured::diffuse},
+      {"SPECULAR", textured::specular},   {"EXPONENT", textured::exponent},
+      {"METALNESS", textured::metalness}, {"TRANSMISSION", textured::transmission}};
+  std::string text = define("PER_PIXEL", !isPerVertex(v));
+  text += define("PARAMETER_TEXTURES", v.textured != 0);
+  for (const auto& [name, bit] : parameters)
+    text += define((std::string("TEXTURED_") + name).c_str(), (v.textured & bit) != 0);
+  constexpr const char* names[] = {"METALLIC_ROUGHNESS", "OCCLUSION", "SPECULAR", "TRANSMISSION"};
+  for (std::size_t i = 0; i < 4; ++i)
+    text += std::string("#define ") + names[i] + "_PLACE " + placeText(v, i) + "\n";
+  if (v.textured == 0) return text;
+  return text + "#define METAL_DIFFUSE " + realText(metalDiffuse) +
+         "\n#define SMALLEST_ROUGHNESS " + realText(smallestRoughness) + "\n";
+}
+
 std::string defines(const Variant& v) {
   std::string text;
-  text += define("UNLIT", v.unlit);
-  text += define("VERTEX_COLORS", v.vertexColors);
-  text += define("COLOR_TEXTURE", v.colorTexture);
-  text += define("ALPHA_MASK", v.alphaMask);
-  text += define("ALPHA_BLEND", v.alphaBlend);
-  text += define("EMISSION", v.emission);
-  text += define("EMISSION_TEXTURE", v.emissionTexture);
+  for (const Feature& feature : features()) text += define(feature.define, feature.value(v));
   text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
   constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
                                      "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
@@ -43,44 +76,23 @@ std::string defines(const Variant& v) {
   for (const char* output : outputs)
     text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
   text += define("OUTPUT", int(v.output));
-  if (v.unlit)
-    return text + define("LIGHTS", 0) + define("OPAQUE_OUTPUT", 0) + define("NORMAL_TEXTURE", 0);
+  text += parameterDefines(v);
   const int lights = v.directionalLights + v.pointLights + v.spotLights;
   text += define("LIGHTS", lights);
-  text += define("DIRECTIONAL_LIGHTS", v.directionalLights);
-  text += define("POINT_LIGHTS", v.pointLights);
-  text += define("SPOT_LIGHTS", v.spotLights);
-  text += define("LIGHT_FALLOFF", v.lightFalloff);
-  text += define("DIFFUSE", v.diffuse);
-  text += define("SPECULAR", v.specular);
-  constexpr const char* lobes[] = {"EXACT",      "POW",  "INTEGER",  "LYON", "LYON_TUNED",
-                                   "LYON_CROSS", "PADE", "GAUSSIAN", "NONE"};
-  int form = 0;
-  for (const char* lobe : lobes) text += define((std::string("HIGHLIGHT_") + lobe).c_str(), form++);
   text += define("LOBE_FORMS", lights > 0 ? int(v.dimmer.size()) + 1 : 0);
-  text += define("BLINN", v.program == Shading::blinnPhong || v.program == Shading::environment);
-  text += define("CONSTANT_VIEW", v.constantView);
-  text += define("UNEVEN_SCALE", v.unevenScale);
-  text += define("PIXEL_POSITION", v.pixelPosition);
-  text += define("VANISHING_NORMAL", v.vanishingNormal);
-  text += define("NORMAL_TEXTURE", v.normalTexture);
-  text += define("TWO_SIDED", v.twoSided);
+  text += define("BLINN", usesBlinn(v.program));
   text +=
       std::string("#define CARRIED ") + (v.program == Shading::flat ? "flat" : "VARYING") + "\n";
-  // What environment sees through a surface is refracted, not blended.
-  text += define("OPAQUE_OUTPUT", v.program == Shading::environment);
-  if (v.program == Shading::environment) {
-    text += environmentDefines(v.environment);
-    constexpr const char* forms[] = {"EXACT", "TEXTBOOK", "SCHLICK", "SCHLICK_EXP2", "RATIONAL"};
-    for (int i = 0; i < 5; ++i) text += define((std::string("FRESNEL_") + forms[i]).c_str(), i);
-    text += define("FRESNEL", int(v.fresnel));
-    text += define("SCHLICK_FIFTH", v.schlickFifth);
-    text += define("DENSER_SIDE", v.denserSide);
-    text += define("DIELECTRIC", v.dielectric);
-    text += define("METAL", v.metal);
-    text += define("REFRACTION", v.refraction);
-  }
+  if (!v.unlit && v.program == Shading::environment) text += environmentDefines(v.environment);
   return text;
+}
+
+// What a form reads in place of the exponent where that comes from a texture: shape() of its row,
+// each of which is linear in the exponent.
+std::string shapeText(const HighlightRow& form, int gamma) {
+  const glm::dvec2 at0 = form.shape(0, gamma), slope = form.shape(1, gamma) - at0;
+  return "(vec2(" + realText(slope.x) + ", " + realText(slope.y) + ") * p.exponent + vec2(" +
+         realText(at0.x) + ", " + realText(at0.y) + "))";
 }
 
 // What lights.glsl is composed with for each form of the highlight.
@@ -90,6 +102,7 @@ std::vector<std::string> lobeDefines(const Variant& v) {
   forms.push_back({{}, v.directionalLights, v.pointLights, v.spotLights});
   constexpr const char* shapes[] = {"material.lobe.xy", "material.lobe.zw",
                                     "material.dimmerLobe.xy", "material.dimmerLobe.zw"};
+  const bool varies = (v.textured & textured::exponent) != 0;
   std::vector<std::string> texts;
   for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
     const Variant::Dimmer &from = forms[i], &end = forms[i + 1];
@@ -103,23 +116,37 @@ std::vector<std::string> lobeDefines(const Variant& v) {
       set((std::string(type) + "_END").c_str(), std::to_string(first + stop));
     };
     const std::string number = std::to_string(i);
-    const Highlight form = from.form.form;
-    const bool lobe = v.specular && form != Highlight::none;
+    const HighlightRow& form = row(from.form.form);
+    const bool lobe = v.specular && !form.glsl.empty();
     set("ADD_LIGHTS", "addLights" + number);
     set("ADD_LIGHT", "addLight" + number);
     set("LOBE_OF", "lobeOf" + number);
     set("LOBE", std::to_string(int(lobe)));
-    set("HIGHLIGHT", std::to_string(int(form)));
-    set("LOBE_POWER", std::to_string(from.form.gamma));
-    set("LOBE_SHAPE", !lobe                                                ? "vec2(0.0)"
-                      : form == Highlight::exact || form == Highlight::pow ? "material.strength.ww"
-                                                                           : shapes[i]);
+    set("LOBE_TAKES_COSINE", std::to_string(int(form.takesCosine)));
+    set("LOBE_SHAPE", !lobe         ? "vec2(0.0)"
+                      : !form.shape ? "vec2(p.exponent)"
+                      : varies      ? shapeText(form, from.form.gamma)
+                                    : shapes[i]);
+    set("LOBE_EVEN", lobe && !form.atZero && varies ? "!(p.exponent > 0.0)" : "false");
+    set("POWER", std::to_string(from.form.gamma));
     range("DIRECTIONAL", 0, from.directional, end.directional);
     range("POINT", v.directionalLights, from.point, end.point);
     range("SPOT", v.directionalLights + v.pointLights, from.spot, end.spot);
+    if (lobe)
+      text += "float lobeOf" + number + "(float x, vec2 shape) { return " + std::string(form.glsl) +
+              "; }\n";
     texts.push_back(std::move(text));
   }
   return texts;
+}
+
+// The reflectance in the variant's form, for environment.glsl.
+std::string reflectanceFunction(const Variant& v) {
+  if (!v.dielectric) return {};
+  const std::string form(v.schlickFifth
+                             ? "fresnelSchlickFifth(cosine, boundary, material.surface.z)"
+                             : row(v.fresnel).glsl);
+  return "float reflectance(float cosine, Boundary boundary) { return " + form + "; }\n";
 }
 
 // A file and what is defined before it.
@@ -145,23 +172,24 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
   const std::string name(v.unlit ? "unlit" : shadingName(v.program));
   std::vector<Part> files{{"vector.glsl"}, {"blocks.glsl"}};
   if (!v.unlit) {
-    const bool perVertex = v.program == Shading::flat || v.program == Shading::gouraud;
     if (v.specular) files.insert(files.begin() + 1, {"lobe.glsl"});
     if (v.program == Shading::environment)
       files.insert(files.end(), {{"fresnel.glsl"}, {"environment_map.glsl"}});
-    files.push_back({"light_sum.glsl"});
+    files.insert(files.end(), {{"parameters.glsl"}, {"light_sum.glsl"}});
     if (v.directionalLights + v.pointLights + v.spotLights > 0)
       for (const std::string& defines : lobeDefines(v)) files.push_back({"lights.glsl", defines});
-    files.insert(files.end(), {{"sum.glsl"}, {perVertex ? "per_vertex.glsl" : "per_pixel.glsl"}});
+    files.insert(files.end(),
+                 {{"sum.glsl"}, {isPerVertex(v) ? "per_vertex.glsl" : "per_pixel.glsl"}});
     std::string file = name + ".glsl";  // Mesa's #line takes no '-' in names
     std::replace(file.begin(), file.end(), '-', '_');
-    files.push_back({file});
+    files.push_back({file, reflectanceFunction(v)});
   }
   const std::string head = header(fileNames);
   const std::string features = defines(v);
   std::vector<Part> vertex = files, fragment = files;
   vertex.push_back({"vertex.glsl"});
   fragment.push_back({"fragment.glsl"});
+  if (v.textured != 0) (isPerVertex(v) ? vertex : fragment).push_back({"parameter_textures.glsl"});
   return {name, join(head + stageDefines(true) + features, vertex, sources, fileNames),
           join(head + stageDefines(false) + features, fragment, sources, fileNames)};
 }
@@ -174,6 +202,18 @@ ComposedProgram composeBackground(Environment environment, const GlslSources& so
   const std::string features = define("LIGHTS", 0) + map;
   return {"background", join(head + stageDefines(true) + features, files, sources, fileNames),
           join(head + stageDefines(false) + features, files, sources, fileNames)};
+}
+
+ComposedProgram composeLayer(bool multisampled, bool reversedDepth, const GlslSources& sources,
+                             bool fileNames) {
+  const std::vector<Part> files{{"blocks.glsl"}, {"layer.glsl"}};
+  const std::string features = define("LIGHTS", 0) + define("MULTISAMPLED", multisampled) +
+                               define("REVERSED_DEPTH", reversedDepth);
+  const std::string head = header(fileNames);
+  const std::string samples =
+      multisampled ? "#extension GL_ARB_sample_shading : require\n" : std::string();
+  return {"layer", join(head + stageDefines(true) + features, files, sources, fileNames),
+          join(head + samples + stageDefines(false) + features, files, sources, fileNames)};
 }
 
 }  // namespace glint

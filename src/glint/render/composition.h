@@ -22,4 +22,8 @@ ComposedProgram compose(const Variant&, const GlslSources&, bool fileNames);
 /// The program that draws the environment behind the model.
 ComposedProgram composeBackground(Environment, const GlslSources&, bool fileNames);
 
+/// The program that finds the next layer of what is blended.
+ComposedProgram composeLayer(bool multisampled, bool reversedDepth, const GlslSources&,
+                             bool fileNames);
+
 }  // namespace glint

@@ -7,6 +7,8 @@
 
 #include "glint/image/error.h"
 #include "glint/image/mipmaps.h"
+#include "glint/render/opacity.h"
+#include "glint/scene/material_parameters.h"
 
 namespace glint {
 namespace {
@@ -16,7 +18,8 @@ bool readsMipLevels(const Scene& scene, int image) {
     return t && t->image == image && t->sampler.mip != MipFilter::none;
   };
   return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
-    return reads(m.colorTexture) || reads(m.emissionTexture) || reads(m.normalTexture);
+    const auto textures = texturesOf(m);
+    return std::ranges::any_of(textures, [&](const auto* texture) { return reads(*texture); });
   });
 }
 
@@ -42,17 +45,18 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
   DecodedImages images;
   for (auto& [i, task] : tasks) {
     try {
-      images[i] = task.get();
+      const DecodedImage& decoded = images[i] = task.get();
+      for (Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        if (material.alphaMode == AlphaMode::blend && material.colorTexture &&
+            material.colorTexture->image == i)
+          mesh.opaqueTexels = texelsAreOpaque(mesh, *material.colorTexture, decoded.image);
+      }
     } catch (const InputError& error) {
       scene.warnings.push_back(std::string(error.what()) + " (drawn without it)");
-      for (Material& material : scene.materials) {
-        if (material.colorTexture && material.colorTexture->image == i)
-          material.colorTexture.reset();
-        if (material.emissionTexture && material.emissionTexture->image == i)
-          material.emissionTexture.reset();
-        if (material.normalTexture && material.normalTexture->image == i)
-          material.normalTexture.reset();
-      }
+      for (Material& material : scene.materials)
+        for (std::optional<Texture>* texture : texturesOf(material))
+          if (*texture && (*texture)->image == i) texture->reset();
     }
   }
   return images;

@@ -81,25 +81,8 @@ glm::vec4 boundary(const FresnelConstants& c) {
 
 // What a form of the lobe reads in place of the exponent (glsl/lobe.glsl).
 glm::vec2 lobeConstants(const HighlightForm& form, double exponent) {
-  const double gamma = form.gamma;
-  switch (form.form) {
-    case Highlight::exact:
-    case Highlight::pow:
-    case Highlight::integer:
-    case Highlight::none:
-      break;
-    case Highlight::lyon:
-      return {exponent / gamma, 0};
-    case Highlight::lyonTuned:
-      return {tunedSlope(exponent, form.gamma), 0};
-    case Highlight::lyonCross:
-      return {0.5 * exponent / gamma, 0};
-    case Highlight::pade:
-      return {1 + exponent / gamma, exponent / gamma - 1};
-    case Highlight::gaussian:
-      return {(exponent + gaussianShift) / std::numbers::ln2, 0};
-  }
-  return glm::vec2(0);
+  const auto shape = row(form.form).shape;
+  return shape ? glm::vec2(shape(exponent, form.gamma)) : glm::vec2(0);
 }
 
 MaterialBlock materialBlock(const Material& material, const Variant& variant, const Look& look) {
@@ -117,7 +100,10 @@ MaterialBlock materialBlock(const Material& material, const Variant& variant, co
   const FresnelSides sides = fresnelSides(s.ior, look.mediumIor);
   const double k =
       variant.fresnel == Fresnel::rational ? rationalMinimax(look.mediumIor, s.ior) : 0.0;
-  block.surface = glm::vec4(s.metalness, material.transmission, sides.entering.r0, k);
+  block.surface = glm::vec4(s.metalness, s.transmission, sides.entering.r0, k);
+  const ParameterTextures& t = material.parameterTextures;
+  block.textured = glm::vec4(t.metallic, t.roughness, t.reflectance, t.occlusionStrength);
+  block.detail.x = float(usesBlinn(look.shading) ? look.blinnFactor : 1.0);
   block.entering = boundary(sides.entering);
   block.leaving = boundary(sides.leaving);
   return block;
@@ -159,15 +145,15 @@ bool isMirrored(const glm::dmat4& world) {
   return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
 }
 
-double depthOf(const Mesh& mesh, const DrawBlock& block) {
-  glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+void setDepth(DrawItem& item, const Mesh& mesh) {
+  item.low = glm::vec3(std::numeric_limits<float>::infinity());
+  item.high = -item.low;
   for (std::uint32_t i : mesh.indices) {
-    low = glm::min(low, mesh.positions[i]);
-    high = glm::max(high, mesh.positions[i]);
+    item.low = glm::min(item.low, mesh.positions[i]);
+    item.high = glm::max(item.high, mesh.positions[i]);
   }
-  return -(glm::dmat4(block.eyeFromModel) *
-           glm::dvec4((glm::dvec3(low) + glm::dvec3(high)) * 0.5, 1))
-              .z;
+  const glm::dvec3 center = (glm::dvec3(item.low) + glm::dvec3(item.high)) * 0.5;
+  item.depth = -(glm::dmat4(item.draw.eyeFromModel) * glm::dvec4(center, 1)).z;
 }
 
 bool finite(const glm::mat4& m) {
@@ -211,18 +197,8 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     item.draw.normalMatrix[3] = {float(material.normalScale), 0, 0, item.mirrored ? -1 : 1};
     const bool both = material.doubleSided || look.twoSided || mesh.topology != Topology::triangles;
     item.faces = both ? FaceSide::both : FaceSide::front;
-    // Seen through a surface, the program environment shows refraction: nothing is left to blend.
-    item.blended =
-        item.variant.alphaBlend && (item.variant.unlit || look.shading != Shading::environment);
-    if (item.blended) {
-      item.depth = depthOf(mesh, item.draw);
-      if (both && mesh.topology == Topology::triangles) {  // far sides first
-        DrawItem back = item;
-        back.faces = FaceSide::back;
-        item.faces = FaceSide::front;
-        list.items.push_back(back);
-      }
-    }
+    item.blended = item.variant.alphaBlend;
+    if (item.blended) setDepth(item, mesh);
     list.items.push_back(item);
   }
   std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -243,6 +219,11 @@ std::vector<int> imagesRead(const Scene& scene, const Look& given) {
     if (v.colorTexture) images.insert(material.colorTexture->image);
     if (v.emissionTexture) images.insert(material.emissionTexture->image);
     if (v.normalTexture) images.insert(material.normalTexture->image);
+    const ParameterTextures& t = material.parameterTextures;
+    if (v.metallicRoughnessTexture) images.insert(t.metallicRoughness->image);
+    if (v.occlusionTexture) images.insert(t.occlusion->image);
+    if (v.specularTexture) images.insert(t.specular->image);
+    if (v.transmissionTexture) images.insert(t.transmission->image);
   }
   return {images.begin(), images.end()};
 }

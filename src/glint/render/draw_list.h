@@ -10,7 +10,7 @@
 
 namespace glint {
 
-enum class FaceSide { front, back, both };
+enum class FaceSide { front, both };
 
 /// One draw call to be.
 struct DrawItem {
@@ -20,8 +20,9 @@ struct DrawItem {
   MaterialBlock materialBlock;
   bool mirrored = false;  ///< the transform turns counter-clockwise into clockwise
   FaceSide faces = FaceSide::front;
-  bool blended = false;  ///< drawn after the others, from back to front, without writing depth
-  double depth = 0.0;    ///< of the centre of its bounding box along the view; eye space units
+  bool blended = false;       ///< drawn after the others, layer by layer, without writing depth
+  double depth = 0.0;         ///< of the centre of its bounding box along the view; eye space units
+  glm::vec3 low{0}, high{0};  ///< of what is blended: that box, model space
 };
 
 /// All that a picture takes, decided without GL.

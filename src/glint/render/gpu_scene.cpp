@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "glint/image/error.h"
 #include "glint/render/face_mesh.h"
+#include "glint/render/variant.h"
 
 namespace glint {
 namespace {
@@ -52,12 +54,28 @@ class VertexLayout {
 };
 
 // The coordinates by which a texture is looked up, with its transform.
-std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
-  if (!texture || std::size_t(texture->texcoord) >= mesh.texcoords.size()) return {};
-  std::vector<glm::vec2> places = mesh.texcoords[std::size_t(texture->texcoord)];
-  if (texture->transform != glm::dmat3x2(1.0))
-    for (glm::vec2& place : places) place = glm::vec2(texture->transform * glm::dvec3(place, 1));
+std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
+  if (std::size_t(texture.texcoord) >= mesh.texcoords.size()) return {};
+  std::vector<glm::vec2> places = mesh.texcoords[std::size_t(texture.texcoord)];
+  if (texture.transform != glm::dmat3x2(1.0))
+    for (glm::vec2& place : places) place = glm::vec2(texture.transform * glm::dvec3(place, 1));
   return places;
+}
+
+std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
+  return texture ? texcoordsOf(mesh, *texture) : std::vector<glm::vec2>();
+}
+
+// Those of the faces' centroids, at the vertices that carry the faces.
+std::vector<glm::vec2> centralPlaces(const FaceMesh& faces, const std::vector<glm::vec2>& places) {
+  std::vector<glm::vec2> central(places.empty() ? 0 : faces.source.size());
+  for (std::size_t i = 0; !places.empty() && i + 2 < faces.indices.size(); i += 3) {
+    const auto at = [&](std::size_t k) {
+      return glm::dvec2(places[faces.source[faces.indices[i + k]]]);
+    };
+    central[faces.indices[i + 2]] = glm::vec2((at(0) + at(1) + at(2)) / 3.0);
+  }
+  return central;
 }
 
 GLenum modeOf(Topology topology) {
@@ -144,6 +162,13 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
     layout.add(6, std::span(mesh.tangents));
     layout.add(7, std::span(normalPlaces));
   }
+  std::vector<std::vector<glm::vec2>> parameterTexcoords;
+  for (const Texture* looked : parameterPlaces(material)) {
+    const auto places = texcoordsOf(mesh, *looked);
+    parameterTexcoords.push_back(faces ? centralPlaces(faceMesh, places) : places);
+  }
+  for (std::size_t i = 0; i < parameterTexcoords.size(); ++i)
+    layout.add(GLuint(8 + i), std::span(std::as_const(parameterTexcoords[i])));
   if (faces) layout.add(5, std::span(faceMesh.centers));
   layout.upload();
   const auto& indices = faces ? faceMesh.indices : mesh.indices;
@@ -153,6 +178,12 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   g.mode = modeOf(mesh.topology);
   g.count = GLsizei(indices.size());
   return g;
+}
+
+void GpuScene::draw(int mesh, bool faces) {
+  const Geometry& g = geometry(mesh, faces);
+  glBindVertexArray(g.array.id());
+  glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
 }
 
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {

@@ -31,6 +31,9 @@ class GpuScene {
   /// The mesh, or for the program `flat` its faces.
   const Geometry& geometry(int mesh, bool faces);
 
+  /// Draws it as the state stands.
+  void draw(int mesh, bool faces);
+
   /// Binds the texture and its sampler to a unit.
   void bindTexture(const Texture&, GLuint unit);
 

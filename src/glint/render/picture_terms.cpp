@@ -94,6 +94,7 @@ void keepGeometry(DrawItem& item, const PictureTerm& term) {
   }
   v.output = PixelOutput::shadingNormal;
   if (v.unlit) return;
+  v.dropParameterTextures();
   removeLights(v);
   v.program = Shading::phong;
   v.vanishingNormal = v.pixelPosition = v.unevenScale = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "glint/gl/check.h"
@@ -12,6 +13,12 @@ namespace glint {
 namespace {
 
 constexpr GLuint environmentUnit = 3;
+constexpr GLuint behindUnit = 4;
+constexpr GLuint parameterUnit = 5;  // and the three after it
+
+// More layers than a picture shows anything of: the nearest are then left out. A driver that tests
+// other depths than its shaders see would go on for ever.
+constexpr int mostLayers = 1024;
 
 enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding };
 
@@ -37,6 +44,11 @@ void connect(const Program& program) {
   program.bindSampler("emissionTexture", 1);
   program.bindSampler("normalTexture", 2);
   program.bindSampler("environmentImage", environmentUnit);
+  program.bindSampler("behind", behindUnit);
+  GLint unit = parameterUnit;
+  for (const char* name :
+       {"metallicRoughnessTexture", "occlusionTexture", "specularTexture", "transmissionTexture"})
+    program.bindSampler(name, unit++);
 }
 
 Program build(const ComposedProgram& text) {
@@ -63,21 +75,49 @@ GLsizeiptr uploadBlocks(const Buffer& buffer, const std::vector<DrawItem>& items
   return GLsizeiptr(stride);
 }
 
-void setState(const DrawItem& item) {
+void setFaces(const DrawItem& item) {
   glFrontFace(item.mirrored ? GL_CW : GL_CCW);
   if (item.faces == FaceSide::both) {
     glDisable(GL_CULL_FACE);
   } else {
     glEnable(GL_CULL_FACE);
-    glCullFace(item.faces == FaceSide::front ? GL_BACK : GL_FRONT);
+    glCullFace(GL_BACK);
   }
-  if (item.blended) {
+}
+
+void setBlending(bool blended) {
+  if (blended) {
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   } else {
     glDisable(GL_BLEND);
   }
-  glDepthMask(item.blended ? GL_FALSE : GL_TRUE);
+  glDepthMask(blended ? GL_FALSE : GL_TRUE);
+}
+
+// The pixels that boxes may cover, of a picture with this projection: x, y, width, height. Whole if
+// one reaches behind the eye.
+glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection, int width,
+                    int height) {
+  const glm::dvec2 size(width, height);
+  glm::dvec2 low(1e300), high(-1e300);
+  for (const DrawItem& item : items) {
+    const glm::dmat4 toClip = glm::dmat4(projection) * glm::dmat4(item.draw.eyeFromModel);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 1 ? item.high.x : item.low.x,
+                         corner & 2 ? item.high.y : item.low.y,
+                         corner & 4 ? item.high.z : item.low.z);
+      const glm::dvec4 clip = toClip * glm::dvec4(p, 1);
+      if (!(clip.w > 0)) return {0, 0, width, height};
+      const glm::dvec2 place = (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * size;
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+  }
+  // A pixel more on every side: points and lines are as wide, and all of this is rounded.
+  const glm::ivec2 first(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
+  const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(first), size));
+  return {first, end - first};
 }
 
 // The mean of each scale x scale block. Rows of `from`, fromWidth pixels wide, count from the
@@ -140,11 +180,29 @@ void Renderer::setProgramsAside() {
 RenderTarget& Renderer::targetFor(int width, int height, int samples) {
   if (!target_ || target_->width() < width || target_->height() < height ||
       askedSamples_ != samples) {
+    layers_.reset();
     target_.reset();  // first: both at once would double the memory
     target_ = std::make_unique<RenderTarget>(width, height, samples);
     askedSamples_ = samples;
   }
   return *target_;
+}
+
+const DepthLayers* Renderer::layersFor() {
+  if (!layers_ && (target_->samples() == 1 || canLayerSamples())) {
+    layers_ = std::make_unique<DepthLayers>(*target_);
+    layerQuery_ = Query::make();
+  }
+  return layers_.get();
+}
+
+const Program& Renderer::layerProgram() {
+  const bool multisampled = target_->samples() > 1;
+  const auto found = layerPrograms_.find(multisampled);
+  if (found != layerPrograms_.end()) return found->second;
+  return layerPrograms_
+      .emplace(multisampled, build(composeLayer(multisampled, clipControl_, sources_, fileNames_)))
+      .first->second;
 }
 
 Renderer::Picture Renderer::begin(GpuScene& scene, DrawList list, const Look& look) {
@@ -244,23 +302,17 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       glDrawArrays(GL_TRIANGLES, 0, 3);
       glEnable(GL_DEPTH_TEST);
     }
-    const Program* used = nullptr;
-    for (std::size_t i = 0; i < list_.items.size(); ++i) {
-      const DrawItem& item = list_.items[i];
-      if (programs_[i] != used) (used = programs_[i])->use();
-      setState(item);
-      glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawStride_ * GLsizeiptr(i),
-                        sizeof(DrawBlock));
-      glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(),
-                        materialStride_ * GLsizeiptr(i), sizeof(MaterialBlock));
-      const Material& material = scene_.scene().materials[std::size_t(item.material)];
-      if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
-      if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);
-      if (item.variant.normalTexture) scene_.bindTexture(*material.normalTexture, 2);
-      const GpuScene::Geometry& g =
-          scene_.geometry(item.mesh, item.variant.program == Shading::flat);
-      glBindVertexArray(g.array.id());
-      glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
+    used_ = nullptr;
+    setBlending(false);
+    std::size_t next = 0;
+    for (; next < list_.items.size() && !list_.items[next].blended; ++next) drawItem(next);
+    if (next < list_.items.size()) {
+      const auto first = list_.items.begin() + std::ptrdiff_t(next);
+      const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width, height);
+      glEnable(GL_SCISSOR_TEST);
+      glScissor(box.x, box.y, box.z, box.w);
+      if (box.z > 0 && box.w > 0) drawLayers(next);
+      glDisable(GL_SCISSOR_TEST);
     }
     target.resolve();
     if (rows) glFinish();  // reading back waits for it in any case; so each time is told apart
@@ -272,6 +324,64 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
   target.readRows(scratch_.data(), 0, height);
   copyRows(scratch_.data(), target.width(), layout_.scale, tile, *rows);
   checkGl("read");
+}
+
+void Renderer::Picture::bindDraw(std::size_t i) {
+  glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawStride_ * GLsizeiptr(i),
+                    sizeof(DrawBlock));
+  setFaces(list_.items[i]);
+}
+
+void Renderer::Picture::drawItem(std::size_t i) {
+  const DrawItem& item = list_.items[i];
+  if (programs_[i] != used_) (used_ = programs_[i])->use();
+  bindDraw(i);
+  glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(),
+                    materialStride_ * GLsizeiptr(i), sizeof(MaterialBlock));
+  const Material& material = scene_.scene().materials[std::size_t(item.material)];
+  if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
+  if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);
+  if (item.variant.normalTexture) scene_.bindTexture(*material.normalTexture, 2);
+  const bool read[] = {item.variant.metallicRoughnessTexture, item.variant.occlusionTexture,
+                       item.variant.specularTexture, item.variant.transmissionTexture};
+  if (item.variant.textured != 0) {
+    const auto textures = parameterTexturesOf(material);
+    for (GLuint k = 0; k < 4; ++k)
+      if (read[k]) scene_.bindTexture(**textures[k], parameterUnit + k);
+  }
+  scene_.draw(item.mesh, item.variant.program == Shading::flat);
+}
+
+void Renderer::Picture::drawLayers(std::size_t first) {
+  const DepthLayers* layers = renderer_.layersFor();
+  if (!layers) {  // in the list's order, from back to front by their centres
+    setBlending(true);
+    for (std::size_t i = first; i < list_.items.size(); ++i) drawItem(i);
+    return;
+  }
+  const bool reversed = renderer_.clipControl_;
+  for (int layer = 0; layer < mostLayers; ++layer) {
+    layers->bindDepths(layer, behindUnit);
+    setBlending(false);
+    glDepthFunc(reversed ? GL_LESS : GL_GREATER);
+    glClearDepth(reversed ? 1.0 : 0.0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    renderer_.layerProgram().use();
+    used_ = nullptr;
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, renderer_.layerQuery_.id());
+    for (std::size_t i = first; i < list_.items.size(); ++i) {
+      bindDraw(i);
+      scene_.draw(list_.items[i].mesh, list_.items[i].variant.program == Shading::flat);
+    }
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    GLuint any = 0;
+    glGetQueryObjectuiv(renderer_.layerQuery_.id(), GL_QUERY_RESULT, &any);
+    if (any == 0) break;
+    layers->bindColors(layer);
+    setBlending(true);
+    glDepthFunc(GL_EQUAL);
+    for (std::size_t i = first; i < list_.items.size(); ++i) drawItem(i);
+  }
 }
 
 Image Renderer::draw(GpuScene& scene, const Bounds& bounds, const Look& look) {

@@ -6,6 +6,7 @@
 
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/handles.h"
+#include "glint/gl/layers.h"
 #include "glint/gl/program.h"
 #include "glint/image/image.h"
 #include "glint/render/draw_list.h"
@@ -48,6 +49,10 @@ class Renderer {
     Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
     /// Without `rows` nothing is read back.
     void drawTile(const Tile& tile, Image* rows);
+    void drawItem(std::size_t item);
+    /// What is blended, from this item on, layer by layer from the back.
+    void drawLayers(std::size_t first);
+    void bindDraw(std::size_t item);
 
     Renderer& renderer_;
     GpuScene& scene_;
@@ -58,6 +63,7 @@ class Renderer {
     Buffer lights_, draws_, materials_;
     GLsizeiptr drawStride_ = 0, materialStride_ = 0;
     std::vector<const Program*> programs_;  ///< of each item
+    const Program* used_ = nullptr;         ///< by the item before
     std::vector<float> scratch_;
     RenderTimes times_;
   };
@@ -85,6 +91,9 @@ class Renderer {
   const Program& programFor(const Variant&);
   const Program& backgroundFor(Environment);
   RenderTarget& targetFor(int width, int height, int samples);
+  /// Of the target, or null if this driver cannot tell the layers of its samples apart.
+  const DepthLayers* layersFor();
+  const Program& layerProgram();
 
   GlslSources sources_;
   bool fileNames_;
@@ -94,6 +103,9 @@ class Renderer {
   std::map<Environment, Program> backgrounds_;
   EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;
+  std::unique_ptr<DepthLayers> layers_;    ///< of the target; dies first
+  std::map<bool, Program> layerPrograms_;  ///< by whether there are samples
+  Query layerQuery_;
   int askedSamples_ = 0;
   VertexArray noVertices_;
   Buffer frame_;

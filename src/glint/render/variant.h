@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <string>
 #include <string_view>
@@ -53,6 +54,14 @@ struct Variant {
   bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
   bool emission = false, emissionTexture = false;
   bool alphaMask = false, alphaBlend = false;
+  /// Parameters that come from textures, as bits of namespace textured: those that the program
+  /// reads; and the textures that give them.
+  unsigned textured = 0;
+  bool metallicRoughnessTexture = false, occlusionTexture = false;
+  bool specularTexture = false, transmissionTexture = false;
+  /// Where each of those is looked up: a place of parameterPlaces(), or -1 at the colour texture's.
+  std::array<int, 4> parameterPlaces{};
+  int parameterPlaceCount = 0;  ///< of those of the mesh, 0 if none is read
   // The program environment alone:
   Environment environment = Environment::studio;
   Fresnel fresnel = Fresnel::exact;
@@ -61,6 +70,9 @@ struct Variant {
   bool denserSide = false;  ///< some side that shows is seen from the denser medium
   bool centroid = false;    ///< multisampled: varyings stay within the triangle
   PixelOutput output = PixelOutput::radiance;
+
+  /// For what is not shaded.
+  void dropParameterTextures();
 
   auto operator<=>(const Variant&) const = default;
 };
@@ -77,18 +89,27 @@ struct FeatureReason {
 Variant variantFor(const Mesh&, const Material&, const glm::dmat4& world, const Look&,
                    bool orthographic);
 
+/// The textures of a material's parameters, in the order of Variant::parameterPlaces.
+std::array<const std::optional<Texture>*, 4> parameterTexturesOf(const Material&);
+
+/// Which of a material's parameters (bits of namespace textured) come from textures on this mesh:
+/// it may lack the coordinates.
+unsigned texturedOn(const Mesh&, const Material&);
+
+/// The different coordinates that the textures of parameters are looked up by: of each the first
+/// texture in their order.
+std::vector<const Texture*> parameterPlaces(const Material&);
+
 /// The program that a look is drawn by as it stands.
 Shading programOf(const Look&);
-
-/// Whether a program computes the lobe of Blinn-Phong; the others have Phong's.
-bool usesBlinn(Shading);
 
 /// The exponent of the material's lobe under this look: Phong's, or Blinn-Phong's.
 double lobeExponent(const Material&, const Look&);
 
 /// The forms that draw a material's highlight: those asked for, except that `integer` becomes
 /// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
-/// `none` does where the exponent is 0. Of `integer`, gamma is the exponent.
+/// `none` does where the exponent is 0. An exponent that comes from a texture is no whole number;
+/// where it is 0 the forms are exact, pixel by pixel. Of `integer`, gamma is the exponent.
 HighlightForms highlightOf(const Material&, const Look&);
 
 /// The form of a material's reflectance.
@@ -98,7 +119,7 @@ Fresnel fresnelOf(const Material&, const Look&);
 /// and positions.
 Variant attributeVariant(Variant, PixelOutput);
 
-/// Why a variant is as it is, in the order of its members.
+/// Why a variant is as it is, in the order of features().
 std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Material&, const Look&,
                                       bool orthographic);
 

@@ -7,13 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "glint/shading/forms.h"
+
 namespace glint {
 
-/// `automatic` is a choice by error budget (glint/budget/error_budget.h); drawn as it stands,
-/// phong.
-enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
-enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian, none };
-enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
 enum class Viewer { local, infinite };
 /// `image` is what `hdriFile` names; it cannot be chosen by name.
 enum class Environment { studio, sky, white, image };
@@ -83,7 +80,7 @@ struct AntiAliasing {
 
 /// What `--material` sets of a material; what is empty stays as the model has it.
 struct MaterialEdit {
-  std::optional<double> ambient, diffuse, specular, exponent, metalness, ior;
+  std::optional<double> ambient, diffuse, specular, exponent, metalness, ior, transmission;
   std::optional<glm::dvec3> color;  ///< linear
   std::optional<HighlightForms> highlight = {};
   std::optional<Fresnel> fresnel = {};

@@ -42,14 +42,13 @@ std::string rangeText(double min, double max) {
 }
 
 constexpr std::array<std::string_view, 4> lightNames{"directional", "point", "spot", "camera"};
-constexpr std::array<std::string_view, 9> highlightNames{
-    "exact", "pow", "integer", "lyon", "lyon-tuned", "lyon-cross", "pade", "gaussian", "none"};
-constexpr std::array<std::string_view, 6> shadingNames{"flat",        "gouraud",     "phong",
-                                                       "blinn-phong", "environment", "auto"};
-constexpr std::array<std::string_view, 5> fresnelNames{"exact", "textbook", "schlick",
-                                                       "schlick-exp2", "rational"};
-
-bool hasGamma(Highlight form) { return form >= Highlight::lyon && form <= Highlight::pade; }
+// The names of a table's rows, in their order.
+template <typename Row>
+std::vector<std::string_view> namesOf(std::span<const Row> rows) {
+  std::vector<std::string_view> names;
+  for (const Row& each : rows) names.push_back(each.name);
+  return names;
+}
 
 }  // namespace
 
@@ -150,22 +149,23 @@ namespace {
 HighlightForm parseHighlight(const std::string& name, const std::string& what,
                              const std::string& whole) {
   const auto parts = split(name, ':');
-  const auto found = std::find(highlightNames.begin(), highlightNames.end(), parts[0]);
-  if (found != highlightNames.end()) {
-    HighlightForm form(Highlight(found - highlightNames.begin()));
-    if (!hasGamma(form.form) && parts.size() == 1) return form;
+  const auto rows = highlightRows();
+  const auto found = std::ranges::find(rows, parts[0], &HighlightRow::name);
+  if (found != rows.end()) {
+    HighlightForm form(found->form);
+    if (!found->hasGamma && parts.size() == 1) return form;
     const bool number = parts.size() == 2 && readAll(parts[1], form.gamma);
-    if (hasGamma(form.form) && number && form.gamma >= 1 && form.gamma <= 64 &&
+    if (found->hasGamma && number && form.gamma >= 1 && form.gamma <= 64 &&
         (form.gamma & (form.gamma - 1)) == 0)
       return form;
-    if (hasGamma(form.form))
+    if (found->hasGamma)
       refuse(what, whole,
              parts[0] + ":G with G one of 1, 2, 4, 8, 16, 32, 64, such as " + parts[0] + ":8");
   }
   std::string expected;
-  for (std::size_t i = 0; i < highlightNames.size(); ++i)
-    expected += (i == 0 ? "one of " : ", ") + std::string(highlightNames[i]) +
-                (hasGamma(Highlight(i)) ? ":G" : "");
+  for (const HighlightRow& each : rows)
+    expected += (expected.empty() ? "one of " : ", ") + std::string(each.name) +
+                (each.hasGamma ? ":G" : "");
   refuse(what, whole, expected);
 }
 
@@ -198,8 +198,8 @@ HighlightForms parseHighlights(const std::string& text, const std::string& what)
 }
 
 std::string highlightText(const HighlightForm& form) {
-  std::string text(highlightNames[std::size_t(form.form)]);
-  if (hasGamma(form.form)) text += ":" + std::to_string(form.gamma);
+  std::string text(row(form.form).name);
+  if (row(form.form).hasGamma) text += ":" + std::to_string(form.gamma);
   return text;
 }
 
@@ -215,27 +215,47 @@ std::string highlightText(const HighlightForms& forms) {
 
 std::vector<std::string> highlightTexts() {
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < highlightNames.size(); ++i)
-    for (int gamma = 1; gamma <= (hasGamma(Highlight(i)) ? 64 : 1); gamma *= 2)
-      texts.push_back(highlightText(HighlightForm(Highlight(i), gamma)));
+  for (const HighlightRow& each : highlightRows())
+    for (int gamma = 1; gamma <= (each.hasGamma ? 64 : 1); gamma *= 2)
+      texts.push_back(highlightText(HighlightForm(each.form, gamma)));
   return texts;
 }
 
 Shading parseShading(const std::string& text, const std::string& what) {
-  return Shading(parseChoice(text, shadingNames, what));
+  return Shading(parseChoice(text, shadingTexts(), what));
 }
 
-std::string_view shadingName(Shading shading) { return shadingNames[std::size_t(shading)]; }
+std::string_view shadingName(Shading shading) { return row(shading).name; }
 
-std::span<const std::string_view> shadingTexts() { return shadingNames; }
+std::span<const std::string_view> shadingTexts() {
+  static const auto names = namesOf(shadingRows());
+  return names;
+}
 
 Fresnel parseFresnel(const std::string& text, const std::string& what) {
-  return Fresnel(parseChoice(text, fresnelNames, what));
+  return Fresnel(parseChoice(text, fresnelTexts(), what));
 }
 
-std::string_view fresnelText(Fresnel form) { return fresnelNames[std::size_t(form)]; }
+std::string_view fresnelText(Fresnel form) { return row(form).name; }
 
-std::span<const std::string_view> fresnelTexts() { return fresnelNames; }
+std::span<const std::string_view> fresnelTexts() {
+  static const auto names = namesOf(fresnelRows());
+  return names;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 4> environmentNames{"studio", "sky", "white", "image"};
+
+}  // namespace
+
+std::string_view environmentText(Environment environment) {
+  return environmentNames[std::size_t(environment)];
+}
+
+std::span<const std::string_view> environmentTexts() {
+  return std::span(environmentNames).first(3);
+}
 
 namespace {
 

@@ -42,6 +42,10 @@ Fresnel parseFresnel(const std::string& text, const std::string& what);
 std::string_view fresnelText(Fresnel);
 /// All of them, in the order of the forms.
 std::span<const std::string_view> fresnelTexts();
+/// Also of `image`, which cannot be chosen by name.
+std::string_view environmentText(Environment);
+/// Those that can be chosen, in their order.
+std::span<const std::string_view> environmentTexts();
 /// A light as --light gives it, its fall-off too.
 Light parseLight(const std::string& text);
 std::string lightText(const Light&);

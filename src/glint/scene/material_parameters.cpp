@@ -17,7 +17,8 @@ std::span<const MaterialParameter> materialParameters() {
        &P::ambient,
        &E::ambient,
        "m_a",
-       {0, 2, false}},
+       {0, 2, false},
+       textured::ambient},
       {"diffuse",
        "m_d: strength of diffuse reflection",
        0,
@@ -25,7 +26,8 @@ std::span<const MaterialParameter> materialParameters() {
        &P::diffuse,
        &E::diffuse,
        "m_d",
-       {0, 2, false}},
+       {0, 2, false},
+       textured::diffuse},
       {"specular",
        "m_s: strength of the highlight",
        0,
@@ -33,7 +35,8 @@ std::span<const MaterialParameter> materialParameters() {
        &P::specular,
        &E::specular,
        "m_s",
-       {0, 2, false}},
+       {0, 2, false},
+       textured::specular},
       {"exponent",
        "m_sp: Phong's exponent",
        0,
@@ -41,7 +44,8 @@ std::span<const MaterialParameter> materialParameters() {
        &P::exponent,
        &E::exponent,
        "m_sp",
-       {0, 10000, true}},
+       {0, 10000, true},
+       textured::exponent},
       {"metalness",
        "m_sm: 1 colours the highlight, 0 leaves it white",
        0,
@@ -49,10 +53,32 @@ std::span<const MaterialParameter> materialParameters() {
        &P::metalness,
        &E::metalness,
        "m_sm",
-       {0, 1, false}},
+       {0, 1, false},
+       textured::metalness},
       {"ior", "n: index of refraction", 1e-3, 1e3, &P::ior, &E::ior, "n", {0.5, 4, false}},
+      {"transmission",
+       "t: share of the light that passes through; read by the program environment",
+       0,
+       1,
+       &P::transmission,
+       &E::transmission,
+       "t",
+       {0, 1, false},
+       textured::transmission},
   };
   return table;
+}
+
+std::array<std::optional<Texture>*, 7> texturesOf(Material& m) {
+  ParameterTextures& p = m.parameterTextures;
+  return {&m.colorTexture, &m.emissionTexture, &m.normalTexture, &p.metallicRoughness,
+          &p.occlusion,    &p.specular,        &p.transmission};
+}
+
+std::array<const std::optional<Texture>*, 7> texturesOf(const Material& m) {
+  const ParameterTextures& p = m.parameterTextures;
+  return {&m.colorTexture, &m.emissionTexture, &m.normalTexture, &p.metallicRoughness,
+          &p.occlusion,    &p.specular,        &p.transmission};
 }
 
 Material editedMaterial(const Material& material, const Look& look) {
@@ -62,7 +88,10 @@ Material editedMaterial(const Material& material, const Look& look) {
     if (found == look.material.end()) continue;
     const MaterialEdit& edit = found->second;
     for (const auto& p : materialParameters())
-      if (edit.*p.edit) edited.shading.*p.value = *(edit.*p.edit);
+      if (edit.*p.edit) {
+        edited.shading.*p.value = *(edit.*p.edit);
+        edited.textured &= ~p.textured;
+      }
     if (edit.color) edited.shading.color = *edit.color;
     if (edit.highlight) edited.highlight = edit.highlight;
     if (edit.fresnel) edited.fresnel = edit.fresnel;

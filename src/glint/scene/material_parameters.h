@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -23,13 +24,20 @@ struct MaterialParameter {
   std::optional<double> MaterialEdit::*edit;
   std::string_view symbol = {};  ///< in docs/science.md
   SliderRange slider = {};
+  unsigned textured = 0;  ///< its bit in Material::textured
 };
 
-/// Ambient, diffuse, specular, exponent, metalness and ior; `color` stands beside them.
+/// Ambient, diffuse, specular, exponent, metalness, ior and transmission; `color` stands beside
+/// them.
 std::span<const MaterialParameter> materialParameters();
 
+/// All textures that a material may have, whether it has them or not.
+std::array<std::optional<Texture>*, 7> texturesOf(Material&);
+std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
+
 /// What a look makes of a scene's material: its own values with those of the edits for every
-/// material and for the material's name, in this order.
+/// material and for the material's name, in this order. An edited number takes the place of a
+/// texture that gave it.
 Material editedMaterial(const Material&, const Look&);
 
 /// Throws InputError if an edit names a material that the scene does not have.

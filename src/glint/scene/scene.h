@@ -35,6 +35,9 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
   /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
   bool normalsMayCancel = false;
+  /// Alpha is 1 in all texels that it shows of its material's colour texture: known once that is
+  /// decoded, and found out only where the material blends.
+  bool opaqueTexels = false;
   int material = 0;  ///< index into Scene::materials
 };
 
@@ -80,6 +83,32 @@ struct ShadingParameters {
   double metalness = 0.0;  ///< m_sm in [0, 1]: 1 colours the highlight by `color`, 0 is white
   double ior = 1.5;        ///< n, [1e-3, 1e3]
   glm::dvec3 color{1.0};   ///< C, linear, components [0, 1e6]; multiplies texture and vertex colour
+  double transmission = 0.0;  ///< t in [0, 1], read by the program `environment`
+};
+
+/// Parameters that textures give, as bits: where a material has a texture for them they are
+/// computed from its texels, pixel by pixel, in place of the number in ShadingParameters. A number
+/// that the user gives takes the texture's place.
+namespace textured {
+enum : unsigned {
+  ambient = 1,
+  diffuse = 2,
+  specular = 4,
+  exponent = 8,
+  metalness = 16,
+  transmission = 32
+};
+}
+
+/// Textures of numbers, not colours, and what they multiply (docs/materials.md has the formulas).
+struct ParameterTextures {
+  std::optional<Texture> metallicRoughness;  ///< G roughness, B metallic
+  std::optional<Texture> occlusion;          ///< R share of the ambient light
+  std::optional<Texture> specular;         ///< A share of the reflectance (KHR_materials_specular)
+  std::optional<Texture> transmission;     ///< R share of t (KHR_materials_transmission)
+  double metallic = 1.0, roughness = 1.0;  ///< [0, 1]
+  double reflectance = 0.04;  ///< of the dielectric at normal incidence, with its strength, [0, 1]
+  double occlusionStrength = 1.0;  ///< [0, 1]
 };
 
 struct Material {
@@ -87,13 +116,16 @@ struct Material {
   /// default material "#default".
   std::string name;
   ShadingParameters shading;
-  double alpha = 1.0;         ///< multiplies the texture's and the vertex colour's, [0, 1]
-  glm::dvec3 emission{0.0};   ///< linear radiance added to the sum
-  double transmission = 0.0;  ///< [0, 1], read by the program `environment`
+  double alpha = 1.0;        ///< multiplies the texture's and the vertex colour's, [0, 1]
+  glm::dvec3 emission{0.0};  ///< linear radiance added to the sum
   std::optional<Texture> colorTexture;     ///< sRGB colour and alpha
   std::optional<Texture> emissionTexture;  ///< sRGB
   std::optional<Texture> normalTexture;    ///< x right, y up, z out of the surface: 2 texel - 1
   double normalScale = 1.0;                ///< multiplies its x and y
+  ParameterTextures parameterTextures;
+  unsigned textured = 0;  ///< bits of namespace textured: what those textures give
+  /// What the file says of it that no program has anything for, as "the ..." for messages.
+  std::vector<std::string> unusedProperties;
   AlphaMode alphaMode = AlphaMode::opaque;
   double alphaCutoff = 0.5;  ///< for AlphaMode::mask
   bool doubleSided = false;
@@ -141,7 +173,7 @@ struct FileAnimation {
 
 /// An extension of glTF that the file names, and what is made of it.
 struct FileExtension {
-  enum class Use { read, approximated, ignored };
+  enum class Use { read, approximated, ignored, unseen };  ///< unseen: nothing of it shows
   std::string name;
   Use use = Use::ignored;
   std::string note;       ///< how far, may be empty; or why not, to follow "which is"

@@ -29,15 +29,15 @@ double cosineError(double c) { return 5.0 * u * (1.0 + c); }
 struct Difference {
   double alpha, beta;
   int gamma;
-  LobeForm form;
+  Highlight form;
 
   double base(double x) const {
-    return form == LobeForm::pade ? (2.0 - (1.0 + beta) * x) / (2.0 + (beta - 1.0) * x)
-                                  : 1.0 - beta * x;
+    return form == Highlight::pade ? (2.0 - (1.0 + beta) * x) / (2.0 + (beta - 1.0) * x)
+                                   : 1.0 - beta * x;
   }
   double logForm(double x) const {
-    if (form == LobeForm::gaussian) return -beta * x;
-    if (form == LobeForm::pade)
+    if (form == Highlight::gaussian) return -beta * x;
+    if (form == Highlight::pade)
       return gamma * (std::log1p(-0.5 * (1.0 + beta) * x) - std::log1p(0.5 * (beta - 1.0) * x));
     return gamma * std::log1p(-beta * x);
   }
@@ -45,7 +45,7 @@ struct Difference {
   double at(double x) const {
     if (x >= 1.0) return std::exp(logForm(x));
     const double logExact = alpha * std::log1p(-x);
-    if (form != LobeForm::gaussian && base(x) <= 0.0) return std::exp(logExact);
+    if (form != Highlight::gaussian && base(x) <= 0.0) return std::exp(logExact);
     const double above = logForm(x) - logExact;
     return above > 1.0 ? std::exp(logExact + above) - std::exp(logExact)
                        : std::abs(std::exp(logExact) * std::expm1(above));
@@ -54,9 +54,9 @@ struct Difference {
   double slopes(double x) const {
     const double exact = (alpha - 1.0) * std::log1p(-x);
     switch (form) {
-      case LobeForm::gaussian:  // g' = -beta exp(-beta x)
+      case Highlight::gaussian:  // g' = -beta exp(-beta x)
         return std::log(beta / alpha) - beta * x - exact;
-      case LobeForm::pade:  // g' = -4 a top^(gamma - 1) / bottom^(gamma + 1)
+      case Highlight::pade:  // g' = -4 a top^(gamma - 1) / bottom^(gamma + 1)
         return (gamma - 1) * std::log1p(-0.5 * (1.0 + beta) * x) -
                (gamma + 1) * std::log1p(0.5 * (beta - 1.0) * x) - exact;
       default:  // g' = -gamma beta (1 - beta x)^(gamma - 1)
@@ -66,9 +66,9 @@ struct Difference {
   // The root of s' between 0 and the end, or a value outside.
   double extremum() const {
     switch (form) {
-      case LobeForm::gaussian:  // -beta + (a - 1) / (1 - x)
+      case Highlight::gaussian:  // -beta + (a - 1) / (1 - x)
         return 1.0 - (alpha - 1.0) / beta;
-      case LobeForm::pade: {
+      case Highlight::pade: {
         // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1,
         // t = 2 - p x, b = 2 + m x: times t b (1 - x) a quadratic in x without constant term.
         const double p = 1.0 + beta, m = beta - 1.0, g = gamma;
@@ -102,8 +102,8 @@ double largestDifference(const Difference& d) {
   if (!(d.beta > 0.0)) return 1.0;
   // The end of the form: beyond it, up to 1, only the exact lobe is left.
   double end = 1.0;
-  if (d.form == LobeForm::pade) end = std::min(2.0 / (1.0 + d.beta), 1.0);
-  if (d.form == LobeForm::lyon) end = std::min(1.0 / d.beta, 1.0);
+  if (d.form == Highlight::pade) end = std::min(2.0 / (1.0 + d.beta), 1.0);
+  if (d.form == Highlight::lyon) end = std::min(1.0 / d.beta, 1.0);
   double largest = end < 1.0 ? std::pow(1.0 - end, d.alpha) : 0.0;
   if (end == 1.0) largest = std::max(largest, d.at(1.0));  // what leaks past 90 degrees
   const double inside = end * (1.0 - 1e-15), between = d.extremum();
@@ -115,22 +115,10 @@ double largestDifference(const Difference& d) {
 // ---- Reflectances ----------------------------------------------------------------------------
 
 struct Reflectance {
-  FresnelForm form;
-  FresnelConstants constants;  // from the thinner side: reciprocity gives the other
-  double exponent, k;
+  Fresnel form;
+  ReflectanceInput input;  // from the thinner side: reciprocity gives the other
 
-  double approximate(double c) const {
-    switch (form) {
-      case FresnelForm::schlick:
-        return schlick(c, constants, exponent);
-      case FresnelForm::schlickExp2:
-        return schlickExp2(c, constants);
-      case FresnelForm::rational:
-        return schlickRational(c, constants, k);
-      default:
-        return fresnelExact(c, constants);
-    }
-  }
+  double approximate(double c) const { return reflectance(form, c, input); }
 };
 
 // Bounds |approximate - exact| over [low, high]: the approximations fall with c, R_perp too, R_par
@@ -154,7 +142,7 @@ struct Subdivision {
       return;
     }
     const double middle = 0.5 * (low + high);
-    const PolarizedReflectance exact = fresnelPolarized(middle, r.constants);
+    const PolarizedReflectance exact = fresnelPolarized(middle, r.input.constants);
     const double approximate = r.approximate(middle);
     largest =
         std::max(largest, std::abs(approximate - 0.5 * (exact.perpendicular + exact.parallel)));
@@ -168,36 +156,38 @@ constexpr int deepest = 48;
 
 }  // namespace
 
-double lobeFormulaBound(LobeForm form, int gamma, double alpha) {
-  if (!(alpha > 0.0) && form != LobeForm::none)
-    return 0.0;  // every form is 1 there, or drawn as the exact one
-  switch (form) {
-    case LobeForm::exact:
-    case LobeForm::pow:
-    case LobeForm::integer:
-      return 0.0;
-    case LobeForm::lyon:
-      return largestDifference({alpha, alpha / gamma, gamma, LobeForm::lyon});
-    case LobeForm::lyonTuned:
-      return largestDifference({alpha, tunedSlope(alpha, gamma), gamma, LobeForm::lyon});
-    case LobeForm::lyonCross:
-      // With y = x (2 - x) in [0, 1], 1 - y = (1 - x)^2: lyon of alpha / 2, gated.
-      return largestDifference({0.5 * alpha, 0.5 * alpha / gamma, gamma, LobeForm::lyon});
-    case LobeForm::pade:
-      return largestDifference({alpha, alpha / gamma, gamma, LobeForm::pade});
-    case LobeForm::gaussian:
-      return largestDifference({alpha, alpha + gaussianShift, 1, LobeForm::gaussian});
-    case LobeForm::none:
-      return 1.0;
-  }
-  return 1.0;
+double lyonBound(double alpha, int gamma) {
+  return largestDifference({alpha, alpha / gamma, gamma, Highlight::lyon});
 }
 
-double fresnelFormulaBound(FresnelForm form, double n1, double n2, double exponent) {
-  if (n1 == n2 || form == FresnelForm::exact || form == FresnelForm::textbook) return 0.0;
-  const FresnelConstants constants = fresnelConstants(std::min(n1, n2), std::max(n1, n2));
-  const Reflectance r{form, constants, exponent,
-                      form == FresnelForm::rational ? rationalMinimax(n1, n2) : 0.0};
+double lyonTunedBound(double alpha, int gamma) {
+  return largestDifference({alpha, tunedSlope(alpha, gamma), gamma, Highlight::lyon});
+}
+
+double lyonCrossBound(double alpha, int gamma) {
+  // With y = x (2 - x) in [0, 1], 1 - y = (1 - x)^2: lyon of alpha / 2, gated.
+  return largestDifference({0.5 * alpha, 0.5 * alpha / gamma, gamma, Highlight::lyon});
+}
+
+double padeBound(double alpha, int gamma) {
+  return largestDifference({alpha, alpha / gamma, gamma, Highlight::pade});
+}
+
+double gaussianBound(double alpha) {
+  return largestDifference({alpha, alpha + gaussianShift, 1, Highlight::gaussian});
+}
+
+double lobeFormulaBound(Highlight form, int gamma, double alpha) {
+  const HighlightRow& of = row(form);
+  // At the exponent 0 every form is 1, or drawn as the exact one.
+  if (!of.formulaBound || (!(alpha > 0.0) && !of.atZero)) return 0.0;
+  return of.formulaBound(alpha, gamma);
+}
+
+double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent) {
+  if (n1 == n2 || !row(form).approximate) return 0.0;
+  const Reflectance r{form, reflectanceInput(form, std::min(n1, n2), std::max(n1, n2), exponent)};
+  const FresnelConstants& constants = r.input.constants;
   Subdivision s{r, 1.0 / std::sqrt(constants.nSquaredPlus1), 1e-9};
   // First a look around, so that little needs subdividing: half of the angles within the scale on
   // which R falls.
@@ -211,8 +201,8 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
   return std::min(1.25 * s.largest, 1.0);
 }
 
-double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
-  if (form == LobeForm::none) return 0.0;
+double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
+  if (form == Highlight::none) return 0.0;
   const double off = blinn ? 8.0 * vectorError : vectorError;
   // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
   // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
@@ -223,36 +213,10 @@ double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn) {
   } else {
     geometry = std::pow(std::numbers::sqrt2 * off, std::max(alpha, 0.0)) + off;
   }
-  double own = 1e-6;
-  switch (form) {
-    case LobeForm::exact:
-    case LobeForm::none:
-      break;
-    case LobeForm::pow:
-      // The cosine of rounded vectors by 1e-6, log2 by 2^-21 log 2: alpha times both.
-      own += 1.4e-6 * alpha;
-      break;
-    case LobeForm::integer:
-      own = (1.5 * alpha + 4.0) * u;
-      break;
-    case LobeForm::lyon:
-    case LobeForm::lyonTuned:
-    case LobeForm::lyonCross:
-      own = (1.5 * gamma + 4.0) * u;
-      break;
-    case LobeForm::pade:
-      // The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 +
-      // beta) for beta < 1), and 9 u of itself, the division's 5 u included.
-      own = gamma * 12.0 * u * std::max(1.0, 0.5 + 0.5 * gamma / std::max(alpha, 1e-9));
-      break;
-    case LobeForm::gaussian:
-      own = 6.5 * u;
-      break;
-  }
-  return std::min(geometry + own, 1.0);
+  return std::min(geometry + row(form).rounding(alpha, gamma), 1.0);
 }
 
-double fresnelRoundingBound(FresnelForm form, double n1, double n2, double) {
+double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent) {
   if (n1 == n2) return 0.0;
   // 0 from the thinner side: grazing incidence. R falls from there, for large indices soon to rise
   // again. On the way of one rounding the largest and the least of it count; from there on its
@@ -271,13 +235,7 @@ double fresnelRoundingBound(FresnelForm form, double n1, double n2, double) {
   double geometry = 1.02 * (highest - least);
   for (double way = 0.5 * error; from + way < 1.0; way *= 1.1)
     geometry = std::max(geometry, 1.1 * std::abs(after(way + error) - after(way)));
-  double own = form == FresnelForm::rational ? 1.5e-6 : 1e-6;
-  if (form == FresnelForm::schlick) own += 3.4e-7 * 5.0;
-  // The textbook's square under the root and its two differences lose what n2 - n1 is small by, and
-  // all of it from the denser side.
-  if (form == FresnelForm::textbook)
-    own = n2 > n1 ? std::min(1e-6 + 1e-7 / ((n2 - n1) / n1), 1.0) : 1.0;
-  return std::min(geometry + own, 1.0);
+  return std::min(geometry + row(form).rounding(n1, n2, exponent), 1.0);
 }
 
 double criticalRing(double n1, double n2) {

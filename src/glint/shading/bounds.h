@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glint/shading/environment_map.h"
-#include "glint/shading/fresnel.h"
+#include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
 
 namespace glint {
@@ -16,12 +16,19 @@ namespace glint {
 
 /// The largest |form - exact| of the lobe over lambda in [0, 2]. For alpha in [0, 1e6], gamma a
 /// power of two in [1, 64]. 0 for exact, pow and integer, 1 for none.
-double lobeFormulaBound(LobeForm form, int gamma, double alpha);
+double lobeFormulaBound(Highlight form, int gamma, double alpha);
+
+/// Of single forms, for alpha > 0.
+double lyonBound(double alpha, int gamma);
+double lyonTunedBound(double alpha, int gamma);
+double lyonCrossBound(double alpha, int gamma);
+double padeBound(double alpha, int gamma);
+double gaussianBound(double alpha);
 
 /// The largest |form - exact| of the reflectance over all angles, for either direction through the
 /// boundary (which have the same). At most a quarter too large; errors below 1e-9 count as that.
 /// `exponent` is Schlick's.
-double fresnelFormulaBound(FresnelForm form, double n1, double n2, double exponent = 5.0);
+double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent = 5.0);
 
 // Rounding, with u = 2^-24. Additions and products are correctly rounded, as GLSL has it; division,
 // sqrt and exp2 as its table of precision has them (2.5 ulp, from them, 3 + 2 |x| ulp); log2 within
@@ -35,13 +42,13 @@ double fresnelFormulaBound(FresnelForm form, double n1, double n2, double expone
 /// vector turns by that much more. `blinn` counts with |L + V| >= 1/4: directions less than 165
 /// degrees apart. Nearer to opposition the half vector of rounded vectors means less and less,
 /// whatever the form. Then the form itself rounds: a power p by squaring by 3/2 p + 4 roundings.
-double lobeRoundingBound(LobeForm form, int gamma, double alpha, bool blinn);
+double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn);
 
 /// What rounding adds to a reflectance whose cosine c is off by 5 u (1 + c), that of a dot product
 /// of rounded unit vectors: the exact R moves most next to grazing incidence, or from criticalRing
 /// on next to the critical angle; the formula's own evaluation is off by 1e-6 (the rational form by
 /// 1.5e-6; the textbook's by what it cancels).
-double fresnelRoundingBound(FresnelForm form, double n1, double n2, double exponent = 5.0);
+double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent = 5.0);
 
 /// The cosines next to the critical one of which fresnelRoundingBound does not speak, as it does
 /// not of total reflection that rounds to none: R has infinite slope there, and the rounding of the

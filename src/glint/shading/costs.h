@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
+#include <map>
+#include <vector>
 
-#include "glint/shading/fresnel.h"
-#include "glint/shading/lobe.h"
+#include "glint/shading/forms.h"
 
 namespace glint {
 
@@ -21,13 +21,11 @@ struct ReflectanceCosts {
 /// that the choice by --max-error is the same on every machine; docs/approximations.md says where
 /// it comes from, and how to measure a table on another driver.
 struct CostTable {
-  double exact = 100, pow = 68, gaussian = 34;
-  /// By the number of multiplications that the power takes, productsOf().
-  std::array<double, 13> integer{22, 23, 24, 25, 26, 27, 29, 30, 31, 32, 33, 34, 35};
-  /// By the binary logarithm of gamma. lyon-tuned is lyon with another constant.
-  std::array<double, 7> lyon{22, 24, 26, 27, 28, 29, 30};
-  std::array<double, 7> lyonCross{26, 27, 28, 29, 30, 32, 33};
-  std::array<double, 7> pade{29, 30, 31, 32, 33, 35, 38};
+  /// The shipped one.
+  CostTable();
+
+  /// Of each form that has its own, as HighlightRow::costs has them.
+  std::map<Highlight, std::vector<double>> lobes;
 
   ReflectanceCosts fresnel{31, 42, 21, 77, 28, 30};
   /// Where some side is seen from the denser medium.
@@ -38,8 +36,8 @@ struct CostTable {
   static constexpr double change = 1;
 
   /// Of a lobe. `power` is gamma, or of `integer` the exponent.
-  double lobe(LobeForm form, int power) const;
-  double reflectance(FresnelForm form, double schlickExponent, bool denserSide) const;
+  double lobe(Highlight form, int power) const;
+  double reflectance(Fresnel form, double schlickExponent, bool denserSide) const;
   bool operator==(const CostTable&) const = default;
 };
 

@@ -73,9 +73,6 @@ double schlickExp2(double cosTheta, double n1, double n2);
 /// R0 + (1 - R0)((1 - c)/(1 + k c))^2, c as in schlick. k from rationalSlope or rationalMinimax.
 double schlickRational(double cosTheta, const FresnelConstants& constants, double k);
 
-/// The forms by name: `--fresnel`.
-enum class FresnelForm { exact, textbook, schlick, schlickExp2, rational };
-
 /// The k that matches the exact slope at grazing incidence: (n+1)^2 (n^2+1) / (4 n sqrt(n^2-1)) - 1
 /// with n the larger index over the smaller. Both directions have the same k; 0 if n1 == n2.
 double rationalSlope(double n1, double n2);

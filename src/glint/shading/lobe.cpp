@@ -109,28 +109,4 @@ double gaussian(double lambda, double alpha) {
                   [](double x, double a) { return std::exp(-(a + gaussianShift) * x); });
 }
 
-double lobe(LobeForm form, int gamma, double lambda, double alpha) {
-  switch (form) {
-    case LobeForm::exact:
-      return lobeExact(lambda, alpha);
-    case LobeForm::pow:
-      return lobePow(1.0 - lambda, alpha);
-    case LobeForm::integer:
-      return lobeInteger(lambda, alpha);
-    case LobeForm::lyon:
-      return lyon(lambda, alpha, gamma);
-    case LobeForm::lyonTuned:
-      return lyonTuned(lambda, alpha, gamma);
-    case LobeForm::lyonCross:
-      return lyonCross(lambda, alpha, gamma);
-    case LobeForm::pade:
-      return pade(lambda, alpha, gamma);
-    case LobeForm::gaussian:
-      return gaussian(lambda, alpha);
-    case LobeForm::none:
-      break;
-  }
-  return 0.0;
-}
-
 }  // namespace glint

@@ -67,10 +67,4 @@ inline constexpr double gaussianShift = 0.69;
 /// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.134 / alpha. Not 0 past 90 degrees.
 double gaussian(double lambda, double alpha);
 
-/// The forms by name: `--highlight`; `none` is 0 everywhere, which is off by the whole lobe.
-enum class LobeForm { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian, none };
-
-/// The lobe in one of its forms; gamma is read by the forms that have one.
-double lobe(LobeForm form, int gamma, double lambda, double alpha);
-
 }  // namespace glint

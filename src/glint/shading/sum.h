@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
 
 namespace glint {
@@ -22,7 +23,7 @@ struct SumParameters {
   double specular = 0.0;     ///< m_s, [0, 1e6]
   double exponent = 20.0;    ///< m_sp, Phong's alpha, [0, 1e6]
   double blinnFactor = 4.0;  ///< Blinn-Phong's alpha' is this times alpha, [0, 1e6]
-  LobeForm highlight = LobeForm::exact;
+  Highlight highlight = Highlight::exact;
   int gamma = 8;  ///< of the forms that have one: a power of two, [1, 64]
 };
 

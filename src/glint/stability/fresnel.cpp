@@ -98,7 +98,7 @@ void k1(Bench& bench, Record& record) {
   look.noLights = true;
   Material pane;
   pane.shading = {0, 0, 0, 1, 0, 1.0, glm::dvec3(1)};
-  pane.transmission = 1;
+  pane.shading.transmission = 1;
   Points points;
   points.add({0, 0, 1}, {0.9f, 0, -0.01f});
   record.near("radiance through a pane of equal index in a white room",
@@ -195,7 +195,7 @@ void expectFiniteRefraction(Bench& bench, Record& record, double ior) {
   look.twoSided = true;
   Material clear;
   clear.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
-  clear.transmission = 1;
+  clear.shading.transmission = 1;
   Points points;
   points.front = false;
   const double critical = criticalCosine(ior, 1);
@@ -235,7 +235,7 @@ std::vector<glm::vec3> throughFromInside(Bench& bench, double ior,
   look.twoSided = true;
   Material clear;
   clear.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
-  clear.transmission = 1;
+  clear.shading.transmission = 1;
   Points points;
   points.front = false;
   for (double c : cosines) points.add({0, 0, -1}, glm::vec3(std::sqrt((1 - c) * (1 + c)), 0, -c));
@@ -251,7 +251,7 @@ void expectNoRefraction(Bench& bench, Record& record) {
   look.twoSided = true;
   Material half;
   half.shading = {0, 0, 0, 1, 0.5, 1.5, glm::dvec3(0.5)};
-  half.transmission = 1;
+  half.shading.transmission = 1;
   Points points;
   points.front = false;
   const double c = 0.5;

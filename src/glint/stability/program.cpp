@@ -17,9 +17,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
-bool perVertex(const Variant& v) {
-  return v.program == Shading::flat || v.program == Shading::gouraud;
-}
+bool perVertex(const Variant& v) { return !isPerPixel(v.program); }
 
 int lightsOf(const Variant& v) { return v.directionalLights + v.pointLights + v.spotLights; }
 
@@ -78,7 +76,7 @@ vec3 surfaceRadiance() {
 #endif
   }
 #endif
-  return surfaceColor(sum, material.color.rgb);
+  return surfaceColor(sum, material.color.rgb, material.surface.x);
 }
 )";
 
@@ -150,6 +148,7 @@ std::string programText(const Variant& variant, const GlslSources& sources) {
       {"VARYING out ", ""},
       {"out vec4 fragment;", "vec4 fragment;"},
       {"void main()", "void surfaceMain()"},
+      {"invariant gl_Position;", ""},
       {"gl_FrontFacing", "surfaceFront"},
       {"gl_Position", "surfacePosition"},
       {"discard;", "{ fragment = vec4(0.0); return; }"}};
@@ -237,11 +236,13 @@ class ReferencePoints {
     a.normal = normal;
     a.faceNormal = glm::dvec3(0, 0, 1);
     a.base = stage_.items.front().color;
-    const reference::Program program = surface().program;
-    if (program == reference::Program::flat || program == reference::Program::gouraud) {
+    a.numbers = surface().numbers;
+    const Shading program = surface().program;
+    if (!isPerPixel(program)) {
       const glm::dvec3 unit = safeNormalize(normal);
       const glm::dvec3 n = surface().twoSided && !front ? -unit : unit;
-      const reference::Terms carried = reference::lightAt(frame_, surface(), position, n);
+      const reference::Terms carried =
+          reference::lightAt(frame_, surface(), a.numbers, position, n);
       a.matte = carried.matte;
       a.specular = carried.specular;
     }

@@ -96,9 +96,8 @@ constexpr const char* begin =
 
 /// A probe of a variant with the generator behind its text.
 std::unique_ptr<Probe> searchProbe(const Variant& variant, const GlslSources& sources) {
-  const bool perPixel = variant.program != Shading::flat && variant.program != Shading::gouraud;
   ProbeText text;
-  text.text = "#define PER_PIXEL " + std::to_string(perPixel) + "\n" +
+  text.text = "#define PER_PIXEL " + std::to_string(isPerPixel(variant.program)) + "\n" +
               programText(variant, sources) + generator;
   return std::make_unique<Probe>(sources, text);
 }
@@ -123,7 +122,7 @@ Material randomMaterial(Random& random) {
                   : index == 3 ? 1e3
                                : std::pow(10, random.between(-3, 3));
   for (int i = 0; i < 3; ++i) m.shading.color[i] = strength(random);
-  m.transmission = random.below(3) == 0 ? 0 : random.below(2) == 0 ? 1 : random.unit();
+  m.shading.transmission = random.below(3) == 0 ? 0 : random.below(2) == 0 ? 1 : random.unit();
   m.alpha = random.below(2) == 0 ? 1 : random.unit();
   if (random.below(4) == 0) m.alphaMode = AlphaMode::blend;
   m.doubleSided = random.below(2) == 0;
@@ -165,7 +164,7 @@ std::string materialText(const Material& m) {
   return "ambient " + numberText(s.ambient) + " diffuse " + numberText(s.diffuse) + " specular " +
          numberText(s.specular) + " exponent " + numberText(s.exponent) + " metalness " +
          numberText(s.metalness) + " ior " + numberText(s.ior) + " color " + vectorText(s.color) +
-         " transmission " + numberText(m.transmission);
+         " transmission " + numberText(m.shading.transmission);
 }
 
 void searchPoints(Bench& bench, std::uint64_t evaluations, SearchReport& report,

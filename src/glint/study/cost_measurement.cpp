@@ -102,21 +102,20 @@ Trials lobeTrials(CostTable& table, Look look) {
     setForms(own, form, "exact");
     trials.push_back({form, &cost, own, {}});
   };
-  add("exact", table.exact);
-  add("pow", table.pow);
-  for (const int power : measuredPowers) {
-    add("integer", table.integer[std::size_t(productsOf(power))]);
-    trials.back().look.material[""].exponent = power;
-    trials.back().form += " (" + std::to_string(productsOf(power)) + " products)";
+  for (auto& [form, costs] : table.lobes) {
+    const std::string name(row(form).name);
+    if (row(form).wholePowers) {
+      for (const int power : measuredPowers) {
+        add(name, costs[std::size_t(productsOf(power))]);
+        trials.back().look.material[""].exponent = power;
+        trials.back().form += " (" + std::to_string(productsOf(power)) + " products)";
+      }
+    } else {
+      for (std::size_t i = 0; i < costs.size(); ++i)
+        add(name + (row(form).hasGamma ? ":" + std::to_string(1 << i) : ""), costs[i]);
+    }
   }
-  for (std::size_t i = 0; i < table.lyon.size(); ++i) {
-    const std::string gamma = ":" + std::to_string(1 << i);
-    add("lyon" + gamma, table.lyon[i]);
-    add("lyon-cross" + gamma, table.lyonCross[i]);
-    add("pade" + gamma, table.pade[i]);
-  }
-  add("gaussian", table.gaussian);
-  add("exact", table.exact);
+  add("exact", table.lobes[Highlight::exact][0]);
   trials.back().cost = nullptr;
   return trials;
 }
@@ -137,13 +136,12 @@ Trials reflectanceTrials(CostTable& table, Look look) {
   };
   for (ReflectanceCosts* costs : {&table.fresnel, &table.fresnelDenser}) {
     look.mediumIor = costs == &table.fresnel ? 1 : 2 * sphereMaterial().ior;
-    add("exact", &costs->exact);
-    add("textbook", &costs->textbook);
-    add("schlick", &costs->schlick);
-    add("schlick", &costs->schlickExponent, 4.5);
-    trials.back().form += ", other exponent";
-    add("schlick-exp2", &costs->schlickExp2);
-    add("rational", &costs->rational);
+    for (const FresnelRow& form : fresnelRows()) {
+      add(std::string(form.name), &(costs->*form.cost));
+      if (form.form != Fresnel::schlick) continue;
+      add(std::string(form.name), &costs->schlickExponent, 4.5);
+      trials.back().form += ", other exponent";
+    }
   }
   look.mediumIor = 1;
   add("exact", nullptr);
@@ -221,13 +219,13 @@ void fillIn(const Trials& trials, std::vector<MeasuredCost>& costs, double noise
 
 /// The powers of `integer` in between.
 void interpolate(CostTable& table) {
+  std::vector<double>& costs = table.lobes[Highlight::integer];
   int before = 0;
   for (const int power : measuredPowers) {
     const int products = productsOf(power);
     for (int p = before + 1; p < products; ++p)
-      table.integer[std::size_t(p)] =
-          std::lerp(table.integer[std::size_t(before)], table.integer[std::size_t(products)],
-                    double(p - before) / (products - before));
+      costs[std::size_t(p)] = std::lerp(costs[std::size_t(before)], costs[std::size_t(products)],
+                                        double(p - before) / (products - before));
     before = products;
   }
 }

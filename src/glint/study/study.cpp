@@ -61,8 +61,7 @@ class Study {
     result_.draws = list.items.size();
     for (const DrawItem& item : list.items) {
       const Mesh& mesh = scene_.scene.meshes[std::size_t(item.mesh)];
-      if (mesh.topology == Topology::triangles && item.faces != FaceSide::back)
-        result_.triangles += mesh.indices.size() / 3;
+      if (mesh.topology == Topology::triangles) result_.triangles += mesh.indices.size() / 3;
     }
     for (StudyVariant& v :
          studyVariants(scene_.scene, scene_.bounds, options_.look, options_.filter))

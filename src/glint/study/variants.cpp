@@ -78,9 +78,7 @@ std::vector<std::string> lobeForms(bool quick) {
 
 std::vector<std::string> reflectanceForms(bool quick) { return formsOf(fresnelTexts(), quick); }
 
-Shading modelOf(Shading program) {
-  return program == Shading::flat || program == Shading::gouraud ? Shading::phong : program;
-}
+Shading modelOf(Shading program) { return isPerPixel(program) ? program : Shading::phong; }
 
 void setForms(Look& look, const std::string& highlight, const std::string& fresnel) {
   look.highlight = parseHighlights(highlight, "highlight");

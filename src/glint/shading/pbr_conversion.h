@@ -23,6 +23,9 @@ struct ConvertedParameters {
   double ior = 1.5;        ///< n, [1, 1e3]
 };
 
+/// The m_d of a metal.
+inline constexpr double metalDiffuse = 0.6;
+
 /// The smallest roughness that has an exponent of its own; less counts as this.
 inline constexpr double smallestRoughness = 0.1;
 
@@ -46,6 +49,9 @@ double roughnessFromExponent(double exponent);
 /// A picture ends at 1, so x is bent over: x / (1 + x), the same for a weak highlight and never
 /// above what white paper sends.
 double highlightPeak(double f0, double exponent);
+
+/// F0 = ((n-1)/(n+1))^2 specularFactor of a dielectric.
+double dielectricReflectance(const PbrParameters& pbr);
 
 /// The conversion. F0 = ((n-1)/(n+1))^2 specularFactor for dielectrics and 1 for metals, whose
 /// colour the highlight gets by m_sm = metallic; m_s = highlightPeak, m_d = 1 for dielectrics and

@@ -1,4 +1,4 @@
-#include "glint/gltf/pbr_conversion.h"
+#include "glint/shading/pbr_conversion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 namespace glint {
 namespace {
 
-constexpr double metalDiffuse = 0.6;
 constexpr double largestIor = 1e3;
 
 // NaN gives the lower bound.
@@ -32,14 +31,19 @@ double highlightPeak(double f0, double exponent) {
   return x / (1.0 + x);
 }
 
+double dielectricReflectance(const PbrParameters& pbr) {
+  const double n = pbr.ior == 0.0 ? largestIor : clampTo(pbr.ior, 1.0, largestIor);
+  const double amplitude = (n - 1.0) / (n + 1.0);
+  return amplitude * amplitude * clampTo(pbr.specularFactor, 0.0, 1.0);
+}
+
 ConvertedParameters convertPbr(const PbrParameters& pbr) {
   const double metallic = clampTo(pbr.metallic, 0.0, 1.0);
   ConvertedParameters out;
   out.ior = pbr.ior == 0.0 ? largestIor : clampTo(pbr.ior, 1.0, largestIor);
   out.exponent = exponentFromRoughness(pbr.roughness);
   out.metalness = metallic;
-  const double amplitude = (out.ior - 1.0) / (out.ior + 1.0);
-  const double f0 = amplitude * amplitude * clampTo(pbr.specularFactor, 0.0, 1.0);
+  const double f0 = dielectricReflectance(pbr);
   out.specular =
       interpolate(highlightPeak(f0, out.exponent), highlightPeak(1.0, out.exponent), metallic);
   out.diffuse = interpolate(1.0, metalDiffuse, metallic);

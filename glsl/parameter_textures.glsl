@@ -1,0 +1,64 @@
+// What textures of numbers make of the material, for the stage that adds the lights up. Each
+// ..._PLACE is where a texture is looked up.
+#if METALLIC_ROUGHNESS_TEXTURE
+uniform sampler2D metallicRoughnessTexture;
+#endif
+#if OCCLUSION_TEXTURE
+uniform sampler2D occlusionTexture;
+#endif
+#if SPECULAR_TEXTURE
+uniform sampler2D specularTexture;
+#endif
+#if TRANSMISSION_TEXTURE
+uniform sampler2D transmissionTexture;
+#endif
+
+// A vertex or a face has no neighbours to tell how much of the picture it stands for.
+#if VERTEX_STAGE
+#define TEXEL(image, place) textureLod(image, place, 0.0)
+#else
+#define TEXEL(image, place) texture(image, place)
+#endif
+
+Parameters parametersHere() {
+  vec4 strength = material.strength;
+  Parameters p = Parameters(strength.x, strength.y, strength.z, strength.w, material.surface.x,
+                            material.surface.y);
+  float metallic = material.textured.x, roughness = material.textured.y;
+#if METALLIC_ROUGHNESS_TEXTURE
+  vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_PLACE);
+  metallic *= texel.b;
+  roughness *= texel.g;
+#endif
+#if TEXTURED_METALNESS
+  p.metalness = metallic;
+#endif
+#if TEXTURED_DIFFUSE
+  p.diffuse = mix(1.0, METAL_DIFFUSE, metallic);
+#endif
+#if TEXTURED_EXPONENT || TEXTURED_SPECULAR
+  // Phong's exponent, as of src/glint/shading/pbr_conversion.h.
+  float width = max(roughness, SMALLEST_ROUGHNESS), square = width * width;
+  float exponent = max(0.5 / (square * square) - 0.5, 0.0);
+#endif
+#if TEXTURED_EXPONENT
+  p.exponent = material.detail.x * exponent;
+#endif
+#if TEXTURED_SPECULAR
+  float reflectance = material.textured.z;
+#if SPECULAR_TEXTURE
+  reflectance *= TEXEL(specularTexture, SPECULAR_PLACE).a;
+#endif
+  // The peaks of the lobes of a dielectric and of a metal.
+  float blinn = 4.0 * exponent, metal = (blinn / 8.0) * (blinn / (blinn + 8.0));
+  float dielectric = reflectance * metal;
+  p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);
+#endif
+#if TEXTURED_AMBIENT
+  p.ambient *= 1.0 + material.textured.w * (TEXEL(occlusionTexture, OCCLUSION_PLACE).r - 1.0);
+#endif
+#if TEXTURED_TRANSMISSION
+  p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_PLACE).r;
+#endif
+  return p;
+}
