@@ -265,8 +265,7 @@ TEST(GltfAnimation, ChannelsThatCannotBePlayedAreLeftOut) {
 TEST(GltfAnimation, KeysThatDoNotAscendOrAreNotFiniteAreLeftOut) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
-  for (const std::vector<float>& times :
-       {std::vector<float>{1, 1}, {1, 0}, {0, nan}, {nan, 0}, {0, inf}}) {
+  for (const std::vector<float>& times : {std::vector<float>{1, 0}, {0, nan}, {nan, 0}, {0, inf}}) {
     Sample sample;
     sample.triangle();
     animate(sample, "translation", "", times, "VEC3", {5, 0, 0, 5, 0, 0});

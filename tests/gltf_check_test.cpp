@@ -164,9 +164,9 @@ TEST(GltfCheck, Extensions) {
   sample.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen", "KHR_x", "KHR_x"};
   EXPECT_THAT(sample.load().warnings,
               ElementsAre(HasSubstr("KHR_materials_sheen"), HasSubstr("KHR_x")));
-  sample.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_texture_basisu"};
+  sample.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_sheen"};
   EXPECT_EQ(sample.error(),
-            "requires the extension KHR_texture_basisu, which is not supported by this "
+            "requires the extension KHR_materials_sheen, which is not supported by this "
             "version: export it without that extension");
 }
 

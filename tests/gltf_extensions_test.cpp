@@ -63,7 +63,7 @@ TEST(GltfExtensions, WhatDoesNotShowIsNotWarnedOf) {
 }
 
 TEST(GltfExtensions, OnesThatAreIgnoredAreRefusedWhereRequired) {
-  for (const char* name : {"KHR_materials_clearcoat", "KHR_texture_basisu"}) {
+  for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen"}) {
     Sample sample;
     sample.triangle();
     sample.json["extensionsRequired"] = {name};

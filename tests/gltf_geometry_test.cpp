@@ -45,7 +45,8 @@ glint::Mesh meshOfMode(int mode, int count = 5) {
 TEST(GltfGeometry, PrimitiveModes) {
   EXPECT_EQ(meshOfMode(0).topology, Topology::points);
   EXPECT_THAT(meshOfMode(0).indices, ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(meshOfMode(0).normals, IsEmpty());
+  ASSERT_EQ(meshOfMode(0).normals.size(), 5u);
+  EXPECT_NEAR(meshOfMode(1).normals[0].x, std::sqrt(1 / 3.0), 1e-7);
   EXPECT_EQ(meshOfMode(1).topology, Topology::lines);
   EXPECT_THAT(meshOfMode(1).indices, ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(meshOfMode(2).indices, ElementsAre(0, 1, 1, 2, 2, 3, 3, 4, 4, 0));
@@ -179,7 +180,7 @@ TEST(GltfGeometry, VertexColors) {
   Json& attributes = sample.triangle()["attributes"];
   attributes["COLOR_0"] = sample.accessor<float>("VEC3", {2, 0, 0.5f, nan, -1, 1, 0, 0, 0});
   const glint::Scene scene = sample.load();
-  EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(2, 0, 0.5f, 1));
+  EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(1, 0, 0.5f, 1));
   EXPECT_EQ(scene.meshes.at(0).colors.at(1), glm::vec4(1, 0, 1, 1));
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("colours that are not finite")));
   attributes["COLOR_0"] = sample.accessor<float>("VEC2", {0, 0, 0, 0, 0, 0});

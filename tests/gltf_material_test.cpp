@@ -220,7 +220,9 @@ TEST(GltfTexture, UnusableImagesLeaveTheMaterialWithoutTexture) {
   EXPECT_THAT(warningOf({{"uri", "data:image/png;base64,!!"}}), HasSubstr("base64 is damaged"));
   EXPECT_THAT(warningOf(Json::object()), HasSubstr("neither a bufferView nor a uri"));
   sample.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
-  EXPECT_THAT(warningOf({{"uri", "a.ktx2"}}), HasSubstr("textures[0] has no image that is read"));
+  EXPECT_THAT(
+      warningOf({{"uri", "a.ktx2"}}),
+      HasSubstr("textures[0] is compressed (KHR_texture_basisu), which is not read, and has"));
 }
 
 TEST(GltfTexture, ReferencesAreChecked) {

@@ -6,9 +6,7 @@
 
 namespace glint::viewer {
 
-bool samePose(const PoseRequest& a, const PoseRequest& b) {
-  return a.time == b.time && a.animation == b.animation;
-}
+bool samePose(const PoseRequest& a, const PoseRequest& b) { return a == b; }
 
 ModelFile::ModelFile(std::filesystem::path path, SceneFile file, Scene scene)
     : path_(std::move(path)),

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -50,6 +51,23 @@ Json materialJson(const Material& m, const std::set<int>& read) {
   return json;
 }
 
+/// The corners of the box around all that stands in the scene; null where there is nothing.
+Json boxJson(const Scene& scene) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  glm::dvec3 low(inf), high(-inf);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    for (const std::uint32_t i : mesh.indices) {
+      const glm::dvec3 place = glm::dvec3(mesh.positions[i]) + mesh.origin;
+      const glm::dvec3 p(instance.world * glm::dvec4(place, 1));
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  if (!(low.x <= high.x)) return Json();
+  return {{"min", vectorJson(low)}, {"max", vectorJson(high)}};
+}
+
 Json infoJson(const Scene& scene, const Look& look) {
   const Bounds bounds = boundsOf(scene);
   const DrawList list = makeDrawList(scene, bounds, look);
@@ -60,7 +78,10 @@ Json infoJson(const Scene& scene, const Look& look) {
             {"instances", scene.instances.size()},
             {"triangles", triangleCount(scene, list)},
             {"center", vectorJson(bounds.center)},
-            {"radius", bounds.radius}};
+            {"radius", bounds.radius},
+            {"box", boxJson(scene)}};
+  json["scenes"] = scene.scenes;
+  json["variants"] = scene.variants;
   json["materials"] = Json::array();
   std::set<int> used;
   for (const Instance& i : scene.instances) used.insert(scene.meshes[std::size_t(i.mesh)].material);
@@ -148,6 +169,17 @@ void print(const Json& json) {
   std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
             << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
             << json["radius"] << " about " << json["center"].dump() << "\n";
+  if (!json["box"].is_null()) {
+    std::cout << "box from " << json["box"]["min"].dump() << " to " << json["box"]["max"].dump()
+              << "\n";
+  }
+  for (const char* list : {"scenes", "variants"}) {
+    if (json[list].empty()) continue;
+    std::cout << list << ":";
+    for (std::size_t i = 0; i < json[list].size(); ++i)
+      std::cout << (i ? ", " : " ") << i << " " << oneLine(json[list][i]);
+    std::cout << "\n";
+  }
   std::cout << "\nMaterials\n";
   for (const Json& m : json["materials"]) {
     const std::string name = m["name"];

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "clock.h"
-#include "glint/gltf/model_hash.h"
-#include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
@@ -126,8 +124,9 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
 // The camera stands still, so that it must see every pose.
 void ModelLoader::lookThroughFrames(LoadedModel& model) const {
   const auto& animations = model.scene.animations;
+  const bool all = look_.animation == "all" && !animations.empty();
   const auto chosen = [&](const FileAnimation& each) {
-    return look_.animation.empty() || each.name == look_.animation ||
+    return all || look_.animation.empty() || each.name == look_.animation ||
            std::to_string(&each - animations.data()) == look_.animation;
   };
   const auto found = std::find_if(animations.begin(), animations.end(), chosen);
@@ -136,8 +135,13 @@ void ModelLoader::lookThroughFrames(LoadedModel& model) const {
                      (animations.empty() ? " has no animation: leave the option out"
                                          : " has no animation '" + look_.animation + "'"));
   model.duration = found->duration;
+  if (all)
+    for (const FileAnimation& each : animations)
+      model.duration = std::max(model.duration, each.duration);
   for (int frame = 0; frame < options_.frames; ++frame) {
-    model.file->pose(model.scene, {model.duration * frame / options_.frames, look_.animation});
+    PoseRequest pose = poseOf(look_);
+    pose.time = model.duration * frame / options_.frames;
+    model.file->pose(model.scene, pose);
     const Bounds bounds = boundsOf(model.scene);
     model.allBounds = frame == 0 ? bounds : around(model.allBounds, bounds);
   }

@@ -45,6 +45,10 @@ AccessorView openAccessor(const Document& document, int index, const std::string
                           Budget& budget, const Messages& messages) {
   const tinygltf::Model& model = document.model;
   const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+  if (const int buffer = document.absentBufferOf(index); buffer >= 0) {
+    messages.fail(label + " lies in buffers[" + std::to_string(buffer) +
+                  "], which has neither a uri nor a binary GLB chunk");
+  }
   AccessorView view;
   view.count = accessor.count;
   view.componentType = accessor.componentType;

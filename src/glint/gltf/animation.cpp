@@ -27,6 +27,7 @@ std::vector<double> readNumbers(const Document& document, int accessor, bool nor
 /// The time of the last key of a sampler's input, without reading the others.
 double lastTime(const Document& document, int accessor, const std::string& label, Budget& budget,
                 const Messages& messages) {
+  if (document.absentBufferOf(accessor) >= 0) return 0;
   const AccessorView view = openAccessor(document, accessor, label, budget, messages);
   if (view.count == 0 || view.components != 1 || view.componentType != 5126) return 0;
   float last = 0;
@@ -129,16 +130,19 @@ class Reader {
     keys.interpolation = interpolationOf(sampler, messages_);
     const auto& times = document_.model.accessors[static_cast<std::size_t>(input)];
     if (times.type != TINYGLTF_TYPE_SCALAR || times.componentType != 5126) return keys;
+    if (document_.absentBufferOf(input) >= 0 || document_.absentBufferOf(output) >= 0) return keys;
     keys.times =
         readNumbers(document_, input, false, sampler.path() + ".input", budget_, messages_);
     keys.values =
         readNumbers(document_, output, fraction, sampler.path() + ".output", budget_, messages_);
     const auto finite = [](double x) { return std::isfinite(x); };
-    const bool ascending =
-        std::ranges::adjacent_find(keys.times, std::greater_equal<>()) == keys.times.end();
+    const bool ascending = std::ranges::is_sorted(keys.times);
     if (!ascending || !std::ranges::all_of(keys.times, finite)) {
       messages_.warn(sampler.path() + " has times that do not ascend");
       return {};
+    }
+    if (std::ranges::adjacent_find(keys.times) != keys.times.end()) {
+      messages_.warn(sampler.path() + " has times that repeat: of those the last key counts");
     }
     if (!std::ranges::all_of(keys.values, finite)) {
       messages_.warn(sampler.path() + " has values that are not finite");

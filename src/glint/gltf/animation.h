@@ -11,8 +11,8 @@ namespace glint::gltf {
 
 enum class Interpolation { step, linear, cubic };
 
-/// Keys of a quantity. Times ascend; `values` holds `width` numbers a key (of cubic ones three
-/// times: in-tangent, value, out-tangent), all finite.
+/// Keys of a quantity. Times ascend or repeat (then the last key of a time counts); `values` holds
+/// `width` numbers a key (of cubic ones three times: in-tangent, value, out-tangent), all finite.
 struct Keys {
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;  ///< seconds

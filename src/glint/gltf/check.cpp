@@ -4,7 +4,6 @@
 #include <climits>
 #include <vector>
 
-#include "glint/gltf/compression.h"
 #include "glint/gltf/extensions.h"
 
 namespace glint::gltf {
@@ -65,9 +64,13 @@ std::int64_t componentBytes(std::int64_t componentType) {
   }
 }
 
-/// Bytes of one element, the padding of matrix columns to four bytes included; 0 if unknown.
-std::int64_t elementBytes(const std::string& type, std::int64_t component) {
-  const auto columns = [&](std::int64_t n) { return n * ((n * component + 3) / 4 * 4); };
+/// Bytes of one element, the padding of matrix columns to four bytes included; 0 if unknown. What
+/// would follow the `last` column of all need not be there.
+std::int64_t elementBytes(const std::string& type, std::int64_t component, bool last = false) {
+  const auto columns = [&](std::int64_t n) {
+    const std::int64_t padded = (n * component + 3) / 4 * 4;
+    return last ? (n - 1) * padded + n * component : n * padded;
+  };
   if (type == "SCALAR") return component;
   if (type == "VEC2") return 2 * component;
   if (type == "VEC3") return 3 * component;
@@ -110,7 +113,8 @@ std::vector<View> checkViews(Cursor root) {
   return views;
 }
 
-/// `count` elements of `bytes` bytes, `stride` apart, from `offset` on: do they lie in the view?
+/// `count` elements `stride` apart, the last of them of `bytes` bytes, from `offset` on: do they
+/// lie in the view?
 void checkSpan(Cursor where, const View& view, std::int64_t offset, std::int64_t count,
                std::int64_t bytes, std::int64_t stride) {
   if (count == 0) return;
@@ -121,22 +125,22 @@ void checkSpan(Cursor where, const View& view, std::int64_t offset, std::int64_t
 }
 
 void checkSparse(Cursor sparse, const std::vector<View>& views, std::int64_t accessorCount,
-                 std::int64_t bytes) {
+                 std::int64_t bytes, std::int64_t lastBytes) {
   const std::int64_t count =
       sparse.required("count").integer(0, 0, std::min<std::int64_t>(accessorCount, INT_MAX));
   for (const char* part : {"indices", "values"}) {
     const Cursor cursor = sparse.required(part);
     const auto view = static_cast<std::size_t>(cursor.required("bufferView").index(views.size()));
     const std::int64_t offset = cursor.member("byteOffset").integer(0, 0, INT_MAX);
-    std::int64_t size = bytes;
+    std::int64_t size = bytes, last = lastBytes;
     if (part == std::string_view("indices")) {
       const std::int64_t type = cursor.required("componentType").integer(0, 0, INT_MAX);
       if (type != 5121 && type != 5123 && type != 5125) {
         cursor.member("componentType").fail("must be 5121, 5123 or 5125");
       }
-      size = componentBytes(type);
+      size = last = componentBytes(type);
     }
-    checkSpan(cursor, views[view], offset, count, size, size);
+    checkSpan(cursor, views[view], offset, count, last, size);
   }
 }
 
@@ -149,19 +153,20 @@ void checkAccessors(Cursor root, const std::vector<View>& views) {
     if (component == 0) accessor.member("componentType").fail("is not one that glTF 2.0 knows");
     const std::int64_t bytes = elementBytes(accessor.required("type").text(), component);
     if (bytes == 0) accessor.member("type").fail("is not one that glTF 2.0 knows");
+    const std::int64_t lastBytes = elementBytes(accessor.member("type").text(), component, true);
     const std::int64_t count = accessor.required("count").integer(0, 0, UINT32_MAX);
     const std::int64_t offset = accessor.member("byteOffset").integer(0, 0, maxBytes);
     accessor.member("normalized").boolean(false);
     if (const Cursor view = accessor.member("bufferView"); view.exists()) {
       const View& target = views[static_cast<std::size_t>(view.index(views.size()))];
-      if (target.stride != 0 && target.stride < bytes) {
+      if (target.stride != 0 && target.stride < lastBytes) {
         accessor.fail("has elements of " + std::to_string(bytes) +
                       " bytes in a buffer view of byteStride " + std::to_string(target.stride));
       }
-      checkSpan(accessor, target, offset, count, bytes, target.stride ? target.stride : bytes);
+      checkSpan(accessor, target, offset, count, lastBytes, target.stride ? target.stride : bytes);
     }
     if (const Cursor sparse = accessor.member("sparse"); sparse.exists()) {
-      checkSparse(sparse, views, count, bytes);
+      checkSparse(sparse, views, count, bytes, lastBytes);
     }
   }
 }
@@ -171,7 +176,6 @@ void checkAttributes(Cursor attributes, std::size_t accessors) {
 }
 
 void checkMeshes(Cursor root) {
-  const char* const draco = "KHR_draco_mesh_compression";
   const std::size_t accessors = root.member("accessors").size();
   const std::size_t materials = root.member("materials").size();
   const Cursor meshes = root.member("meshes");
@@ -193,12 +197,6 @@ void checkMeshes(Cursor root) {
       if (list.member("type").text() != "SCALAR" ||
           (type != 5121 && type != 5123 && type != 5125)) {
         indices.fail("refers to an accessor that does not hold unsigned whole numbers");
-      }
-      // tinygltf refuses these; all-zero indices draw nothing anyway.
-      const bool compressed =
-          readsCompression(draco) && primitive.member("extensions").member(draco).exists();
-      if (!list.member("bufferView").exists() && !compressed) {
-        indices.fail("refers to an accessor without a buffer view");
       }
     }
   }

@@ -17,7 +17,7 @@ using Bytes = std::vector<unsigned char>;
 constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
 
 ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& container,
-                      const std::filesystem::path& folder, const Messages& messages) {
+                      const std::filesystem::path& folder, bool& absent, Messages& messages) {
   const char* const meshopt = "EXT_meshopt_compression";
   const std::string label = "buffers[" + std::to_string(index) + "]";
   const auto wanted =
@@ -27,6 +27,8 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
     std::string error;
     const std::string text = uri.text();
     source = openUri(text, folder, error);
+    if (const std::string oddity = oddityOf(text); !oddity.empty())
+      messages.warn(label + ", the file \"" + printableUri(text) + "\", " + oddity);
     if (!error.empty()) {
       messages.fail(label + ", the file \"" + printableUri(text) + "\", " + error,
                     "put it there or export the model as .glb");
@@ -36,7 +38,8 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
   } else if (readsCompression(meshopt) && buffer.member("extensions").member(meshopt).exists()) {
     return ByteSource(std::vector<unsigned char>());  // stands for what is compressed
   } else {
-    messages.fail(label + " has neither a uri nor a binary GLB chunk");
+    absent = true;
+    return source;
   }
   if (source.size() < wanted) {
     messages.fail(label + " tells " + std::to_string(wanted) + " bytes and has " +
@@ -97,7 +100,7 @@ std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages&
   }
   std::vector<Bytes> buffers(document.buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const Stretch stretch = stretches[i];
+    const Stretch stretch = document.absent[i] ? Stretch() : stretches[i];
     if (stretch.end > stretch.first) document.geometryBytes += stretch.end - stretch.first;
     if (document.geometryBytes > maxGeometryBytes) {
       messages.fail("its buffers hold more than 8 GiB", "split the model");
@@ -122,6 +125,62 @@ std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
     result[i].visible = extensions.member("KHR_node_visibility").member("visible").boolean(true);
   }
   return result;
+}
+
+/// The primitives' indices, one after another, which tinygltf refuses where they have no buffer
+/// view (-1: none): zeros and those that a sparse accessor puts in their place are valid.
+std::vector<int> takeIndices(Cursor root) {
+  std::vector<int> result;
+  const Cursor meshes = root.member("meshes");
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const Cursor primitives = meshes.item(i).member("primitives");
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+      const Cursor primitive = primitives.item(k);
+      result.push_back(primitive.member("indices").index(root.member("accessors").size()));
+      primitive.json().erase("indices");
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> readVariants(Cursor root) {
+  const Cursor list = root.member("extensions").member("KHR_materials_variants").member("variants");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list.item(i).name());
+  return names;
+}
+
+/// What extensions say of primitives and nodes.
+Document::Pieces readPieces(Cursor root) {
+  Document::Pieces pieces;
+  const std::size_t accessors = root.member("accessors").size();
+  const std::size_t materials = root.member("materials").size();
+  const Cursor meshes = root.member("meshes");
+  const std::size_t variants = readVariants(root).size();
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const Cursor primitives = meshes.item(i).member("primitives");
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+      const Cursor mappings = primitives.item(k)
+                                  .member("extensions")
+                                  .member("KHR_materials_variants")
+                                  .member("mappings");
+      for (std::size_t m = 0; m < mappings.size(); ++m) {
+        const int material = mappings.item(m).required("material").index(materials);
+        const Cursor of = mappings.item(m).required("variants");
+        for (std::size_t v = 0; v < of.size(); ++v)
+          pieces.variantMaterials[{i, k}][of.item(v).index(variants)] = material;
+      }
+    }
+  }
+  const Cursor nodes = root.member("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Cursor attributes =
+        nodes.item(i).member("extensions").member("EXT_mesh_gpu_instancing").member("attributes");
+    attributes.forEachMember([&](Cursor attribute) {
+      pieces.instancing[i][attribute.key()] = attribute.index(accessors);
+    });
+  }
+  return pieces;
 }
 
 /// What glint does not read, tinygltf need not either.
@@ -164,6 +223,21 @@ std::string takeGeometry(Json& json, const std::vector<Bytes>& buffers) {
 
 }  // namespace
 
+int Document::absentBufferOf(int accessor) const {
+  const auto absentView = [&](int view) {
+    if (view < 0) return -1;
+    const std::size_t buffer = views[static_cast<std::size_t>(view)].buffer;
+    return absent[buffer] ? static_cast<int>(buffer) : -1;
+  };
+  const tinygltf::Accessor& a = model.accessors[static_cast<std::size_t>(accessor)];
+  int found = absentView(a.bufferView);
+  if (a.sparse.isSparse) {
+    found = std::max(found, absentView(a.sparse.indices.bufferView));
+    found = std::max(found, absentView(a.sparse.values.bufferView));
+  }
+  return found;
+}
+
 Cursor lightsOf(Cursor root) {
   return root.member("extensions").member("KHR_lights_punctual").member("lights");
 }
@@ -178,20 +252,30 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   const Cursor root(document.json, messages);
   const Cursor list = root.member("buffers");
   for (std::size_t i = 0; i < list.size(); ++i) {
+    bool absent = false;
     document.buffers.push_back(
-        openBuffer(list.item(i), i, container, path.parent_path(), messages));
+        openBuffer(list.item(i), i, container, path.parent_path(), absent, messages));
+    document.absent.push_back(absent);
   }
   if (decompress(document, messages)) checkStructure(document.json, messages);
+  document.absent.resize(document.buffers.size(), false);
   document.views = placeViews(root);
   document.nodeExtensions = readNodeExtensions(root);
   document.extensions = extensionsOf(root);
   document.skins = skinsOf(root);
   document.morphs = morphsOf(root);
   std::vector<Bytes> buffers = readGeometry(root, document, messages);
+  const std::vector<int> indices = takeIndices(root);
+  document.variants = readVariants(root);
+  document.pieces = readPieces(root);
   const std::string geometry = takeGeometry(document.json, buffers);
   if (const std::string error = readGeometryModel(document.model, geometry, buffers);
       !error.empty()) {
     messages.fail("is not glTF 2.0, " + printable(error));
+  }
+  auto next = indices.begin();
+  for (auto& mesh : document.model.meshes) {
+    for (auto& primitive : mesh.primitives) primitive.indices = *next++;
   }
   return document;
 }

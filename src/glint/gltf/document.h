@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "glint/gltf/file.h"
@@ -35,12 +38,25 @@ struct Document {
     bool visible = true;
   };
   std::vector<NodeExtension> nodeExtensions;
+  std::vector<std::string> variants;  ///< names of KHR_materials_variants, which may be empty
+  struct Pieces {
+    /// By mesh and primitive: the material of each variant that gives it one.
+    std::map<std::pair<std::size_t, std::size_t>, std::map<int, int>> variantMaterials;
+    /// By node: the accessors of EXT_mesh_gpu_instancing by their names.
+    std::map<std::size_t, std::map<std::string, int>> instancing;
+  };
+  Pieces pieces;
   std::vector<FileExtension> extensions;
   std::vector<FileSkin> skins;
   std::vector<FileMorph> morphs;
   std::vector<ByteSource> buffers;
+  /// Buffers of which nobody says where they lie: neither a uri nor a binary chunk.
+  std::vector<bool> absent;
   std::vector<ViewPlace> views;     ///< all buffer views, as they lie in `buffers`
   std::uint64_t geometryBytes = 0;  ///< held in `model`
+
+  /// The absent buffer that an accessor lies in, or -1.
+  int absentBufferOf(int accessor) const;
 };
 
 /// The list of lights of KHR_lights_punctual.

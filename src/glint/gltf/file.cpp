@@ -122,9 +122,20 @@ std::string_view schemeOf(std::string_view uri) {
   return uri.substr(0, colon);
 }
 
-bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
-
 }  // namespace
+
+bool isDataUri(std::string_view uri) {
+  const std::string_view scheme = "data:";
+  return uri.size() >= scheme.size() &&
+         std::equal(scheme.begin(), scheme.end(), uri.begin(), [](char a, char b) {
+           return a == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+std::string oddityOf(const std::string& uri) {
+  if (isDataUri(uri)) return uri.starts_with("data:") ? "" : "is a data URI in capital letters";
+  return percentDecoded(uri).find('\\') != uri.npos ? "has a backslash in its name" : "";
+}
 
 RegularFile::RegularFile(const std::filesystem::path& path, std::string& error) {
   // Without O_NONBLOCK, opening a FIFO waits for someone to write into it.
@@ -245,6 +256,16 @@ ByteSource openUri(const std::string& uri, const std::filesystem::path& folder,
   if (const RegularFile file(folder / uri, second); second.empty()) {
     error.clear();
     return ByteSource(folder / uri, 0, file.size());
+  }
+  // Those of Windows write its separators, plain or as %5C.
+  std::string slashed = name;
+  std::ranges::replace(slashed, '\\', '/');
+  if (slashed != name) {
+    std::string third;
+    if (const RegularFile file(folder / slashed, third); third.empty()) {
+      error.clear();
+      return ByteSource(folder / slashed, 0, file.size());
+    }
   }
   return {};
 }

@@ -65,6 +65,12 @@ Container readContainer(const std::filesystem::path& path, const Messages& messa
 /// percent-decoded. Where there is none, `error` says why, without the URI.
 ByteSource openUri(const std::string& uri, const std::filesystem::path& folder, std::string& error);
 
+/// Is it a `data:` URI? The scheme counts in any case of its letters.
+bool isDataUri(std::string_view uri);
+
+/// What other readers may refuse in a URI that openUri() takes, to stand in a warning, or nothing.
+std::string oddityOf(const std::string& uri);
+
 /// A URI with its %XX resolved.
 std::string percentDecoded(std::string_view text);
 

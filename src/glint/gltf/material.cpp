@@ -117,6 +117,34 @@ void readParameterTextures(Cursor from, const PbrParameters& pbr, Material& mate
        material.shading.transmission > 0 ? unsigned(textured::transmission) : 0u);
 }
 
+/// What stands beside it in metallic and roughness is a fallback for others.
+void readSpecularGlossiness(Cursor from, Material& material, TextureReader& textures,
+                            Messages& messages) {
+  SpecularGlossiness gloss;
+  const glm::dvec4 diffuse = readColor(from.member("diffuseFactor"), 4, glm::dvec4(1));
+  gloss.diffuse = glm::dvec3(diffuse);
+  gloss.specular = glm::dvec3(readColor(from.member("specularFactor"), 3, glm::dvec4(1)));
+  gloss.glossiness = unit(from.member("glossinessFactor"), 1);
+  if (from.member("specularGlossinessTexture").exists()) {
+    // Without it, that of common dielectrics and a middling gloss are the best guess.
+    gloss.specular *= 0.04;
+    gloss.glossiness *= 0.5;
+    messages.warn(from.path() +
+                  ".specularGlossinessTexture is not read: specular 0.04 and half the glossiness "
+                  "take its place");
+  }
+  const auto [converted, color] = convertSpecularGlossiness(gloss);
+  material.shading = {converted.ambient,
+                      converted.diffuse,
+                      converted.specular,
+                      converted.exponent,
+                      converted.metalness,
+                      converted.ior,
+                      color};
+  material.alpha = std::min(diffuse.a, 1.0);
+  material.colorTexture = textures.read(from.member("diffuseTexture"));
+}
+
 Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) {
   Material material;
   from.checkObject();
@@ -134,6 +162,11 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   material.shading.color = glm::dvec3(color);
   material.alpha = std::min(color.a, 1.0);
   material.colorTexture = textures.read(pbr.member("baseColorTexture"));
+
+  if (const Cursor gloss = extensions.member("KHR_materials_pbrSpecularGlossiness");
+      gloss.exists()) {
+    readSpecularGlossiness(gloss, material, textures, messages);
+  }
 
   const double strength =
       extensions.member("KHR_materials_emissive_strength").member("emissiveStrength").number(1);

@@ -27,6 +27,17 @@ bool fitsFloat(const Vector& v) {
   return true;
 }
 
+/// Brings each to length 1; gives how many have none.
+std::size_t normaliseEach(std::vector<glm::vec3>& normals) {
+  std::size_t broken = 0;
+  for (glm::vec3& normal : normals) {
+    const glm::dvec3 unit = direction(glm::dvec3(normal));
+    if (!(glm::dot(unit, unit) > 0.5)) ++broken;
+    normal = glm::vec3(unit);
+  }
+  return broken;
+}
+
 template <typename Value>
 void select(std::vector<Value>& values, const VertexList& list) {
   if (values.empty() || list.all) return;
@@ -50,19 +61,22 @@ class Builder {
  private:
   using Attributes = std::map<std::string, int>;
 
+  bool lacksData();
   bool readElements();
   template <typename Vector>
   std::vector<Vector> read(const Attributes& attributes, const std::string& name, int least,
                            int most, bool normalize = false, const Vector& fallback = Vector(0));
-  void morph(const Pose& pose, const std::string& name, std::vector<glm::dvec3>& values);
+  template <typename Vector>
+  void morph(const Pose& pose, const std::string& name, int least, int most,
+             std::vector<Vector>& values, bool normalize = false);
   void applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
                  std::vector<glm::dvec3>& normals);
   template <typename Vector>
   void dropNonFinite(std::vector<Vector>& positions);
   template <typename Vector>
   void place(const std::vector<Vector>& positions);
-  void readColors();
-  void readTexcoords(const Material& material);
+  void readColors(const Pose& pose);
+  void readTexcoords(const Pose& pose, const Material& material);
   void finishNormals();
   void readTangents(const Material& material, bool stale);
   void warn(const std::string& what) { messages_.warn(label_ + ": " + what); }
@@ -99,7 +113,27 @@ std::vector<Vector> Builder::read(const Attributes& attributes, const std::strin
   return gather<Vector>(view, list_, normalize, fallback);
 }
 
+/// Where nobody says what is in a buffer, nothing can be drawn from it.
+bool Builder::lacksData() {
+  std::vector<const Attributes*> all{&primitive_.attributes};
+  for (const Attributes& target : primitive_.targets) all.push_back(&target);
+  std::vector<int> accessors;
+  if (primitive_.indices >= 0) accessors.push_back(primitive_.indices);
+  for (const Attributes* each : all) {
+    for (const auto& [name, accessor] : *each) accessors.push_back(accessor);
+  }
+  for (const int accessor : accessors) {
+    const int buffer = document_.absentBufferOf(accessor);
+    if (buffer < 0) continue;
+    warn("lies in buffers[" + std::to_string(buffer) +
+         "], which has neither a uri nor a binary GLB chunk, and is not drawn");
+    return true;
+  }
+  return false;
+}
+
 bool Builder::readElements() {
+  if (lacksData()) return false;
   const auto position = primitive_.attributes.find("POSITION");
   if (position == primitive_.attributes.end()) {
     warn("has no POSITION and is not drawn");
@@ -137,12 +171,17 @@ bool Builder::readElements() {
   return true;
 }
 
-void Builder::morph(const Pose& pose, const std::string& name, std::vector<glm::dvec3>& values) {
+template <typename Vector>
+void Builder::morph(const Pose& pose, const std::string& name, int least, int most,
+                    std::vector<Vector>& values, bool normalize) {
+  using Real = typename Vector::value_type;
   const std::size_t count = std::min(pose.weights.size(), primitive_.targets.size());
   for (std::size_t t = 0; t < count && !values.empty(); ++t) {
     if (pose.weights[t] == 0) continue;
-    const auto deltas = read<glm::dvec3>(primitive_.targets[t], name, 3, 3);
-    for (std::size_t i = 0; i < deltas.size(); ++i) values[i] += pose.weights[t] * deltas[i];
+    const auto deltas = read<Vector>(primitive_.targets[t], name, least, most, normalize);
+    for (std::size_t i = 0; i < deltas.size(); ++i) {
+      values[i] += static_cast<Real>(pose.weights[t]) * deltas[i];
+    }
   }
 }
 
@@ -222,9 +261,10 @@ void Builder::place(const std::vector<Vector>& positions) {
   }
 }
 
-void Builder::readColors() {
+void Builder::readColors(const Pose& pose) {
   auto& colors = built_.mesh.colors;
   colors = read<glm::vec4>(primitive_.attributes, "COLOR_0", 3, 4, true, glm::vec4(1));
+  morph(pose, "COLOR_0", 3, 4, colors, true);
   bool finite = true;
   for (glm::vec4& color : colors) {
     for (int k = 0; k < 4; ++k) {
@@ -232,13 +272,13 @@ void Builder::readColors() {
         finite = false;
         color[k] = 1;
       }
-      color[k] = std::clamp(color[k], 0.0f, k == 3 ? 1.0f : 1e6f);
+      color[k] = std::clamp(color[k], 0.0f, 1.0f);
     }
   }
   if (!finite) warn("has vertex colours that are not finite, replaced by 1");
 }
 
-void Builder::readTexcoords(const Material& material) {
+void Builder::readTexcoords(const Pose& pose, const Material& material) {
   for (const std::optional<Texture>* each : texturesOf(material)) {
     const std::optional<Texture>& texture = *each;
     if (!texture) continue;
@@ -251,6 +291,7 @@ void Builder::readTexcoords(const Material& material) {
       warn("has no " + name + ", which its material reads, and is drawn without that texture");
       continue;
     }
+    morph(pose, name, 2, 2, values);
     bool finite = true;
     for (glm::vec2& value : values) {
       if (fitsFloat(value)) continue;
@@ -266,15 +307,21 @@ void Builder::readTexcoords(const Material& material) {
 void Builder::finishNormals() {
   Mesh& mesh = built_.mesh;
   if (mesh.topology != Topology::triangles) {
+    const std::size_t broken = normaliseEach(mesh.normals);
+    if (broken == 0) return;
+    warn(std::to_string(broken) + " of " + std::to_string(mesh.normals.size()) +
+         " normals are zero or not finite: drawn unlit");
     mesh.normals.clear();
-  } else if (mesh.normals.empty()) {
+    return;
+  }
+  if (mesh.normals.empty()) {
     budget_.keep(mesh.indices.size());
     makeFlat(mesh);
   } else if (const std::size_t mended = mendNormals(mesh); mended > 0) {
     warn(std::to_string(mended) + " of " + std::to_string(mesh.normals.size()) +
          " normals are zero or not finite, replaced by the faces' normals");
   }
-  if (mesh.topology == Topology::triangles) mesh.normalsMayCancel = normalsMayCancel(mesh);
+  mesh.normalsMayCancel = normalsMayCancel(mesh);
 }
 
 /// Those of the file, or made where it has none or they no longer fit the vertices.
@@ -320,8 +367,8 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
   if (posed) {
     auto positions = read<glm::dvec3>(attributes, "POSITION", 3, 3);
     auto normals = read<glm::dvec3>(attributes, "NORMAL", 3, 3);
-    morph(pose, "POSITION", positions);
-    morph(pose, "NORMAL", normals);
+    morph(pose, "POSITION", 3, 3, positions);
+    morph(pose, "NORMAL", 3, 3, normals);
     if (built_.skinned) applySkin(pose, positions, normals);
     mesh.normals.resize(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) mesh.normals[i] = direction(normals[i]);
@@ -332,9 +379,9 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
     drawn = finish(std::move(positions));
   }
   if (!drawn) return std::nullopt;
-  readColors();
+  readColors(pose);
   const Material& material = materials[static_cast<std::size_t>(mesh.material)];
-  readTexcoords(material);
+  readTexcoords(pose, material);
   const bool flat = mesh.normals.empty();
   finishNormals();
   readTangents(material, posed || flat);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <optional>
 
 #include "glint/gltf/accessor.h"
 #include "glint/gltf/normals.h"
@@ -69,6 +70,34 @@ glm::dmat4 localMatrix(const Document& document, std::size_t index, Messages& me
   return local;
 }
 
+/// The quarter or half turn that brings an axis to +Y.
+glm::dmat4 upright(UpAxis up) {
+  glm::dmat4 m(1);
+  const auto rows = [&](const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
+    m = glm::dmat4(glm::transpose(glm::dmat3(x, y, z)));
+  };
+  switch (up) {
+    case UpAxis::plusX:
+      rows({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+      break;
+    case UpAxis::minusX:
+      rows({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+      break;
+    case UpAxis::plusY:
+      break;
+    case UpAxis::minusY:
+      rows({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
+      break;
+    case UpAxis::plusZ:
+      rows({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+      break;
+    case UpAxis::minusZ:
+      rows({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+      break;
+  }
+  return m;
+}
+
 /// Fills the camera from the file's object; false, with a warning, where it is not usable.
 bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
   result.name = camera.name();
@@ -84,6 +113,7 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
     if (!(result.viewAngle > 0 && result.viewAngle < std::numbers::pi)) {
       return reject("has a yfov not between 0 and pi");
     }
+    result.aspect = lens.member("aspectRatio").number(0);
     near = lens.member("znear").number(0);
     far = lens.member("zfar").number(0);
   } else if (type == "orthographic") {
@@ -91,11 +121,14 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
     result.orthographic = true;
     result.halfHeight = std::abs(lens.required("ymag").number(0));
     if (!(result.halfHeight > 0)) return reject("has a ymag of 0");
+    result.aspect = std::abs(lens.required("xmag").number(0)) / result.halfHeight;
+    if (!(result.aspect > 0)) return reject("has an xmag of 0");
     near = lens.member("znear").number(0);
     far = lens.member("zfar").number(0);
   } else {
     return reject("is neither perspective nor orthographic");
   }
+  if (!(result.aspect > 0 && result.aspect < 1e6)) result.aspect = 0;
   result.near = near > 0 ? near : 0;
   result.far = far > result.near ? far : 0;
   return true;
@@ -144,7 +177,7 @@ bool readLight(Cursor from, FileLight& light, Messages& messages) {
 
 }  // namespace
 
-NodeGraph readNodes(const Document& document, Messages& messages) {
+NodeGraph readNodes(const Document& document, int scene, UpAxis up, Messages& messages) {
   const auto& nodes = document.model.nodes;
   NodeGraph graph;
   graph.world.assign(nodes.size(), glm::dmat4(1));
@@ -158,7 +191,7 @@ NodeGraph readNodes(const Document& document, Messages& messages) {
   std::vector<int> roots, open;
   for (std::size_t i = nodes.size(); i-- > 0;) {
     if (isChild[i]) continue;
-    graph.world[i] = localMatrix(document, i, messages);
+    graph.world[i] = upright(up) * localMatrix(document, i, messages);
     open.push_back(static_cast<int>(i));
   }
   roots.assign(open.rbegin(), open.rend());
@@ -177,7 +210,7 @@ NodeGraph readNodes(const Document& document, Messages& messages) {
 
   const auto& scenes = document.model.scenes;
   if (!scenes.empty()) {
-    const int chosen = std::max(document.model.defaultScene, 0);
+    const int chosen = scene >= 0 ? scene : std::max(document.model.defaultScene, 0);
     roots = scenes[static_cast<std::size_t>(chosen)].nodes;
   }
   std::vector<bool> seen(nodes.size(), false);
@@ -195,6 +228,49 @@ NodeGraph readNodes(const Document& document, Messages& messages) {
     open.insert(open.end(), nodes[node].children.rbegin(), nodes[node].children.rend());
   }
   return graph;
+}
+
+std::vector<glm::dmat4> placesOf(const Document& document, std::size_t node, Budget& budget,
+                                 Messages& messages) {
+  const auto found = document.pieces.instancing.find(node);
+  if (found == document.pieces.instancing.end()) return {glm::dmat4(1)};
+  std::optional<std::size_t> count;
+  const auto read = [&](const char* name, int components) {
+    std::vector<double> values;
+    const auto attribute = found->second.find(name);
+    if (attribute == found->second.end()) return values;
+    const std::string label = labelOf(document, node) + " EXT_mesh_gpu_instancing " + name;
+    const AccessorView view = openAccessor(document, attribute->second, label, budget, messages);
+    if (view.components != components || (count && *count != view.count)) {
+      messages.fail(label + " must have " + std::to_string(components) +
+                    " components an instance, as many instances as the others");
+    }
+    count = view.count;
+    budget.read(view.count * static_cast<std::size_t>(components));
+    return readFlat(view);
+  };
+  const auto shifts = read("TRANSLATION", 3), turns = read("ROTATION", 4),
+             scales = read("SCALE", 3);
+  std::vector<glm::dmat4> places(count.value_or(1), glm::dmat4(1));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    glm::dmat3 linear(1);
+    if (!turns.empty()) {
+      const auto first = turns.begin() + static_cast<std::ptrdiff_t>(4 * i);
+      bool broken = false;
+      linear = rotation({first, first + 4}, broken);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t at = 3 * i + static_cast<std::size_t>(k);
+      if (!scales.empty()) linear[k] *= scales[at];
+      if (!shifts.empty()) places[i][3][k] = shifts[at];
+    }
+    for (int k = 0; k < 3; ++k) places[i][k] = glm::dvec4(linear[k], 0);
+    if (!usable(places[i])) {
+      messages.fail(labelOf(document, node) + ", instance " + std::to_string(i) +
+                    " has a transform that is not finite or beyond 1e30");
+    }
+  }
+  return places;
 }
 
 std::vector<glm::dmat4> jointMatrices(const Document& document, std::size_t index,

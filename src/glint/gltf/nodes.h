@@ -18,9 +18,15 @@ struct NodeGraph {
   std::vector<bool> hidden;
 };
 
-/// The scene shown is the one that `scene` names, else the first, else all root nodes. Fails on
+/// The scene shown is that number `scene`; for -1 the one that the file names, else its first, else
+/// all root nodes. The whole is turned so that `up` points along +Y. Fails on
 /// transforms that are not finite or beyond 1e30, which no single-precision picture can hold.
-NodeGraph readNodes(const Document& document, Messages& messages);
+NodeGraph readNodes(const Document& document, int scene, UpAxis up, Messages& messages);
+
+/// Where a node's mesh stands in the node's space: once, or as often as EXT_mesh_gpu_instancing
+/// says.
+std::vector<glm::dmat4> placesOf(const Document& document, std::size_t node, Budget& budget,
+                                 Messages& messages);
 
 /// Joint's world times inverse bind matrix, for each joint of a skin.
 std::vector<glm::dmat4> jointMatrices(const Document& document, std::size_t skin,

@@ -25,29 +25,37 @@ using namespace gltf;
 /// More pieces than a picture can show; many nodes may share a mesh of many primitives.
 constexpr std::size_t maxInstances = std::size_t(1) << 22;
 
-std::size_t findAnimation(const Scene& scene, const std::string& text) {
-  if (text.empty()) return 0;
-  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
-    if (scene.animations[i].name == text) return i;
-  }
+/// The number of what is called so, or has that number.
+std::size_t findNamed(const std::vector<std::string>& names, const std::string& text,
+                      const std::string& option, const std::string& kind,
+                      const std::string& model) {
+  if (const auto found = std::ranges::find(names, text); found != names.end())
+    return static_cast<std::size_t>(found - names.begin());
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() &&
-      number < scene.animations.size()) {
+  if (error == std::errc() && end == text.data() + text.size() && number < names.size())
     return number;
-  }
   std::string known;
-  for (std::size_t i = 0; i < std::min<std::size_t>(scene.animations.size(), 20); ++i) {
-    const std::string& name = scene.animations[i].name;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i) {
+    const std::string name = printable(names[i], 80);
     known += (i ? ", " : "") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
   }
-  throw InputError("--animation: " + scene.name + " has no animation '" + printable(text, 80) +
+  throw InputError(option + ": " + model + " has no " + kind + " '" + printable(text, 80) +
                    "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
+}
+
+std::size_t findAnimation(const Scene& scene, const std::string& text) {
+  if (text.empty()) return 0;
+  std::vector<std::string> names;
+  for (const FileAnimation& each : scene.animations) names.push_back(each.name);
+  return findNamed(names, text, "--animation", "animation", scene.name);
 }
 
 }  // namespace
 
-PoseRequest poseOf(const Look& look) { return {look.animationTime, look.animation}; }
+PoseRequest poseOf(const Look& look) {
+  return {look.animationTime, look.animation, look.scene, look.variant, look.up};
+}
 
 struct SceneFile::State {
   explicit State(const std::filesystem::path& path)
@@ -59,6 +67,9 @@ struct SceneFile::State {
     Budget budget(document.geometryBytes, messages);
     start.animations = listAnimations(document, budget, messages);
     start.extensions = std::move(document.extensions);
+    for (const tinygltf::Scene& each : document.model.scenes)
+      start.scenes.push_back(printable(each.name, 80));
+    for (const std::string& name : document.variants) start.variants.push_back(printable(name, 80));
     start.skins = std::move(document.skins);
     start.morphs = std::move(document.morphs);
   }
@@ -71,6 +82,7 @@ struct SceneFile::State {
   /// The primitives of a mesh in one shape.
   struct Shape {
     std::vector<Part> parts;
+    bool stale = false;  ///< its primitives have other materials now
     bool moves = false;  ///< another pose may give it other vertices
     int pass = 0;        ///< the posing that made it
   };
@@ -78,6 +90,9 @@ struct SceneFile::State {
   using Key = std::tuple<int, int, int, std::vector<double>>;
 
   void applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget);
+  void play(std::size_t animation, double time, Budget& budget);
+  void applyVariant(const std::string& name);
+  int findScene(const std::string& text) const;
   void place(std::size_t node, const NodeGraph& graph, Scene& scene, Budget& budget);
   const std::vector<Part>& shape(const Key& key, Pose pose, const NodeGraph& graph, Scene& scene,
                                  Budget& budget);
@@ -92,6 +107,8 @@ struct SceneFile::State {
   std::set<std::size_t> weightsMoved;             ///< by the animation of this pose
   std::optional<std::set<std::size_t>> lightsOn;  ///< nodes of the lights in use
   std::map<Key, Shape> shapes;
+  std::string variant;  ///< whose materials the primitives have now
+  std::map<std::pair<std::size_t, std::size_t>, int> plain;  ///< primitives' materials without one
   int pass = 0;
   std::vector<int> changed;
   std::set<std::string> told;
@@ -101,13 +118,18 @@ struct SceneFile::State {
 void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget) {
   for (const auto& [index, node] : atRest) document.model.nodes[index] = node;
   weightsMoved.clear();
-  if (!request.animation.empty()) findAnimation(scene, request.animation);
+  const bool all = request.animation == "all";
+  if (!all && !request.animation.empty()) findAnimation(scene, request.animation);
   if (!request.time) return;
   if (scene.animations.empty()) {
     messages.warn("has no animation, shown at rest");
     return;
   }
-  const std::size_t index = findAnimation(scene, request.animation);
+  if (!all) return play(findAnimation(scene, request.animation), *request.time, budget);
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) play(i, *request.time, budget);
+}
+
+void SceneFile::State::play(std::size_t index, double time, Budget& budget) {
   auto found = animations.find(index);
   if (found == animations.end()) {
     found = animations.emplace(index, readAnimation(document, index, budget, messages)).first;
@@ -116,7 +138,7 @@ void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, 
     tinygltf::Node& node = document.model.nodes[channel.node];
     atRest.try_emplace(channel.node, node);
     std::vector<double> value = valueAt(found->second.keys[channel.keys], channel.width,
-                                        channel.path == AnimatedPath::rotation, *request.time);
+                                        channel.path == AnimatedPath::rotation, time);
     switch (channel.path) {
       case AnimatedPath::translation:
         node.translation = std::move(value);
@@ -135,13 +157,40 @@ void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, 
   }
 }
 
+/// Gives the primitives the materials of a variant; the meshes are then made anew, since a material
+/// says which of a primitive's data are read.
+void SceneFile::State::applyVariant(const std::string& name) {
+  if (name == variant) return;
+  int number = -1;
+  if (!name.empty()) {
+    number =
+        static_cast<int>(findNamed(document.variants, name, "--variant", "variant", start.name));
+  }
+  for (const auto& [place, materials] : document.pieces.variantMaterials) {
+    int& material = document.model.meshes[place.first].primitives[place.second].material;
+    const int standard = plain.try_emplace(place, material).first->second;
+    const auto found = materials.find(number);
+    material = found == materials.end() ? standard : found->second;
+  }
+  variant = name;
+  for (auto& [key, shape] : shapes) shape.stale = true;
+}
+
+int SceneFile::State::findScene(const std::string& text) const {
+  if (text.empty()) return -1;
+  std::vector<std::string> names;
+  for (const tinygltf::Scene& each : document.model.scenes) names.push_back(each.name);
+  return static_cast<int>(findNamed(names, text, "--scene", "scene", start.name));
+}
+
 /// Makes a mesh once for each shape in which it stands.
 const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& key, Pose pose,
                                                                    const NodeGraph& graph,
                                                                    Scene& scene, Budget& budget) {
   const auto [entry, isNew] = shapes.try_emplace(key);
   Shape& result = entry->second;
-  if (!isNew && (!result.moves || result.pass == pass)) return result.parts;
+  if (!isNew && !result.stale && (!result.moves || result.pass == pass)) return result.parts;
+  result.stale = false;
   const int mesh = std::get<0>(key), skin = std::get<1>(key);
   result.moves = skin >= 0 || std::get<2>(key) >= 0;
   result.pass = pass;
@@ -184,12 +233,19 @@ void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& s
   const bool moves = weightsMoved.contains(index);
   const Key key(node.mesh, node.skin, moves ? static_cast<int>(index) : -1,
                 moves ? std::vector<double>() : pose.weights);
+  const std::vector<glm::dmat4> places = placesOf(document, index, budget, messages);
   for (const Part& part : shape(key, std::move(pose), graph, scene, budget)) {
     if (!part.drawn) continue;
-    if (scene.instances.size() == maxInstances) {
+    if (scene.instances.size() + places.size() > maxInstances) {
       messages.fail("draws more than 4194304 pieces", "split the model");
     }
-    scene.instances.push_back({part.mesh, part.skinned ? glm::dmat4(1) : graph.world[index]});
+    // What a skin moves stands where its joints are, whatever its node says.
+    if (part.skinned) {
+      scene.instances.push_back({part.mesh, glm::dmat4(1)});
+      continue;
+    }
+    for (const glm::dmat4& place : places)
+      scene.instances.push_back({part.mesh, graph.world[index] * place});
   }
 }
 
@@ -204,6 +260,16 @@ void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
   if (lightsOn || scene.lights.empty()) return;
   const LightMeter meter = meterLights(scene);
   scene.lightScale = meter.scale;
+  const bool hasSurface = std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    return mesh.topology == Topology::triangles &&
+           !scene.materials[static_cast<std::size_t>(mesh.material)].unlit;
+  });
+  for (std::size_t i = 0; hasSurface && i < scene.lights.size(); ++i) {
+    if (meter.shares[i] > 0 || scene.lights[i].intensity == glm::dvec3(0)) continue;
+    messages.warn("the light " + named("nodes", nodes[i], document.model.nodes[nodes[i]].name) +
+                  " reaches no surface from its front and lights nothing");
+  }
   lightsOn.emplace(nodes.begin(), nodes.end());
   for (std::size_t i = 0; i < scene.lights.size() && !scene.instances.empty(); ++i) {
     const std::string& name = scene.lights[i].name;
@@ -234,7 +300,8 @@ void SceneFile::State::build(const PoseRequest& request, Scene& scene) {
     ++pass;
     changed.clear();
     applyAnimation(request, scene, budget);
-    const NodeGraph graph = readNodes(document, messages);
+    applyVariant(request.variant);
+    const NodeGraph graph = readNodes(document, findScene(request.scene), request.up, messages);
     scene.cameras = readCameras(document, graph, messages);
     scene.instances.clear();
     for (const std::size_t node : graph.visible) place(node, graph, scene, budget);
@@ -263,8 +330,10 @@ SceneFile& SceneFile::operator=(SceneFile&&) noexcept = default;
 Scene SceneFile::take(const PoseRequest& request) {
   Scene scene = std::move(state_->start);
   // What the lights count as is measured at rest, so that it is the same at every time.
+  PoseRequest rest = request;
+  rest.time.reset();
   if (request.time && gltf::lightsOf(gltf::Cursor(state_->document.json, state_->messages)).size())
-    state_->build({}, scene);
+    state_->build(rest, scene);
   state_->build(request, scene);
   return scene;
 }

@@ -15,7 +15,11 @@ namespace glint {
 /// animation, held at its first and its last key before and after them.
 struct PoseRequest {
   std::optional<double> time;  ///< seconds
-  std::string animation;       ///< name or number; empty: the first
+  std::string animation;       ///< name, number or "all"; empty: the first
+  std::string scene;           ///< name or number; empty: the file's own
+  std::string variant;         ///< name (KHR_materials_variants); empty: the default
+  UpAxis up = UpAxis::plusY;   ///< of the file: it is turned so that this points along +Y
+  bool operator==(const PoseRequest&) const = default;
 };
 
 PoseRequest poseOf(const Look&);
@@ -42,7 +46,7 @@ class SceneFile {
   ///
   /// It satisfies what scene.h promises: indices in range, values finite, normals of unit length.
   /// What is wrong but harmless is mended and told in Scene::warnings. Throws InputError for an
-  /// animation that the file does not have.
+  /// animation, a scene or a variant that the file does not have.
   Scene take(const PoseRequest& request = {});
 
   /// Brings the scene, as take() gave it, into another pose. Returns the meshes (indices into

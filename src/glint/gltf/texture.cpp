@@ -26,6 +26,19 @@ const char* formatOf(const std::vector<std::byte>& bytes) {
   return "unknown";
 }
 
+/// Is there no end marker behind the last scan of a JPEG? Within a scan there is none by chance: a
+/// byte 0xff of its data is followed by 0.
+bool lacksEnd(const std::vector<std::byte>& bytes) {
+  const auto is = [&](std::size_t i, unsigned marker) {
+    return bytes[i] == std::byte(0xff) && bytes[i + 1] == std::byte(marker);
+  };
+  for (std::size_t i = bytes.size() - 1; i-- > 0;) {
+    if (is(i, 0xd9)) return false;
+    if (is(i, 0xda)) return true;
+  }
+  return true;
+}
+
 Wrap wrapOf(std::int64_t value) {
   return value == 33071 ? Wrap::clampToEdge : value == 33648 ? Wrap::mirroredRepeat : Wrap::repeat;
 }
@@ -68,6 +81,13 @@ std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
     const Cursor webp = texture.member("extensions").member("EXT_texture_webp").member("source");
     if (webp.exists()) image = webp.index(images);
   }
+  const char* const basisu = "KHR_texture_basisu";
+  if (texture.member("extensions").member(basisu).exists()) {
+    messages_.warn(texture.path() + " is compressed (KHR_texture_basisu), " +
+                   (image < 0 ? "which is not read, and has no other image: left out"
+                              : "which is not read: its other image is used"));
+    if (image < 0) return std::nullopt;
+  }
   if (texcoord > maxTexcoord) {
     messages_.warn(info.path() + " reads texture coordinates " + std::to_string(texcoord) +
                    ", beyond " + std::to_string(maxTexcoord) + ", and is left out");
@@ -94,9 +114,9 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   // A data URI is its own source; as a key it would be a copy of the image.
   const std::string uri = image.member("uri").text();
   const int view = image.member("bufferView").index(document_.views.size());
-  std::string source = view >= 0                  ? "view " + std::to_string(view)
-                       : uri.starts_with("data:") ? "image " + std::to_string(index)
-                                                  : "file " + uri;
+  std::string source = view >= 0        ? "view " + std::to_string(view)
+                       : isDataUri(uri) ? "image " + std::to_string(index)
+                                        : "file " + uri;
   if (isData) source += " as data";
   if (const auto known = slotsBySource_.find(source); known != slotsBySource_.end()) {
     return slot = known->second;
@@ -111,6 +131,8 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
     }
   }
   if (error.empty()) {
+    if (formatOf(loaded.bytes) == std::string_view("JPEG") && lacksEnd(loaded.bytes))
+      messages_.warn("the image " + loaded.name + " is a JPEG without its end");
     slot = static_cast<int>(images_.size());
     loaded.isData = isData;
     images_.push_back(std::move(loaded));
@@ -138,7 +160,9 @@ std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std:
     take(document_.buffers[view.buffer], view.offset, view.size);
   } else if (uri.exists()) {
     const std::string text = uri.text();
-    if (!text.starts_with("data:")) name = printableUri(text);
+    if (!isDataUri(text)) name = printableUri(text);
+    if (const std::string oddity = oddityOf(text); !oddity.empty())
+      messages_.warn("the image " + printableUri(text) + " " + oddity);
     const ByteSource source = openUri(text, document_.path.parent_path(), error);
     if (error.empty()) take(source, 0, source.size());
   } else {

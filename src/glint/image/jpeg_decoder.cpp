@@ -26,6 +26,7 @@ struct JpegReader {
   jpeg_decompress_struct info{};
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
+  bool endless = false;  ///< the end mark is missing
   std::jmp_buf failed{};
   char message[JMSG_LENGTH_MAX] = "";
 
@@ -42,19 +43,34 @@ JpegReader& readerOf(j_common_ptr info) { return *static_cast<JpegReader*>(info-
   std::longjmp(readerOf(info).failed, 1);
 }
 
-/// libjpeg goes on after damage and fills in grey; here damage to the pixels is an error.
+/// libjpeg goes on after damage and fills in grey; here damage to the pixels is an error. A file
+/// that lacks its end mark alone (JWRN_JPEG_EOF without JWRN_HIT_MARKER) has all its pixels.
 void onMessage(j_common_ptr info, int level) {
   if (level >= 0) return;
   switch (info->err->msg_code) {
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
-    case JWRN_JPEG_EOF:
     case JWRN_MUST_RESYNC:
     case JWRN_ARITH_BAD_CODE:
       onError(info);
+    case JWRN_JPEG_EOF:
+      readerOf(info).endless = true;
+      return;
     default:
       return;
   }
+}
+
+/// Without an end mark: has every coefficient come in full? Of a progressive file whole scans may
+/// be missing, of others those of whole components.
+bool isComplete(const jpeg_decompress_struct& info) {
+  if (!info.progressive_mode) return info.comps_in_scan == info.num_components;
+  for (int component = 0; component < info.num_components; ++component) {
+    for (int k = 0; k < DCTSIZE2; ++k) {
+      if (info.coef_bits[component][k] != 0) return false;
+    }
+  }
+  return true;
 }
 
 void onOutput(j_common_ptr) {}
@@ -147,6 +163,8 @@ ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name) 
     image.values.resize(rowBytes * (y + count));
     check(readRows(reader, image.values.data() + rowBytes * y, count));
   }
+  if (reader.endless && !isComplete(reader.info))
+    throw damaged(name, "the JPEG is damaged (its last scans are missing)");
   if (reader.info.out_color_space == JCS_CMYK) {
     convertCmyk(image.values, reader.info.saw_Adobe_marker != 0);
   }

@@ -158,6 +158,8 @@ Parameter lights() {
   return p;
 }
 
+constexpr std::array<std::string_view, 6> upAxes = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
 std::string nonEmpty(const std::string& text, const std::string& what) {
   if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
   return text;
@@ -357,7 +359,8 @@ std::vector<Parameter> makeTable() {
                   "rest pose]"),
            0, 10, false),
        resetting(custom(
-                     "animation", "NAME|N", "which animation of the file [default: the first]",
+                     "animation", "NAME|N|all",
+                     "animation of the file, or all of them at once [default: the first]",
                      [](Look& look, const std::string& text) {
                        look.animation = nonEmpty(text, "--animation");
                      },
@@ -365,6 +368,25 @@ std::vector<Parameter> makeTable() {
                        return look.animation.empty() ? Json() : Json(look.animation);
                      }),
                  &Look::animation)});
+  section(
+      "Model",
+      {resetting(
+           custom(
+               "scene", "NAME|N", "scene of the file [default: the file's own]",
+               [](Look& look, const std::string& text) { look.scene = nonEmpty(text, "--scene"); },
+               [](const Look& look) { return look.scene.empty() ? Json() : Json(look.scene); }),
+           &Look::scene),
+       resetting(
+           custom(
+               "variant", "NAME|N",
+               "variant of the materials (KHR_materials_variants) [default: none]",
+               [](Look& look, const std::string& text) {
+                 look.variant = nonEmpty(text, "--variant");
+               },
+               [](const Look& look) { return look.variant.empty() ? Json() : Json(look.variant); }),
+           &Look::variant),
+       choice("up", std::span<const std::string_view>(upAxes), &Look::up,
+              "axis of the model that points up; its cameras and lights turn with it")});
   section(
       "Picture",
       {resetting(

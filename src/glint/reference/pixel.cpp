@@ -130,7 +130,12 @@ void PixelShader::select(int item, std::uint32_t number) {
   const Item& it = stage_.items[std::size_t(item)];
   const Vertices& v = stage_.vertices[it.vertices];
   primitive_ = makePrimitive(it, v, number).value_or(Primitive{});
-  if (primitive_.topology != Topology::triangles || it.surface.unlit) return;
+  if (it.surface.unlit) return;
+  if (primitive_.topology != Topology::triangles) {
+    faceNormal_ = v.normals[primitive_.vertex[primitive_.topology == Topology::lines ? 1 : 0]];
+    if (carriesLight(it.surface)) light();
+    return;
+  }
   // From model space, where differences of positions are exact.
   const auto& t = primitive_.vertex;
   const glm::dvec3 a(it.mesh->positions[t[0]]);
@@ -150,12 +155,20 @@ void PixelShader::light() {
   const auto& t = primitive_.vertex;
   const double side = item.surface.twoSided && !primitive_.front ? -1 : 1;
   if (item.surface.program == Shading::flat) {
-    const glm::dvec3 centroid = (v.eye[t[0]] + v.eye[t[1]] + v.eye[t[2]]) / 3.0;
-    numbers_[0] = numbersAt(item, t);
+    glm::dvec3 centroid = (v.eye[t[0]] + v.eye[t[1]] + v.eye[t[2]]) / 3.0;
+    std::span<const std::uint32_t> corners = t;
+    if (primitive_.topology == Topology::lines)
+      corners = corners.subspan(1, 1);  // GL's provoking vertex
+    if (primitive_.topology == Topology::points) corners = corners.subspan(0, 1);
+    if (corners.size() == 1) centroid = v.eye[corners[0]];
+    numbers_[0] = numbersAt(item, corners);
     carried_[0] = lightAt(stage_.frame, item.surface, numbers_[0], centroid, side * faceNormal_);
     return;
   }
-  for (std::size_t i = 0; i < 3; ++i) {
+  const std::size_t corners = primitive_.topology == Topology::points  ? 1
+                              : primitive_.topology == Topology::lines ? 2
+                                                                       : 3;
+  for (std::size_t i = 0; i < corners; ++i) {
     numbers_[i] = numbersAt(item, std::span(&t[i], 1));
     carried_[i] =
         lightAt(stage_.frame, item.surface, numbers_[i], v.eye[t[i]], side * v.normals[t[i]]);
@@ -204,6 +217,7 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   } else if (item.surface.program == Shading::gouraud) {
     a.numbers.metalness = 0;
     for (int i = 0; i < 3; ++i) {
+      if (a.barycentrics[i] == 0) continue;  // points and lines have fewer corners
       a.matte += a.barycentrics[i] * carried_[std::size_t(i)].matte;
       a.specular += a.barycentrics[i] * carried_[std::size_t(i)].specular;
       a.numbers.metalness += a.barycentrics[i] * numbers_[std::size_t(i)].metalness;

@@ -72,10 +72,10 @@ constexpr Feature table[] = {
      .define = "UNLIT",
      .name = "unlit",
      .yes = [](In in) -> std::string {
-       return in.mesh.topology == Topology::triangles ? "the material is unlit"
-                                                      : "points and lines are unlit";
+       return in.material.unlit ? "the material is unlit"
+                                : "points and lines without normals are unlit";
      },
-     .no = [](In) -> std::string { return "a lit material of triangles"; },
+     .no = [](In) -> std::string { return "a lit material of a mesh with normals"; },
      .told = always},
     {.count = &Variant::directionalLights,
      .define = "DIRECTIONAL_LIGHTS",

@@ -170,6 +170,9 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   for (std::size_t i = 0; i < parameterTexcoords.size(); ++i)
     layout.add(GLuint(8 + i), std::span(std::as_const(parameterTexcoords[i])));
   if (faces) layout.add(5, std::span(faceMesh.centers));
+  // Points and lines have no faces: of a line the last vertex counts for flat shading.
+  if (mesh.topology != Topology::triangles && !mesh.normals.empty())
+    layout.add(5, std::span(mesh.positions));
   layout.upload();
   const auto& indices = faces ? faceMesh.indices : mesh.indices;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());

@@ -165,7 +165,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   const Material& material = own ? *own : given;
   Variant v;
   v.program = programOf(look);
-  v.unlit = material.unlit || mesh.topology != Topology::triangles;
+  v.unlit = material.unlit || (mesh.topology != Topology::triangles && mesh.normals.empty());
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
   v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
   v.vertexColors = !mesh.colors.empty();

@@ -12,9 +12,20 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
+// Nothing of it can be seen: it is scaled to one point, or lets everything through.
+bool isUnseen(const Scene& scene, const Instance& instance) {
+  const glm::dmat3 linear(instance.world);
+  if (linear == glm::dmat3(0.0)) return true;
+  const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  return (material.alphaMode == AlphaMode::blend && material.alpha == 0) ||
+         (material.alphaMode == AlphaMode::mask && material.alpha < material.alphaCutoff);
+}
+
 template <typename Visit>
-void forEachVertex(const Scene& scene, Visit visit) {
+void forEachVertex(const Scene& scene, bool unseen, Visit visit) {
   for (const Instance& instance : scene.instances) {
+    if (isUnseen(scene, instance) != unseen) continue;
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const glm::dmat3 linear(instance.world);
     const glm::dvec3 offset = linear * mesh.origin + glm::dvec3(instance.world[3]);
@@ -51,6 +62,7 @@ struct View {
   double angle;  // radians, vertical
   bool orthographic;
   double orthographicHalfHeight;  // of a file's camera, or 0
+  double near = 0, far = 0;       // of a file's camera, or 0
 };
 
 View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double aspect) {
@@ -75,8 +87,12 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
     const double ahead = glm::dot(bounds.center - view.position, direction);
     view.focalPoint = view.position + direction * (ahead > radius * 1e-3 ? ahead : radius);
     view.orthographic = camera.orthographic || look.cameraOrthographic;
-    view.orthographicHalfHeight = camera.orthographic ? camera.halfHeight : 0;
-    if (!camera.orthographic) view.angle = camera.viewAngle;
+    // The camera's frame is seen whole: a narrower picture shows more above and below.
+    const double taller = camera.aspect > aspect ? camera.aspect / aspect : 1;
+    view.orthographicHalfHeight = camera.orthographic ? camera.halfHeight * taller : 0;
+    if (!camera.orthographic) view.angle = 2 * std::atan(std::tan(camera.viewAngle / 2) * taller);
+    view.near = camera.near;
+    view.far = camera.far;
     placed = true;
   }
   if (look.cameraViewUp) view.up = *look.cameraViewUp;
@@ -108,16 +124,20 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
 Bounds boundsOf(const Scene& scene) {
   const double inf = std::numeric_limits<double>::infinity();
   glm::dvec3 low(inf), high(-inf);
-  forEachVertex(scene, [&](const glm::dvec3& p) {
+  const auto extend = [&](const glm::dvec3& p) {
     low = glm::min(low, p);
     high = glm::max(high, p);
-  });
+  };
+  forEachVertex(scene, false, extend);
+  // A model of which nothing is seen is framed all the same.
+  const bool unseen = !(low.x <= high.x);
+  if (unseen) forEachVertex(scene, true, extend);
   if (!(low.x <= high.x)) return {};
   Bounds bounds{low + (high - low) * 0.5, 0};
   const double scale = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(scale > 0)) return bounds;
   double square = 0;  // in units of scale: huge and tiny models neither over- nor underflow
-  forEachVertex(scene, [&](const glm::dvec3& p) {
+  forEachVertex(scene, unseen, [&](const glm::dvec3& p) {
     const glm::dvec3 d = (p - bounds.center) / scale;
     square = std::max(square, glm::dot(d, d));
   });
@@ -169,6 +189,9 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
     // With the eye inside the sphere, near things show up to 1e-5 of the far distance.
     camera.near = std::max(center - bounds.radius - margin, camera.far * 1e-5);
     camera.near = std::min(camera.near, camera.far * 0.999);
+    camera.near = std::max(camera.near, view.near);
+    if (view.far > 0) camera.far = std::min(camera.far, view.far);
+    if (!(camera.far > camera.near)) camera.far = camera.near * 1.001;  // nothing lies between
   }
   return camera;
 }
@@ -176,7 +199,8 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
 namespace {
 
 // The look with the camera by position, focal point and way up, turned about +Y through the centre.
-Look definite(Look look, const Camera& camera, const Bounds& bounds, double degrees) {
+Look definite(Look look, const Scene& scene, const Camera& camera, const Bounds& bounds,
+              double degrees) {
   const double angle = degrees * radians, c = std::cos(angle), s = std::sin(angle);
   const auto turn = [&](const glm::dvec3& v) {
     return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
@@ -188,6 +212,11 @@ Look definite(Look look, const Camera& camera, const Bounds& bounds, double degr
   look.cameraFocalPoint = eye - turn(camera.axes[2]) * distance;
   look.cameraViewUp = turn(camera.axes[1]);
   look.cameraDirection.reset();
+  if (look.cameraIndex && !look.clippingRange) {
+    const FileCamera& of = scene.cameras[std::size_t(*look.cameraIndex)];
+    if (of.near > 0 || of.far > 0)
+      look.clippingRange = {of.near > 0 ? of.near : camera.near, of.far > 0 ? of.far : camera.far};
+  }
   look.cameraIndex.reset();
   look.cameraAzimuthAngle = look.cameraElevationAngle = 0;
   look.cameraOrthographic = camera.orthographic;
@@ -206,11 +235,11 @@ Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, doub
     look.cameraAzimuthAngle += degrees;
     return look;
   }
-  return definite(look, cameraFor(scene, bounds, base), bounds, degrees);
+  return definite(look, scene, cameraFor(scene, bounds, base), bounds, degrees);
 }
 
 Look definiteLook(const Look& look, const Scene& scene, const Bounds& bounds) {
-  return definite(look, cameraFor(scene, bounds, look), bounds, 0);
+  return definite(look, scene, cameraFor(scene, bounds, look), bounds, 0);
 }
 
 Bounds around(const Bounds& a, const Bounds& b) {

@@ -13,6 +13,7 @@ struct Bounds {
   double radius = 0.0;  ///< 0 if there is nothing, or nothing but one point
 };
 
+/// Pieces of scale 0 or alpha 0 do not count unless there is nothing else.
 /// The centre is that of the axis-aligned box around all vertices that are drawn, the radius the
 /// distance of the farthest of them.
 Bounds boundsOf(const Scene&);

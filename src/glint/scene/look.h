@@ -87,6 +87,9 @@ struct MaterialEdit {
   bool operator==(const MaterialEdit&) const = default;
 };
 
+/// Which axis of a model's file points up.
+enum class UpAxis { plusX, minusX, plusY, minusY, plusZ, minusZ };
+
 /// How a scene is looked at: every option that shapes a picture, as a value. The table of
 /// parameters.h says of each its name, unit, range, default and help.
 struct Look {
@@ -119,8 +122,11 @@ struct Look {
   double cameraZoomFactor = 0.9;
   bool cameraOrthographic = false;
   std::optional<int> cameraIndex;
-  std::optional<double> animationTime;      ///< seconds; empty: the pose the file stands in
-  std::string animation;                    ///< name or number; empty: the first
+  std::optional<double> animationTime;  ///< seconds; empty: the pose the file stands in
+  std::string animation;                ///< name, number or "all"; empty: the first
+  std::string scene;                    ///< of the file, name or number; empty: the file's own
+  std::string variant;                  ///< of the file's materials, a name; empty: the default
+  UpAxis up = UpAxis::plusY;
   std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
 
   glm::ivec2 resolution{1024, 1024};

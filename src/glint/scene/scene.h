@@ -23,7 +23,8 @@ struct Mesh {
   /// own origin that float positions would lose digits when transformed.
   glm::dvec3 origin{0.0};
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  ///< unit length, one a position; empty unless triangles
+  std::vector<glm::vec3> normals;  ///< unit length, one a position; triangles always have them,
+                                   ///< points and lines without are unlit
   /// xyz unit, to where the normal map's picture goes right, w its handedness (1 or -1), one a
   /// position; empty unless the material has a normal map that the mesh has coordinates for.
   std::vector<glm::vec4> tangents;
@@ -148,6 +149,7 @@ struct FileCamera {
   bool orthographic = false;
   double viewAngle = 0.6;   ///< radians, vertical; perspective only
   double halfHeight = 1.0;  ///< world units; orthographic only
+  double aspect = 0.0;      ///< width / height of its frame; 0 where the picture decides
   double near = 0.0;        ///< 0 where the file gives none
   double far = 0.0;         ///< 0 where the file gives none (infinite)
 };
@@ -203,6 +205,8 @@ struct Scene {
   /// What the file's lights are multiplied by unless a look says otherwise; see lights.h.
   double lightScale = 1;
   std::vector<FileAnimation> animations;
+  std::vector<std::string> scenes;        ///< names of all that the file has, which may be empty
+  std::vector<std::string> variants;      ///< likewise, of its materials
   std::vector<FileExtension> extensions;  ///< for `glint info`, as are skins and morphs
   std::vector<FileSkin> skins;
   std::vector<FileMorph> morphs;

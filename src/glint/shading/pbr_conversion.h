@@ -1,5 +1,8 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <utility>
+
 namespace glint {
 
 // glTF's physically based material, as Phong's material. Base colour becomes C and is left to
@@ -58,5 +61,22 @@ double dielectricReflectance(const PbrParameters& pbr);
 /// 0.6 for metals, so that they keep their colour where there is no environment to reflect; both
 /// interpolated by `metallic`. m_a = 1.
 ConvertedParameters convertPbr(const PbrParameters& pbr);
+
+/// KHR_materials_pbrSpecularGlossiness, with its defaults. Linear RGB, [0, 1]; values out of range
+/// are clamped.
+struct SpecularGlossiness {
+  glm::dvec3 diffuse{1.0};
+  glm::dvec3 specular{1.0};  ///< reflectance at normal incidence
+  double glossiness = 1.0;   ///< 1 - roughness
+};
+
+/// The same in the notes' parameters, with C.
+///
+/// A material that has less diffuse light than mirror light is a metal by that share
+/// mu = 1 - max(diffuse) / max(specular) (0 where specular is at most 0.04, as of every
+/// dielectric): m_sm = mu, and C goes from `diffuse` to `specular` with it. The rest is
+/// convertPbr() with metallic mu, roughness 1 - glossiness and the n whose reflectance at normal
+/// incidence is max(specular). A coloured highlight of a dielectric becomes white.
+std::pair<ConvertedParameters, glm::dvec3> convertSpecularGlossiness(const SpecularGlossiness&);
 
 }  // namespace glint
