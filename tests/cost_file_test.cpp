@@ -77,8 +77,8 @@ TEST(CostFile, RefusesWhatIsNoTable) {
     json[Json::json_pointer(pointer)] = value;
     return json.dump();
   };
-  refused("", "is not JSON");
-  refused("{\"glint-costs\": 1", "is not JSON");
+  refused("", "is not valid JSON");
+  refused("{\"glint-costs\": 1", "is not valid JSON");
   refused("[1, 2]", "is no table of costs");
   refused("{\"glint-look\": 1}", "is no table of costs");
   refused(changed("/glint-costs", 2), "version 2, and this glint reads 1");

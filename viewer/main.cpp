@@ -7,8 +7,10 @@
 #include "glint/options/heap.h"
 #include "glint/options/help.h"
 #include "glint/options/look_options.h"
+#include "glint/options/process.h"
 
 int main(int argc, char** argv) {
+  glint::prepareProcess();
   glint::adviseHeap();
   CLI::App app(
       "shows a model in a window: edit materials, lights and camera, compare two looks, plot the "

@@ -5,7 +5,10 @@
 #include <set>
 
 #include "glint/image/error.h"
+#include "glint/image/json_text.h"
+#include "glint/image/printable.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_key.h"
 
 namespace glint::viewer {
 
@@ -18,12 +21,12 @@ std::vector<int> drawnMaterials(const Scene& scene) {
 }
 
 std::string materialKey(const Scene& scene, int index) {
-  return index < 0 ? "" : scene.materials[std::size_t(index)].name;
+  return index < 0 ? "" : materialKey(scene.materials[std::size_t(index)]);
 }
 
 std::string materialLabel(const Scene& scene, int index) {
   const std::string key = materialKey(scene, index);
-  return key.empty() ? "all materials" : key;
+  return key.empty() ? "all materials" : printable(key);
 }
 
 Material effectiveMaterial(const Scene& scene, const Look& look, int index) {
@@ -31,6 +34,7 @@ Material effectiveMaterial(const Scene& scene, const Look& look, int index) {
   const std::vector<int> drawn = drawnMaterials(scene);
   Material first = scene.materials[std::size_t(drawn.empty() ? 0 : drawn.front())];
   first.name.clear();  // the edits of all materials alone
+  first.index = -1;
   return editedMaterial(first, look);
 }
 
@@ -58,10 +62,12 @@ std::string dropMissing(Look& look, const Scene& scene) {
   const auto add = [&](const std::string& what) {
     missing += (missing.empty() ? "" : ", ") + what;
   };
+  gatherMaterialEdits(look, scene);
+  std::set<std::string> known{""};
+  for (const Material& m : scene.materials)
+    for (std::string& key : materialKeys(m)) known.insert(std::move(key));
   std::erase_if(look.material, [&](const auto& each) {
-    const bool there = each.first.empty() ||
-                       std::ranges::any_of(scene.materials,
-                                           [&](const Material& m) { return m.name == each.first; });
+    const bool there = known.contains(each.first);
     if (!there) add("material '" + each.first + "'");
     return !there;
   });
@@ -101,14 +107,16 @@ std::string materialText(const ShadingParameters& values) {
 
 void pasteMaterial(Look& look, const std::string& key, const std::string& text) {
   Look changed = look;
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) {
+  std::string error;
+  const std::optional<Json> parsed = parseJsonText<Json>(text, error);
+  if (!parsed) {
     if (text.find('=') == std::string::npos || text.find('\n') != std::string::npos)
       throw InputError(
           "the clipboard holds no material: copy one here, or text such as "
           "{\"exponent\": 40} or exponent=40,color=#c04020");
     parseMaterialEdit(changed, key.empty() ? text : key + ":" + text);
   } else {
+    const Json& json = *parsed;
     const Json* from = json.is_object() && json.contains("extras") ? &json["extras"] : &json;
     if (from->is_object() && from->contains("glint")) from = &(*from)["glint"];
     if (!from->is_object() || from->empty())

@@ -10,6 +10,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
 #include "glint/options/parameters.h"
 
 namespace glint::viewer {
@@ -32,9 +33,8 @@ int tryLock(const fs::path& path, int flags) {
 
 std::optional<Recovered> read(const fs::path& path) {
   try {
-    const auto bytes = readFile(path.string());
-    const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
-                                  reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+    const auto bytes = readFile(path.string(), Noted::no);
+    const auto json = parsedJson<Json>({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     Recovered found;
     found.file = path;
     found.model = json.at("model").get<std::string>();
@@ -87,7 +87,7 @@ void Recovery::keep(const Look& look, bool unsaved, const fs::path& model) {
     Json json;
     json["glint-recovery"] = 1;
     json["model"] = model.empty() ? "" : fs::weakly_canonical(model, error).string();
-    json["look"] = Json::parse(saveLook(look));
+    json["look"] = parsedJson<Json>(saveLook(look));
     const std::string text = json.dump(2) + "\n";
     OutputFile file(file_.string());
     file.write(std::as_bytes(std::span(text)));

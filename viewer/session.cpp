@@ -7,7 +7,9 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/material_key.h"
 #include "materials.h"
 
 namespace glint::viewer {
@@ -57,30 +59,28 @@ bool Session::unsaved() const { return withoutCamera(document.a) != withoutCamer
 
 void Session::saveModel(const std::filesystem::path& path) {
   if (!model) throw InputError("there is no model to save");
-  std::set<std::string> names = writtenMaterials;
-  const bool all = document.a.material.contains("");
-  for (const int index : drawnMaterials(model->scene)) {
-    const std::string key = materialKey(model->scene, index);
-    if (all || document.a.material.contains(key)) names.insert(key);
-  }
+  const auto& materials = model->scene.materials;
+  std::set<std::size_t> edited = writtenMaterials;
+  for (const int index : drawnMaterials(model->scene))
+    if (isEdited(materials[std::size_t(index)], document.a)) edited.insert(std::size_t(index));
   std::vector<MaterialPatch> patches;
-  for (std::size_t i = 0; i < model->scene.materials.size(); ++i) {
-    const Material& each = model->scene.materials[i];
-    if (names.contains(each.name)) patches.push_back(patchOf(i, editedMaterial(each, document.a)));
-  }
+  for (const std::size_t i : edited)
+    patches.push_back(patchOf(i, editedMaterial(materials[i], document.a)));
   const std::string source = model->path.string();
-  const std::vector<std::byte> original = readFile(source);
+  const std::vector<std::byte> original = readFile(source, Noted::no);
   const auto folder = [](const std::filesystem::path& p) {
     return std::filesystem::weakly_canonical(p).parent_path();
   };
   if (folder(path) != folder(model->path) && refersToFiles(original, source))
     throw InputError(source + " refers to other files beside it: save it in the same folder");
   const std::vector<std::byte> bytes = patchGltf(original, patches, source);
+  // The model itself may be replaced, what it is drawn from not.
+  if (std::error_code none; std::filesystem::equivalent(path, source, none)) forgetReadFile(source);
   OutputFile file(path.string());
   file.write(bytes);
   file.commit();
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(model->path))
-    writtenMaterials = names;
+    writtenMaterials = edited;
   saved.material = document.a.material;
   say("saved the materials into " + path.string());
 }
@@ -89,6 +89,7 @@ void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution)
   Look look = document.a;
   look.resolution = resolution;
   const std::string text = glint::saveLook(look);
+  forgetReadFile(lookPath.string());  // of the look that is edited
   OutputFile file(path.string());
   file.write(std::as_bytes(std::span(text)));
   file.commit();

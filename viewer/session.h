@@ -70,8 +70,8 @@ struct Session {
 
   std::filesystem::path lookPath;  ///< where saveLook writes without asking; empty: asks
   Look saved;                      ///< as it was opened or last saved
-  /// Names of materials that stand edited in the model's file since it was opened.
-  std::set<std::string> writtenMaterials;
+  /// Materials that stand edited in the model's file since it was opened, by their places in it.
+  std::set<std::size_t> writtenMaterials;
 
   void say(const std::string& text);
   void fail(const std::string& text);

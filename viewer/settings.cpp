@@ -8,6 +8,7 @@
 #include <span>
 
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
 #include "xdg.h"
 
 namespace glint::viewer {
@@ -42,7 +43,7 @@ std::filesystem::path settingsFile() {
 
 Settings readSettings(const std::string& text) {
   Settings s;
-  const Json json = Json::parse(text, nullptr, false);
+  const auto json = parsedJson<Json>(text);
   if (!json.is_object()) return s;
   glm::dvec2 window(s.window);
   if (const auto found = json.find("window");

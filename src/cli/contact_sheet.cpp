@@ -12,6 +12,7 @@
 #include "glint/image/file.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_key.h"
 #include "interrupt.h"
 
 namespace glint {
@@ -101,7 +102,8 @@ void fill(Image& image, int x, int y, int width, int height, float value) {
 }  // namespace
 
 Sweep::Sweep(const std::string& text) : text_(text) {
-  const auto equals = text.find('=');
+  const std::size_t colon = text.starts_with('"') ? endOfMaterialKey(text) : std::string::npos;
+  const auto equals = text.find('=', colon == std::string::npos ? 0 : colon);
   if (equals == std::string::npos) refuse(text, "give KEY=FROM:TO:STEPS");
   key_ = text.substr(0, equals);
   if (key_.starts_with("--")) key_.erase(0, 2);
@@ -109,10 +111,10 @@ Sweep::Sweep(const std::string& text) : text_(text) {
   if (const Parameter* p = lookNumber(key_)) {
     logarithmic = p->slider.logarithmic;
   } else {
-    const auto colon = key_.rfind(':');
-    if (colon != std::string::npos) {
-      material_ = key_.substr(0, colon);
-      key_.erase(0, colon + 1);
+    const auto end = key_.rfind(':');
+    if (end != std::string::npos) {
+      material_ = key_.substr(0, end);
+      key_.erase(0, end + 1);
     }
     const MaterialParameter* const m = materialNumber(key_);
     if (!m) refuse(text, "there is no number '" + key_ + "': give one of " + knownNames());

@@ -9,8 +9,10 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 #include "glint/options/help.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/material_key.h"
 
 namespace glint {
 namespace {
@@ -42,9 +44,14 @@ std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     const bool last = i + 1 == scene.materials.size();
-    const bool shown = std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                                   [&](const Mesh& m) { return std::size_t(m.material) == i; });
-    if (look.material.contains(material.name) || (all && (!last || shown)))
+    const auto keys = materialKeys(material);
+    const bool byName = std::any_of(keys.begin() + 1, keys.end(), [&](const std::string& key) {
+      return look.material.contains(key);
+    });
+    const bool shown =
+        last && std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                            [&](const Mesh& m) { return std::size_t(m.material) == i; });
+    if (byName || (all && (!last || shown)))
       patches.push_back(patchOf(i, editedMaterial(material, look)));
   }
   return patches;
@@ -73,7 +80,10 @@ void copyReferred(const ConvertOptions& options, std::span<const std::byte> byte
                        ", outside of its folder: write " + options.out + " beside it");
     std::vector<std::byte> content = readFile((from / name).string());
     const fs::path target = to / name;
-    if (fs::exists(target) && readFile(target.string()) != content)
+    if (fs::weakly_canonical(target) == fs::weakly_canonical(options.out))
+      throw InputError(options.out + ": " + options.in +
+                       " refers to a file of this name: " + "give another name");
+    if (fs::exists(target) && readFile(target.string(), Noted::no) != content)
       throw InputError(target.string() + ": is another file than the one of " + options.in +
                        ": write to another folder");
     if (!fs::exists(target)) copies.emplace_back(target.string(), std::move(content));
@@ -102,8 +112,9 @@ int convert(const ConvertOptions& options) {
   if (patches.empty())
     printWarning("convert: no --material is given and the look has none: the same file is written");
   const auto patched = patchGltf(bytes, patches, options.in);
-  copyReferred(options, bytes);
+  if (options.inPlace) forgetReadFile(options.in);
   OutputFile file(options.out);
+  copyReferred(options, bytes);
   file.write(patched);
   file.commit();
   return done;
@@ -128,8 +139,9 @@ Command addConvert(CLI::App& app) {
       ->required();
   command
       ->add_option("--material", options->materials,
-                   "set parameters of every material, or of NAME, as in glint render; repeatable")
-      ->type_name("[NAME:]key=value,...")
+                   "set parameters as in glint render: of every material, of those called NAME, of "
+                   "the N-th of them, or of the file's N-th; repeatable")
+      ->type_name("[NAME:|NAME#N:|#N:]key=value,...")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 #include <optional>
@@ -14,19 +15,29 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
+#include "glint/image/task.h"
 
 namespace glint {
 namespace {
 
 namespace fs = std::filesystem;
 
+std::string temporaryFolderName() {
+  const char* given = std::getenv("TMPDIR");
+  return given && *given ? printablePath(given) : "/tmp";
+}
+
 /// A file that goes when its user does.
 struct TemporaryPng {
   std::string path;
   TemporaryPng() {
-    std::string name = (fs::temp_directory_path() / "glint-XXXXXX.png").string();
-    const int file = ::mkstemps(name.data(), 4);
-    if (file < 0) throw InputError(name + ": cannot be made: set TMPDIR to a folder with room");
+    std::error_code error;
+    const fs::path folder = fs::temp_directory_path(error);
+    std::string name = (folder / "glint-XXXXXX.png").string();
+    const int file = error ? -1 : ::mkstemps(name.data(), 4);
+    if (file < 0)
+      throw InputError("no temporary file can be made in " + temporaryFolderName() +
+                       ": set TMPDIR to a folder that is there and has room");
     ::close(file);
     path = name;
   }
@@ -58,8 +69,7 @@ std::vector<std::byte> pngOf(const std::string& path, const StoredImage& image) 
 }
 
 void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
-  auto reading =
-      std::async(std::launch::async, [&] { return readStoredImage(entry.a, settings.layer); });
+  auto reading = startTask([&] { return readStoredImage(entry.a, settings.layer); });
   StoredImage b;
   std::string errorB;
   try {
@@ -140,6 +150,9 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
   } catch (const std::bad_alloc&) {
     entry.status = unusable;
     entry.error = "out of memory: compare smaller pictures, or fewer at a time (--jobs)";
+  } catch (const std::system_error& error) {
+    entry.status = unusable;
+    entry.error = failureOf(error, entry.name);
   }
   entry.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

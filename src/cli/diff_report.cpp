@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
 
 namespace glint {
 namespace {
@@ -21,7 +22,7 @@ std::string shortNumber(double value) {
 
 /// Text with bytes that are no UTF-8 replaced.
 std::string utf8(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+  return parsedJson<Json>(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
       .get<std::string>();
 }
 

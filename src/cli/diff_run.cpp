@@ -15,6 +15,8 @@
 #include "diff_html.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
+#include "glint/image/task.h"
 #include "glint/options/outputs.h"
 #include "progress.h"
 
@@ -95,6 +97,7 @@ void update(const DiffRequest& request, DiffEntry& entry, const std::string& tar
   const bool made = !isThere(target);
   std::error_code ignored;
   fs::create_directories(fs::path(target).parent_path(), ignored);
+  forgetReadFile(target);
   OutputFile file(target);
   file.write(readFile(entry.b));
   file.commit();
@@ -134,7 +137,7 @@ void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* p
   };
   {
     std::vector<std::jthread> workers;
-    for (int i = 1; i < jobs; ++i) workers.emplace_back(work);
+    for (int i = 1; i < jobs && addWorker(workers, work);) ++i;
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "glint/budget/error_budget.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/printable.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/render/decode.h"
@@ -131,7 +132,7 @@ Json infoJson(const Scene& scene, const Look& look) {
 }
 
 std::string oneLine(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return printable(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 void printChoice(const Json& choice) {
@@ -154,8 +155,8 @@ void printChoice(const Json& choice) {
 
 /// A skin or a mesh with how many `things` it has and those that have names.
 void printList(std::size_t index, const std::string& name, const Json& names, const char* thing) {
-  std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : name) << ", " << names.size()
-            << " " << thing << (names.size() == 1 ? "" : "s");
+  std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : printable(name)) << ", "
+            << names.size() << " " << thing << (names.size() == 1 ? "" : "s");
   bool first = true;
   for (const Json& n : names) {
     if (n == "") continue;
@@ -166,7 +167,7 @@ void printList(std::size_t index, const std::string& name, const Json& names, co
 }
 
 void print(const Json& json) {
-  std::cout << json["model"].get<std::string>() << ": " << json["triangles"] << " triangles, "
+  std::cout << oneLine(json["model"]) << ": " << json["triangles"] << " triangles, "
             << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
             << json["radius"] << " about " << json["center"].dump() << "\n";
   if (!json["box"].is_null()) {
@@ -183,7 +184,7 @@ void print(const Json& json) {
   std::cout << "\nMaterials\n";
   for (const Json& m : json["materials"]) {
     const std::string name = m["name"];
-    std::cout << "  " << (name.empty() ? "(no name)" : name) << "\n   ";
+    std::cout << "  " << (name.empty() ? "(no name)" : printable(name)) << "\n   ";
     for (const auto& [key, value] : m.items())
       if (key != "name") std::cout << " " << key << "=" << oneLine(value);
     std::cout << "\n";

@@ -9,6 +9,7 @@
 #include "glint/options/exit_status.h"
 #include "glint/options/heap.h"
 #include "glint/options/help.h"
+#include "glint/options/process.h"
 #include "shorthand.h"
 
 namespace {
@@ -34,6 +35,7 @@ constexpr std::array<std::pair<std::string_view, glint::Command (*)(CLI::App&)>,
 }  // namespace
 
 int main(int argc, char** argv) {
+  glint::prepareProcess();
   glint::adviseHeap();
   CLI::App app(description, "glint");
   app.set_version_flag("-V,--version", "glint " GLINT_VERSION, "print the version and exit");

@@ -11,6 +11,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 #include "interrupt.h"
 
 namespace glint {
@@ -47,6 +48,7 @@ ModelList::ModelList(const std::string& path) : path_(path == "-" ? "standard in
     throw InputError("--from-list: " + printablePath(path_) +
                      ": Is a directory: give a file with a model on each line");
   seekable_ = S_ISREG(status.st_mode);
+  noteReadFile(file_, path);
   if (seekable_) begin_ = ::lseek(file_, 0, SEEK_CUR);
 }
 

@@ -6,6 +6,8 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
+#include "glint/image/task.h"
+#include "glint/options/exit_status.h"
 #include "glint/options/picture_text.h"
 #include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
@@ -39,7 +41,7 @@ ModelLoader::ModelLoader(ModelList& list, PicturePlan& plan, const RenderOptions
       options_(options),
       look_(look),
       limit_(jobsOf(options)),
-      reader_([this] { readList(); }) {}
+      reader_(startThread([this] { readList(); })) {}
 
 ModelLoader::~ModelLoader() {
   {
@@ -47,10 +49,17 @@ ModelLoader::~ModelLoader() {
     abandoned_ = true;
     changed_.notify_all();
   }
-  reader_.join();
+  if (reader_.joinable()) reader_.join();
 }
 
 void ModelLoader::readList() {
+  isThreaded_ = true;
+  while (readModel()) continue;
+}
+
+// Begins to load the next model of the list; false at its end.
+bool ModelLoader::readModel() {
+  std::exception_ptr failure;
   try {
     while (const auto entry = list_.next()) {
       std::vector<PlannedPicture> pictures;
@@ -60,21 +69,25 @@ void ModelLoader::readList() {
         if (pictures.empty()) continue;
       } catch (const InputError& refusal) {
         pictures.resize(1);
-        error = printablePath(refusal.what());
+        error = refusal.what();
       }
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
+      if (isThreaded_)
+        changed_.wait(lock, [this] { return abandoned_ || models_.size() < limit_; });
       if (abandoned_) break;
-      models_.push_back(std::async(std::launch::async, &ModelLoader::load, this, *entry,
-                                   std::move(pictures), std::move(error)));
+      models_.push_back(startTask(
+          [this, entry = *entry, pictures, error] { return load(entry, pictures, error); }));
       changed_.notify_all();
+      return true;
     }
   } catch (...) {
-    failure_ = std::current_exception();
+    failure = std::current_exception();
   }
   const std::lock_guard lock(mutex_);
+  failure_ = failure;
   ended_ = true;
   changed_.notify_all();
+  return false;
 }
 
 LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
@@ -112,11 +125,8 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     for (const LeftOut& each : leftOut(model.scene, look_))
       if (each.shows) model.scene.warnings.push_back(leftOutText(each));
     model.decodeTime = since(decode);
-  } catch (const Error& failure) {
-    model.error = printablePath(failure.what());
-  } catch (const std::bad_alloc&) {
-    model.error =
-        printablePath(entry.model) + ": out of memory: the model is too large for this machine";
+  } catch (const std::exception& failure) {
+    model.error = failureOf(failure, entry.model);
   }
   return model;
 }
@@ -148,6 +158,7 @@ void ModelLoader::lookThroughFrames(LoadedModel& model) const {
 }
 
 void ModelLoader::waitForFirst() {
+  if (!reader_.joinable()) readModel();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
   if (models_.empty()) return;
@@ -157,6 +168,7 @@ void ModelLoader::waitForFirst() {
 }
 
 std::optional<LoadedModel> ModelLoader::next() {
+  if (!reader_.joinable() && models_.empty() && !ended_) readModel();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
   if (Interrupt::signal() != 0) return {};

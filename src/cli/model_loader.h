@@ -51,6 +51,7 @@ class ModelLoader {
 
  private:
   void readList();
+  bool readModel();
   void lookThroughFrames(LoadedModel& model) const;
   LoadedModel load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
                    std::string error) const;
@@ -64,9 +65,9 @@ class ModelLoader {
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   std::deque<std::future<LoadedModel>> models_;
-  bool ended_ = false, abandoned_ = false;
+  bool ended_ = false, abandoned_ = false, isThreaded_ = false;
   std::exception_ptr failure_;
-  std::thread reader_;
+  std::thread reader_;  ///< none where the system gives none: next() then reads
 };
 
 }  // namespace glint

@@ -2,7 +2,8 @@
 
 #include <chrono>
 
-#include "glint/image/error.h"
+#include "glint/image/task.h"
+#include "glint/options/exit_status.h"
 
 namespace glint {
 namespace {
@@ -11,7 +12,7 @@ constexpr std::size_t waitingLimit = 3;
 
 }  // namespace
 
-PictureEncoder::PictureEncoder() : thread_([this] { work(); }) {}
+PictureEncoder::PictureEncoder() : thread_(startThread([this] { work(); })) {}
 
 PictureEncoder::~PictureEncoder() {
   {
@@ -19,7 +20,7 @@ PictureEncoder::~PictureEncoder() {
     ended_ = true;
     changed_.notify_all();
   }
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 Image PictureEncoder::takeImage() {
@@ -41,8 +42,8 @@ bool PictureEncoder::write(const std::shared_ptr<OutgoingPicture>& picture, Imag
     std::string error;
     try {
       if (picture->error.empty()) picture->writer->write(*image);
-    } catch (const Error& failure) {
-      error = failure.what();
+    } catch (const std::exception& failure) {
+      error = failureOf(failure, "the picture");
     }
     const std::lock_guard lock(mutex_);
     if (!error.empty()) picture->error = error;
@@ -56,6 +57,7 @@ bool PictureEncoder::write(const std::shared_ptr<OutgoingPicture>& picture, Imag
 void PictureEncoder::then(std::function<void()> task) { add(std::move(task)); }
 
 void PictureEncoder::add(std::function<void()> task) {
+  if (!thread_.joinable()) return task();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return tasks_.size() < waitingLimit || failure_; });
   if (failure_) std::rethrow_exception(failure_);

@@ -1,14 +1,26 @@
 #include "picture_plan.h"
 
+#include <filesystem>
+
+#include "glint/gltf/model_files.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
+#include "glint/image/read_files.h"
 #include "glint/options/outputs.h"
 #include "model_loader.h"
 
 namespace glint {
+namespace {
+
+/// Of the files of --terms, those that every model with a light has.
+constexpr const char* termWords[] = {"ambient", "diffuse-0", "specular-0", "normal", "depth"};
+
+}  // namespace
+
 PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
     : options_(options),
+      list_(list),
       pattern_(options.output, options.hasFrames()),
       shardsFrames_(!options.hasList() && options.models.size() == 1) {
   if (!options.reference.empty()) referencePattern_.emplace(options.reference, options.hasFrames());
@@ -28,6 +40,39 @@ PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
   });
   count_ = count;
   namesChecked_ = true;
+}
+
+void PicturePlan::forEachOutput(const std::function<void(const std::string&)>& visit) {
+  list_.lookThrough([&](const ModelEntry& entry) {
+    for (const PlannedPicture& picture : named(entry)) {
+      visit(picture.output);
+      if (!options_.terms) continue;
+      for (const char* word : termWords) visit(withWord(picture.output, word));
+    }
+  });
+}
+
+void PicturePlan::noteInputs(bool replaces) {
+  forEachOutput([&](const std::string& output) {
+    std::error_code error;
+    replaces = replaces || std::filesystem::exists(output, error);
+  });
+  list_.lookThrough([&](const ModelEntry& entry) {
+    if (replaces)
+      noteModelFiles(entry.model);
+    else
+      noteReadFile(entry.model);
+    if (!referencePattern_) return;
+    for (const PlannedPicture& picture : named(entry)) noteReadFile(picture.reference);
+  });
+}
+
+void PicturePlan::checkOutputs() {
+  forEachOutput([&](const std::string& output) {
+    if (isReadFile(output))
+      throw InputError("-o " + options_.output + ": " + printablePath(output) +
+                       " is a file that is read and would be lost: give another name");
+  });
 }
 
 std::vector<PlannedPicture> PicturePlan::picturesOf(const ModelEntry& entry) {
@@ -74,7 +119,7 @@ void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture
                        ": -o writes that file, it would be compared with itself: give another");
     const std::size_t* other = names_.take(picture.output, entry.number);
     if (options_.terms)
-      for (const char* word : {"ambient", "diffuse-0", "specular-0", "normal", "depth"}) {
+      for (const char* word : termWords) {
         const auto* const same = names_.take(withWord(picture.output, word), entry.number);
         other = other ? other : same;
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ class PicturePlan {
   /// Throws InputError if a picture has the name of another.
   std::vector<PlannedPicture> picturesOf(const ModelEntry& entry);
 
+  /// Notes the models, what they are compared with and, if a picture of the plan or something else
+  /// that is written is there already (`replaces`), the files that the models name as read.
+  void noteInputs(bool replaces);
+  /// Throws InputError if a picture would be written over a file that is read.
+  void checkOutputs();
+
   /// How many there are in all, if that is known.
   std::optional<std::size_t> count() const { return count_; }
 
@@ -38,7 +45,10 @@ class PicturePlan {
   std::vector<PlannedPicture> named(const ModelEntry& entry) const;
   void take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures);
 
+  void forEachOutput(const std::function<void(const std::string&)>& visit);
+
   const RenderOptions& options_;
+  ModelList& list_;
   OutputPattern pattern_;
   std::optional<OutputPattern> referencePattern_;
   Shard shard_;

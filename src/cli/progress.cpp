@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "glint/image/printable.h"
+
 namespace glint {
 
 using namespace std::chrono_literals;
@@ -28,7 +30,7 @@ void Progress::show(double share, std::string_view what) {
   const int full = int(part * width);
   std::cerr << "\r" << task_ << " [" << std::string(std::size_t(full), '#')
             << std::string(std::size_t(width - full), '.') << "] " << int(100 * part) << " % "
-            << what << "\033[K" << std::flush;
+            << printable(what) << "\033[K" << std::flush;
 }
 
 }  // namespace glint

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <filesystem>
 #include <future>
 #include <memory>
 
@@ -32,8 +33,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   const auto started = Clock::now();
   checkRenderOptions(options);
   const std::string& saveFile = makeLook.saveFile();
-  checkOutputs({{"-o", options.output}, {"--json", options.json}, {"--save-look", saveFile}},
-               options.models);
+  checkOutputs({{"-o", options.output}, {"--json", options.json}, {"--save-look", saveFile}}, {});
   if (options.hasList()) checkOutputs({{"--from-list", "-"}, {"--save-look", saveFile}}, {});
   const bool reference = options.usesReference();
   const Backend backend =
@@ -41,6 +41,9 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   const Interrupt interrupt;
   const auto list = listOf(options);
   PicturePlan plan(options, *list);
+  std::error_code ignored;
+  plan.noteInputs(std::filesystem::exists(options.json, ignored) ||
+                  std::filesystem::exists(saveFile, ignored));
   const std::vector<Sweep> sweeps(options.sweeps.begin(), options.sweeps.end());
   Look look = makeLook();
   if (reference) {
@@ -53,6 +56,9 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
         "--save-look: the forms that --max-error or --shading auto choose differ from picture to "
         "picture: give one model and picture");
   GlslSources sources = options.glsl.empty() ? GlslSources() : GlslSources(options.glsl);
+
+  plan.checkOutputs();
+  checkOutputs({{"--json", options.json}, {"--save-look", saveFile}}, {});
 
   // Loading the driver and reading the first model take about as long: side by side.
   std::future<std::unique_ptr<Context>> opening;

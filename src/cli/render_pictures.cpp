@@ -7,6 +7,7 @@
 #include "glint/budget/error_budget.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
+#include "glint/options/exit_status.h"
 #include "glint/options/parameters.h"
 #include "glint/options/picture_text.h"
 #include "interrupt.h"
@@ -36,12 +37,12 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
   std::optional<StoredImage> reference;
   try {
     reference = readStoredImage(picture.reference);
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
     const bool missing = !std::filesystem::exists(picture.reference);
     fail(result,
          missing ? printablePath(picture.reference) + ": no such picture to compare with: take " +
                        printablePath(picture.output) + " if it is as it should be"
-                 : error.what(),
+                 : failureOf(error, picture.reference),
          missing ? noBaseline : unusable);
     return;
   }
@@ -58,8 +59,8 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
            printablePath(picture.output) + ": differs from " + printablePath(picture.reference) +
                ": mean FLIP " + std::to_string(found.values.at("flip")) + ": see glint diff",
            differs);
-  } catch (const InputError& error) {
-    fail(result, error.what());
+  } catch (const std::exception& error) {
+    fail(result, failureOf(error, picture.output));
   }
 }
 
@@ -88,10 +89,8 @@ class ModelDrawing {
       try {
         drawInto(planned, start);
         return;
-      } catch (const Error& failure) {
-        error = failure.what();
-      } catch (const std::bad_alloc&) {
-        error = planned.output + ": out of memory: give a smaller --resolution or model";
+      } catch (const std::exception& failure) {
+        error = failureOf(failure, planned.output);
       }
     }
     PictureResult result = resultFor(model_, planned);
@@ -204,8 +203,8 @@ class ModelDrawing {
     try {
       if (out.whole) nan = out.whole();
       if (out.writer && out.error.empty()) out.writer->finish();
-    } catch (const Error& error) {
-      out.error = error.what();
+    } catch (const std::exception& error) {
+      out.error = failureOf(error, planned.output);
     }
     if (out.writer) nan = out.writer->nanPixels();
     out.writer.reset();

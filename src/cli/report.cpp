@@ -6,6 +6,7 @@
 
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
 
 namespace glint {
@@ -19,7 +20,7 @@ Json variantsJson(const Scene& scene, const DrawList& list, const Look& given) {
   for (const DrawItem& item : list.items) {
     firsts.emplace(item.variant, &item);
     auto& names = materials[item.variant];
-    const std::string& name = scene.materials[std::size_t(item.material)].name;
+    const std::string name = materialKey(scene.materials[std::size_t(item.material)]);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   Json all = Json::array();

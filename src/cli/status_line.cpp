@@ -4,7 +4,8 @@
 
 #include <iostream>
 
-#include "glint/image/error.h"
+#include "glint/image/printable.h"
+#include "glint/options/outputs.h"
 
 namespace glint {
 
@@ -25,21 +26,19 @@ void StatusLine::show(const std::string& text) {
     return;
   last_ = now;
   shown_ = true;
-  std::cerr << "\r" << text << "\033[K" << std::flush;
+  std::cerr << "\r" << printable(text) << "\033[K" << std::flush;
 }
 
 void StatusLine::print(const std::string& line) {
   const std::lock_guard lock(mutex_);
   clear();
-  std::cerr << line + "\n";
+  std::cerr << printable(line) + "\n";
 }
 
 void StatusLine::printOut(const std::string& line) {
   const std::lock_guard lock(mutex_);
   clear();
-  std::cout << line + "\n" << std::flush;
-  if (!std::cout)
-    throw InputError("standard output: cannot be written: the reader of the report went away");
+  printWhole(line + "\n");
 }
 
 double StatusLine::seconds() const {

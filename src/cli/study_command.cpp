@@ -243,10 +243,11 @@ Command addStudy(CLI::App& app) {
   auto look = addLookOptions(*command);
   return [given, look, command] {
     if (!given->costs.empty()) return runMeasureCosts(*given, *command);
-    checkOutputs({{"--json", given->json},
-                  {"--markdown", given->markdown},
-                  {"--save-look", look.saveFile()}},
-                 {given->model});
+    std::vector<OutputOption> outputs{
+        {"--json", given->json}, {"--markdown", given->markdown}, {"--save-look", look.saveFile()}};
+    for (const char* name : {"/study.json", "/study.csv", "/study.svg", "/study.html"})
+      if (!given->output.empty()) outputs.push_back({"--output", given->output + name});
+    checkOutputs(outputs, {given->model});
     for (const std::string& path : {given->json, given->markdown, look.saveFile()})
       given->stdoutTaken = given->stdoutTaken || path == "-";
     const Look asked = look();

@@ -6,6 +6,8 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
+#include "glint/image/printable.h"
 
 namespace glint {
 namespace {
@@ -34,14 +36,15 @@ class Reader {
 
   CostFile read() const {
     const auto bytes = readFile(path_);
-    const Json json =
-        Json::parse(reinterpret_cast<const char*>(bytes.data()),
-                    reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
-    if (json.is_discarded()) fail("is not JSON");
+    std::string error;
+    const std::optional<Json> parsed =
+        parseJsonText<Json>({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, error);
+    if (!parsed) fail("is " + error);
+    const Json& json = *parsed;
     if (!json.is_object() || !json.contains("glint-costs")) fail("is no table of costs");
     if (json["glint-costs"] != version)
-      fail("is a table of version " + json["glint-costs"].dump() + ", and this glint reads " +
-           std::to_string(version));
+      fail("is a table of version " + printable(json["glint-costs"].dump(), 40) +
+           ", and this glint reads " + std::to_string(version));
     CostFile file;
     std::size_t known = 0;
     forCosts(file.costs, [&](const char* group, std::string_view name, auto& cost) {

@@ -13,6 +13,7 @@
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/pbr_conversion.h"
@@ -308,7 +309,7 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
         variantFor(mesh, material, instance.world, setting.look, setting.camera.orthographic);
     if (v.alphaBlend) blended += mesh.indices.size() / 3;
     if (v.unlit) continue;
-    Group& group = groups[material.name];
+    Group& group = groups[materialKey(material)];
     addSurface(group, setting, material, mesh, v);
     if (program == setting.look.shading) continue;
     group.interpolation = std::max(

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "glint/gl/backends.h"
+#include "glint/image/task.h"
 
 namespace glint {
 
@@ -126,7 +127,7 @@ std::unique_ptr<Context> openContext(Backend backend) {
 
 std::future<std::unique_ptr<Context>> openContextAsync(Backend backend) {
   prepareEnvironment(backend);
-  return std::async(std::launch::async, openPrepared, backend);
+  return startTask([backend] { return openPrepared(backend); });
 }
 
 GlStrings glStrings() { return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)}; }

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "glint/image/read_files.h"
+
 namespace glint::gltf {
 namespace {
 
@@ -151,6 +153,7 @@ RegularFile::RegularFile(const std::filesystem::path& path, std::string& error) 
     error = "is not a regular file";
   } else {
     size_ = static_cast<std::uint64_t>(status.st_size);
+    noteReadFile(descriptor_, path.string());
   }
 }
 

@@ -3,47 +3,16 @@
 #include <cassert>
 #include <cmath>
 
+#include "glint/image/json_text.h"
+
 namespace glint::gltf {
-namespace {
-
-constexpr int maxNesting = 64;
-
-bool nestsTooDeep(std::string_view text) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > maxNesting) return true;
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-  return false;
-}
-
-}  // namespace
 
 Json parseJson(std::string_view text, const Messages& messages) {
-  if (nestsTooDeep(text)) {
-    messages.fail("its JSON is nested more than " + std::to_string(maxNesting) + " deep");
-  }
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
-    std::string_view what = error.what();
-    if (const auto end = what.find("] "); end != what.npos) what.remove_prefix(end + 2);
-    messages.fail("not valid JSON, " + printable(what));
-  }
-  if (!json.is_object()) messages.fail("its JSON is not an object", "give a glTF 2.0 file");
-  return json;
+  std::string error;
+  std::optional<Json> json = parseJsonText<Json>(text, error);
+  if (!json) messages.fail(error);
+  if (!json->is_object()) messages.fail("its JSON is not an object", "give a glTF 2.0 file");
+  return std::move(*json);
 }
 
 Cursor Cursor::step(Json* json, Step step) const {

@@ -14,8 +14,7 @@ namespace glint::gltf {
 using Json = nlohmann::json;
 
 /// Parses a glTF file's JSON text; its root is an object. Fails on what is not JSON, on numbers
-/// beyond double and on nesting deeper than 64, which no glTF file needs and which would exhaust
-/// the stack of whoever walks the tree.
+/// beyond double and on what glint/image/json_text.h refuses.
 Json parseJson(std::string_view text, const Messages& messages);
 
 /// A place in the JSON document that knows its path, so that every message can name it. The value

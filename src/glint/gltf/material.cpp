@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/pbr_conversion.h"
 
@@ -216,6 +217,7 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   Material& standard = materials.emplace_back();
   standard.name = "#default";
   standard.shading = shadingFromPbr({});
+  countMaterials(materials);
   return materials;
 }
 

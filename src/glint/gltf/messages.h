@@ -5,11 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "glint/image/printable.h"
+
 namespace glint::gltf {
 
-/// Text from a file made fit for one line of a message: control characters and bytes that are not
-/// UTF-8 become '?', and what is longer than `limit` bytes ends in "...".
-std::string printable(std::string_view text, std::size_t limit = 200);
+/// Text from a file made fit for one line of a message (glint/image/printable.h).
+inline std::string printable(std::string_view text, std::size_t limit = 200) {
+  return glint::printable(text, limit);
+}
 
 /// `kind[index]`, with the name behind it where there is one: `meshes[2] "Wheel"`.
 std::string named(std::string_view kind, std::size_t index, std::string_view name);

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
-#include <variant>
 
+#include "glint/gltf/json_edit.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/image/json_text.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/pbr_conversion.h"
@@ -17,130 +20,14 @@
 namespace glint {
 namespace {
 
+using gltf::JsonText;
+using gltf::TextSpan;
 using Json = nlohmann::json;
-using Step = std::variant<std::string, std::size_t>;
-using Path = std::vector<Step>;
-
-struct Span {
-  std::size_t begin = 0, end = 0;
-};
-
-/// A valid JSON text that is edited by replacing values and inserting members.
-class JsonText {
- public:
-  explicit JsonText(std::string text) : text_(std::move(text)) {}
-  const std::string& text() const { return text_; }
-
-  std::optional<Span> find(const Path& path) const {
-    Span at{text_.find('{'), 0};  // a byte order mark may stand before it
-    at.end = skipValue(at.begin);
-    for (const Step& step : path) {
-      const auto next = std::holds_alternative<std::string>(step)
-                            ? member(at, std::get<std::string>(step))
-                            : item(at, std::get<std::size_t>(step));
-      if (!next) return {};
-      at = *next;
-    }
-    return at;
-  }
-
-  std::optional<Json> value(const Path& path) const {
-    const auto at = find(path);
-    if (!at) return {};
-    return Json::parse(text_.begin() + std::ptrdiff_t(at->begin),
-                       text_.begin() + std::ptrdiff_t(at->end));
-  }
-
-  /// Sets a member of objects that are made where they are missing. A value of another type where
-  /// an object is needed is replaced.
-  void set(const Path& path, const std::string& value) {
-    if (const auto at = find(path)) {
-      text_.replace(at->begin, at->end - at->begin, value);
-      return;
-    }
-    const Path parent(path.begin(), path.end() - 1);
-    const std::string entry = Json(std::get<std::string>(path.back())).dump() + ": " + value;
-    const auto at = find(parent);
-    if (!at || text_[at->begin] != '{')
-      set(parent, "{" + entry + "}");
-    else
-      append(*at, entry);
-  }
-
-  /// Adds to an array, which must exist.
-  void push(const Path& array, const std::string& value) { append(*find(array), value); }
-
- private:
-  void append(Span container, const std::string& entry) {
-    std::size_t last = container.end - 1;  // its closing bracket
-    while (std::strchr(" \t\r\n", text_[last - 1])) --last;
-    const bool empty = last == container.begin + 1;
-    text_.insert(last, (empty ? "" : ", ") + entry);
-  }
-
-  std::size_t skipSpace(std::size_t i) const {
-    while (i < text_.size() && std::strchr(" \t\r\n", text_[i]) && text_[i]) ++i;
-    return i;
-  }
-
-  std::size_t skipString(std::size_t i) const {
-    for (++i; text_[i] != '"'; ++i)
-      if (text_[i] == '\\') ++i;
-    return i + 1;
-  }
-
-  std::size_t skipValue(std::size_t i) const {
-    std::size_t depth = 0;
-    do {
-      const char c = text_[i];
-      if (c == '"') {
-        i = skipString(i);
-        continue;
-      }
-      if (c == '{' || c == '[') ++depth;
-      if (c == '}' || c == ']') --depth;
-      ++i;
-      if (depth == 0 && !std::strchr("}]", c))  // a number or a word
-        while (i < text_.size() && !std::strchr(",}] \t\r\n", text_[i])) ++i;
-    } while (depth > 0);
-    return i;
-  }
-
-  // The last member of that name, which is the one that parsers take.
-  std::optional<Span> member(Span object, const std::string& key) const {
-    if (text_[object.begin] != '{') return {};
-    std::optional<Span> found;
-    std::size_t i = skipSpace(object.begin + 1);
-    while (text_[i] != '}') {
-      const std::size_t keyEnd = skipString(i);
-      const bool same = Json::parse(text_.begin() + std::ptrdiff_t(i),
-                                    text_.begin() + std::ptrdiff_t(keyEnd)) == key;
-      const std::size_t begin = skipSpace(skipSpace(keyEnd) + 1);
-      const std::size_t end = skipValue(begin);
-      if (same) found = Span{begin, end};
-      i = skipSpace(end);
-      if (text_[i] == ',') i = skipSpace(i + 1);
-    }
-    return found;
-  }
-
-  std::optional<Span> item(Span array, std::size_t index) const {
-    if (text_[array.begin] != '[') return {};
-    std::size_t i = skipSpace(array.begin + 1);
-    while (text_[i] != ']') {
-      const std::size_t end = skipValue(i);
-      if (index-- == 0) return Span{i, end};
-      i = skipSpace(end);
-      if (text_[i] == ',') i = skipSpace(i + 1);
-    }
-    return {};
-  }
-
-  std::string text_;
-};
+using Path = JsonText::Path;
 
 struct File {
   std::string json;
+  Json root;  ///< what it says
   bool glb = false;
   std::size_t jsonEnd = 0;  ///< in the file; the bytes from there on are copied
 };
@@ -152,8 +39,9 @@ std::uint32_t word(std::span<const std::byte> bytes, std::size_t at) {
 }
 
 File takeApart(std::span<const std::byte> bytes, const std::string& name) {
-  const auto refuse = [&]() -> File {
-    throw InputError(name + ": not a glTF 2.0 file: nothing is written");
+  const auto refuse = [&](const std::string& why = {}) -> File {
+    throw InputError(printablePath(name) + ": not a glTF 2.0 file" +
+                     (why.empty() ? why : ", " + why) + ": nothing is written");
   };
   File file;
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -169,7 +57,10 @@ File takeApart(std::span<const std::byte> bytes, const std::string& name) {
   }
   // Padding of other writers, and a byte order mark, are no JSON.
   while (!file.json.empty() && file.json.back() == '\0') file.json.back() = ' ';
-  if (!Json::accept(file.json) || !Json::parse(file.json).is_object()) return refuse();
+  std::string error;
+  auto root = parseJsonText<Json>(file.json, error);
+  if (!root || !root->is_object()) return refuse(error);
+  file.root = std::move(*root);
   return file;
 }
 
@@ -213,16 +104,10 @@ double numberOr(const std::optional<Json>& value, double fallback) {
   return value && value->is_number() ? value->get<double>() : fallback;
 }
 
-// Ends the array or member that is named, so that others of the kind can follow.
-Path below(const Path& path, std::initializer_list<const char*> keys) {
-  Path longer = path;
-  for (const char* key : keys) longer.emplace_back(std::string(key));
-  return longer;
-}
-
-void setNearestPbr(JsonText& text, const Path& material, const ShadingParameters& values) {
-  const Path pbr = below(material, {"pbrMetallicRoughness"});
-  const Path base = below(pbr, {"baseColorFactor"});
+/// Edits one material's text, an object. True if it has come to use KHR_materials_ior.
+bool setNearestPbr(JsonText& text, const ShadingParameters& values) {
+  const std::string pbr = "pbrMetallicRoughness";
+  const Path base{pbr, "baseColorFactor"};
   const Json old = text.value(base).value_or(Json::array({1.0, 1.0, 1.0, 1.0}));
   const auto component = [&](std::size_t i) {
     return old.is_array() && i < old.size() && old[i].is_number() ? old[i].get<double>() : 1.0;
@@ -231,44 +116,51 @@ void setNearestPbr(JsonText& text, const Path& material, const ShadingParameters
   if (color != glm::dvec3(component(0), component(1), component(2)))
     text.set(base, "[" + numberText(color.r) + ", " + numberText(color.g) + ", " +
                        numberText(color.b) + ", " + numberText(component(3)) + "]");
-  if (!text.find(below(pbr, {"metallicRoughnessTexture"}))) {
-    const Path metallic = below(pbr, {"metallicFactor"});
+  if (!text.find({pbr, "metallicRoughnessTexture"})) {
+    const Path metallic{pbr, "metallicFactor"};
     if (numberOr(text.value(metallic), 1) != values.metalness)
       text.set(metallic, numberText(values.metalness));
-    const Path roughness = below(pbr, {"roughnessFactor"});
+    const Path roughness{pbr, "roughnessFactor"};
     const double now = numberOr(text.value(roughness), 1);
     if (std::abs(exponentFromRoughness(now) - values.exponent) > 1e-9 * (1 + values.exponent))
       text.set(roughness, numberText(roughnessFromExponent(values.exponent)));
   }
-  const Path ior = below(material, {"extensions", "KHR_materials_ior", "ior"});
+  const Path ior{"extensions", "KHR_materials_ior", "ior"};
   const double n = std::max(values.ior, 1.0);
-  if (numberOr(text.value(ior), 1.5) != n) {
-    text.set(ior, numberText(n));
-    const Path used{std::string("extensionsUsed")};
-    const Json names = text.value(used).value_or(Json());
-    if (!names.is_array())
-      text.set(used, "[\"KHR_materials_ior\"]");
-    else if (std::find(names.begin(), names.end(), "KHR_materials_ior") == names.end())
-      text.push(used, "\"KHR_materials_ior\"");
-  }
+  if (numberOr(text.value(ior), 1.5) == n) return false;
+  text.set(ior, numberText(n));
+  return true;
+}
+
+void useIor(JsonText& text) {
+  const Path used{"extensionsUsed"};
+  const Json names = text.value(used).value_or(Json());
+  if (!names.is_array())
+    text.set(used, "[\"KHR_materials_ior\"]");
+  else if (std::find(names.begin(), names.end(), "KHR_materials_ior") == names.end())
+    text.push(used, "\"KHR_materials_ior\"");
 }
 
 // Appends a material that is glTF's default one and gives it to all primitives without any.
 void makeDefaultExplicit(JsonText& text, std::size_t index) {
-  const Path materials{std::string("materials")};
+  const Path materials{"materials"};
   if (text.find(materials))
     text.push(materials, "{}");
   else
     text.set(materials, "[{}]");
-  const Json meshes = text.value({std::string("meshes")}).value_or(Json::array());
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    if (!meshes[m].contains("primitives")) continue;
-    const Json& primitives = meshes[m]["primitives"];
-    for (std::size_t p = 0; p < primitives.size(); ++p)
-      if (!primitives[p].contains("material"))
-        text.set({std::string("meshes"), m, std::string("primitives"), p, std::string("material")},
-                 std::to_string(index));
-  }
+  std::vector<std::pair<TextSpan, std::string>> edits;
+  if (const auto meshes = text.find({"meshes"}))
+    for (const TextSpan mesh : text.items(*meshes)) {
+      const auto primitives = text.member(mesh, "primitives");
+      if (!primitives) continue;
+      for (const TextSpan primitive : text.items(*primitives)) {
+        if (text.member(primitive, "material")) continue;
+        JsonText edited(text.text(primitive));
+        edited.set({"material"}, std::to_string(index));
+        edits.emplace_back(primitive, edited.text());
+      }
+    }
+  text.replace(edits);
 }
 
 }  // namespace
@@ -278,30 +170,46 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
                                  const std::string& name) {
   const File file = takeApart(bytes, name);
   JsonText text(file.json);
-  const Json materials = text.value({std::string("materials")}).value_or(Json::array());
+  const auto listed = file.root.find("materials");
+  const std::size_t count = listed == file.root.end() ? 0 : listed->size();
+  std::map<std::size_t, const MaterialPatch*> byIndex;
   for (const MaterialPatch& patch : patches) {
-    if (patch.index > materials.size())
-      throw InputError(name + ": has changed and has no material " + std::to_string(patch.index) +
-                       " any more: load it again");
-    if (patch.index == materials.size()) makeDefaultExplicit(text, patch.index);
-    const Path material{std::string("materials"), patch.index};
-    text.set(below(material, {"extras", "glint"}), glintText(patch.values, patch.textured));
-    setNearestPbr(text, material, patch.values);
+    if (patch.index > count)
+      throw InputError(printablePath(name) + ": has changed and has no material " +
+                       std::to_string(patch.index) + " any more: load it again");
+    byIndex[patch.index] = &patch;
   }
+  if (byIndex.contains(count)) makeDefaultExplicit(text, count);
+  std::vector<std::pair<TextSpan, std::string>> edits;
+  bool usesIor = false;
+  if (const auto array = text.find({"materials"}); array && !byIndex.empty()) {
+    const std::vector<TextSpan> materials = text.items(*array);
+    for (const auto& [index, patch] : byIndex) {
+      JsonText material(text.text(materials.at(index)));
+      material.set({"extras", "glint"}, glintText(patch->values, patch->textured));
+      usesIor = setNearestPbr(material, patch->values) || usesIor;
+      edits.emplace_back(materials[index], material.text());
+    }
+  }
+  text.replace(edits);
+  if (usesIor) useIor(text);
   return putTogether(file, text.text(), bytes);
 }
 
 std::vector<std::string> referredFiles(std::span<const std::byte> bytes, const std::string& name) {
-  const Json json = Json::parse(takeApart(bytes, name).json);
+  const File file = takeApart(bytes, name);
   std::vector<std::string> files;
-  for (const char* list : {"buffers", "images"})
-    for (const Json& each : json.value(list, Json::array())) {
+  for (const char* list : {"buffers", "images"}) {
+    const auto found = file.root.find(list);
+    if (found == file.root.end()) continue;
+    for (const Json& each : *found) {
       if (!each.is_object() || !each.contains("uri") || !each["uri"].is_string()) continue;
       const auto& uri = each["uri"].get_ref<const std::string&>();
       if (uri.starts_with("data:") || std::find(files.begin(), files.end(), uri) != files.end())
         continue;
       files.push_back(uri);
     }
+  }
   return files;
 }
 

@@ -37,10 +37,10 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
     return number;
   std::string known;
   for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i) {
-    const std::string name = printable(names[i], 80);
+    const std::string name = glint::printable(names[i], 80);
     known += (i ? ", " : "") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
   }
-  throw InputError(option + ": " + model + " has no " + kind + " '" + printable(text, 80) +
+  throw InputError(option + ": " + model + " has no " + kind + " '" + glint::printable(text, 80) +
                    "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
 }
 
@@ -68,8 +68,9 @@ struct SceneFile::State {
     start.animations = listAnimations(document, budget, messages);
     start.extensions = std::move(document.extensions);
     for (const tinygltf::Scene& each : document.model.scenes)
-      start.scenes.push_back(printable(each.name, 80));
-    for (const std::string& name : document.variants) start.variants.push_back(printable(name, 80));
+      start.scenes.push_back(glint::printable(each.name, 80));
+    for (const std::string& name : document.variants)
+      start.variants.push_back(glint::printable(name, 80));
     start.skins = std::move(document.skins);
     start.morphs = std::move(document.morphs);
   }

@@ -13,6 +13,8 @@
 #include <system_error>
 
 #include "glint/image/error.h"
+#include "glint/image/printable.h"
+#include "glint/image/read_files.h"
 
 namespace glint {
 namespace {
@@ -48,6 +50,10 @@ std::string writeAdvice(int error) {
     case ENOSPC:
     case EDQUOT:
       return "free some space or write elsewhere";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f) or write elsewhere";
+    case EBADF:
+      return "it is closed: open it or write elsewhere";
     case EPIPE:
       return "the reader of the output went away";
     case ESPIPE:
@@ -99,15 +105,11 @@ std::string openFilePath(int file) { return "/proc/self/fd/" + std::to_string(fi
 
 }  // namespace
 
-std::string printablePath(std::string_view path) {
-  std::string printable(path);
-  for (char& letter : printable) {
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
-  }
-  return printable.empty() ? "''" : printable;
-}
+std::string printablePath(std::string_view path) { return path.empty() ? "''" : printable(path); }
 
-std::vector<std::byte> readFile(const std::string& path) {
+std::string writeFailure(int error) { return words(error) + ": " + writeAdvice(error); }
+
+std::vector<std::byte> readFile(const std::string& path, Noted noted) {
   const auto refuse = [&](const std::string& what) {
     return InputError(printablePath(path) + ": " + what);
   };
@@ -121,6 +123,7 @@ std::vector<std::byte> readFile(const std::string& path) {
     throw refuse(S_ISDIR(status.st_mode) ? "Is a directory: give the name of a file"
                                          : "not a regular file: save it to a file first");
   }
+  if (noted == Noted::yes) noteReadFile(file.number, path);
   try {
     std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
     std::size_t done = 0;
@@ -164,6 +167,7 @@ OutputFile::OutputFile(const std::string& path, Staging staging) : path_(path) {
       return;
     }
   }
+  refuseReadFile();
   target_ = followLinks(path);
   if (target_.empty() || target_.ends_with('/')) fail(target_.empty() ? ENOENT : EISDIR);
   openStaged(staging);
@@ -233,6 +237,7 @@ void OutputFile::writeAll(std::span<const std::byte> bytes, std::int64_t offset)
 }
 
 void OutputFile::commit() {
+  if (!target_.empty()) refuseReadFile();
   flush();
   if (!target_.empty() && temporary_.empty()) link();
   // Some file systems report a full disk only here, so that the name is given afterwards.
@@ -262,8 +267,14 @@ void OutputFile::link() {
   fail(errno);
 }
 
+void OutputFile::refuseReadFile() const {
+  if (isReadFile(path_))
+    throw InputError(printablePath(path_) +
+                     ": is a file that is read and would be lost: give another name");
+}
+
 void OutputFile::fail(int error) const {
-  throw InputError(printablePath(path_) + ": " + words(error) + ": " + writeAdvice(error));
+  throw InputError(printablePath(path_) + ": " + writeFailure(error));
 }
 
 }  // namespace glint

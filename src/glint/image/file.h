@@ -11,14 +11,20 @@
 
 namespace glint {
 
-/// A path, or anything else that was given, as error messages show it: control characters become
-/// '?', so that a message stays one line.
+/// A path, or anything else that was given, as error messages show it (printable.h): on one line,
+/// and never nothing.
 std::string printablePath(std::string_view path);
+
+/// "No space left on device: free some space or write elsewhere" for an errno of writing.
+std::string writeFailure(int error);
+
+/// Whether a file that is read is noted (read_files.h). Not what the program has written itself.
+enum class Noted { yes, no };
 
 /// The bytes of a regular file (symbolic links are followed).
 /// Throws InputError "PATH: what: what to do" for a missing or unreadable file and for a folder, a
 /// FIFO, a socket or a device, which are refused without waiting for them.
-std::vector<std::byte> readFile(const std::string& path);
+std::vector<std::byte> readFile(const std::string& path, Noted noted = Noted::yes);
 
 /// A file that appears whole or not at all: what is written stays invisible until commit(), and
 /// without commit() nothing is left and an older file of that name stays as it was.
@@ -27,6 +33,9 @@ std::vector<std::byte> readFile(const std::string& path);
 /// FIFO) is written directly; there what was written before an error cannot be taken back. A
 /// symbolic link stays, and the file it points to is replaced. Folders that are missing are made,
 /// and go again if nothing comes into them. New files have the permissions 0666 less the umask.
+///
+/// A file that this process reads (read_files.h) is refused, when it is opened and again at
+/// commit().
 ///
 /// All members throw InputError: missing folder, no permission, disk full.
 class OutputFile {
@@ -57,6 +66,7 @@ class OutputFile {
   void flush();
   void writeAll(std::span<const std::byte> bytes, std::int64_t offset);
   void link();
+  void refuseReadFile() const;
   [[noreturn]] void fail(int error) const;
 
   MadeFolders folders_;    ///< outlives the file, so that empty ones go

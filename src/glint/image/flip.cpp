@@ -9,6 +9,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/flip_kernels.h"
+#include "glint/image/task.h"
 
 namespace glint {
 namespace {
@@ -110,11 +111,8 @@ void forErrors(const PixelRows& reference, const PixelRows& test, const FlipOpti
       const int begin = first + t * piece, end = std::min(height, begin + piece);
       if (begin >= end) break;
       float* out = errors.data() + std::size_t(width) * std::size_t(t * piece);
-      if (t + 1 < threads && end < height) {
-        workers.emplace_back(work, begin, end, out);
-      } else {
-        work(begin, end, out);
-      }
+      const bool isLast = t + 1 == threads || end == height;
+      if (isLast || !addWorker(workers, work, begin, end, out)) work(begin, end, out);
     }
     workers.clear();
     if (failure) std::rethrow_exception(failure);

@@ -13,6 +13,7 @@
 #include "glint/image/file.h"
 #include "glint/image/picture_formats.h"
 #include "glint/image/srgb.h"
+#include "glint/image/task.h"
 
 namespace glint::detail {
 namespace {
@@ -53,7 +54,7 @@ class PngWriter : public PictureWriter {
         png_(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free),
         free_(blockCount) {
     start();
-    deflater_ = std::thread([this] { deflate(); });
+    deflater_ = startThread([this] { deflate(); });
   }
 
   ~PngWriter() override { end(true); }
@@ -110,6 +111,11 @@ class PngWriter : public PictureWriter {
       Rows block{takeFree(), std::min(blockRows, rows.height - first)};
       block.codes.resize((rowBytes_ * block.count + 1) / 2);
       nanPixels_ += encode(rows.row(first), std::size_t(width_) * block.count, block.codes.data());
+      if (!deflater_.joinable()) {
+        deflateRows(block);
+        free_.push_back(std::move(block.codes));
+        continue;
+      }
       const std::lock_guard lock(mutex_);
       full_.push_back(std::move(block));
       changed_.notify_all();

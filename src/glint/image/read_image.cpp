@@ -98,7 +98,7 @@ std::map<std::string, std::string> pictureTextIn(std::span<const std::byte> byte
 }
 
 std::map<std::string, std::string> readPictureText(const std::string& path) {
-  return pictureTextIn(readFile(path), path);
+  return pictureTextIn(readFile(path, Noted::no), path);
 }
 
 }  // namespace glint

@@ -34,7 +34,8 @@ Image decodeImage(std::span<const std::byte> bytes, const std::string& name,
                   const std::string& layer = "");
 
 /// What a PNG or an EXR says of itself (text chunks before its pixels, string attributes), without
-/// decoding the picture; empty for other formats.
+/// decoding the picture; empty for other formats. The file is not noted as read (read_files.h): it
+/// is asked whether it has to be made again.
 /// Throws InputError "PATH: what: what to do" if the file cannot be read or is damaged.
 std::map<std::string, std::string> readPictureText(const std::string& path);
 

@@ -4,6 +4,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
@@ -27,6 +29,17 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>
 
 }  // namespace
 
+std::string failureOf(const std::exception& error, const std::string& what) {
+  const std::string place = printablePath(what) + ": ";
+  if (dynamic_cast<const Error*>(&error)) return error.what();
+  if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
+    return place + "out of memory: give a smaller model, picture or --resolution";
+  if (dynamic_cast<const std::system_error*>(&error))
+    return place + "this system refuses more threads or files (" + error.what() +
+           "): raise its limits (ulimit -u, ulimit -n)";
+  return place + "internal error: " + error.what() + ": please report this";
+}
+
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
                const char* smaller) {
   try {
@@ -41,16 +54,20 @@ int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>&
     std::cerr << "glint: " << printablePath(error.what()) << "\n";
     return unusable;
   } catch (const ContextError& error) {
-    std::cerr << "glint: " << error.what() << "\n";
+    std::cerr << "glint: " << printablePath(error.what()) << "\n";
     return noContext;
   } catch (const Error& error) {
-    std::cerr << "glint: " << error.what() << "\n";
+    std::cerr << "glint: " << printablePath(error.what()) << "\n";
     return unusable;
   } catch (const std::bad_alloc&) {
     std::cerr << "glint: out of memory: give a smaller " << smaller << "\n";
     return unusable;
+  } catch (const std::system_error& error) {  // no more threads, above all
+    std::cerr << "glint: " << printablePath(failureOf(error, "glint")) << "\n";
+    return unusable;
   } catch (const std::exception& error) {
-    std::cerr << "glint: internal error: " << error.what() << ": please report this\n";
+    std::cerr << "glint: internal error: " << printablePath(error.what())
+              << ": please report this\n";
     return unusable;
   }
 }

@@ -2,6 +2,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
 #include "glint/image/read_image.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
@@ -42,9 +43,11 @@ void readMaterials(Look& look, const Json& value) {
 }  // namespace
 
 void readLook(Look& look, const std::string& text, const std::string& source) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw InputError(source + ": not a look file: it must be a JSON object");
+  std::string error;
+  const std::optional<Json> parsed = parseJsonText<Json>(text, error);
+  if (!parsed) throw InputError(source + ": not a look file: " + error);
+  const Json& json = *parsed;
+  if (!json.is_object()) throw InputError(source + ": not a look file: it must be a JSON object");
   if (json.value("glint-look", Json()) != Json(1))
     throw InputError(source + ": not a look file of this version: it must hold \"glint-look\": 1");
   for (const auto& [key, value] : json.items()) {

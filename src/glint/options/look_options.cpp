@@ -8,8 +8,10 @@
 
 #include "glint/budget/cost_file.h"
 #include "glint/image/error.h"
+#include "glint/image/read_files.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/material_key.h"
 
 namespace glint {
 namespace {
@@ -21,6 +23,15 @@ std::string defaultText(const Parameter& p) {
   std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
   if (p.name == "background-color") text = "#333333";
   return " [default: " + text + "]";
+}
+
+/// Takes back what `by` sets.
+void clearEdit(MaterialEdit& edit, const MaterialEdit& by) {
+  for (const auto& p : materialParameters())
+    if (by.*p.edit) (edit.*p.edit).reset();
+  if (by.color) edit.color.reset();
+  if (by.highlight) edit.highlight.reset();
+  if (by.fresnel) edit.fresnel.reset();
 }
 
 bool hasBudget(const Look& look) {
@@ -37,22 +48,13 @@ struct LookOptions {
 
 void mergeMaterials(Look& look, const Look& options) {
   const auto all = options.material.find("");
-  if (all != options.material.end()) {
-    for (auto& [name, edit] : look.material) {
-      for (const auto& p : materialParameters())
-        if (all->second.*p.edit) (edit.*p.edit).reset();
-      if (all->second.color) edit.color.reset();
-      if (all->second.highlight) edit.highlight.reset();
-      if (all->second.fresnel) edit.fresnel.reset();
-    }
-  }
-  for (const auto& [name, from] : options.material) {
-    MaterialEdit& to = look.material[name];
-    for (const auto& p : materialParameters())
-      if (from.*p.edit) to.*p.edit = from.*p.edit;
-    if (from.color) to.color = from.color;
-    if (from.highlight) to.highlight = from.highlight;
-    if (from.fresnel) to.fresnel = from.fresnel;
+  if (all != options.material.end())
+    for (auto& [key, edit] : look.material) clearEdit(edit, all->second);
+  for (const auto& [key, from] : options.material) {
+    // What is said of all of a name stands above what the look says of one of them.
+    for (auto& [other, edit] : look.material)
+      if (!key.empty() && other.starts_with(key + "#")) clearEdit(edit, from);
+    mergeEdit(look.material[key], from);
   }
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
@@ -109,6 +111,7 @@ Look LookSource::operator()() const {
     for (const std::string& text : option->results()) p->read(target, text);
   }
   mergeMaterials(look, materials);
+  if (!look.hdriFile.empty()) noteReadFile(look.hdriFile);
   costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
   if (!options_->saveFile.empty() && !hasBudget(look))
     writeText(options_->saveFile, saveLook(look));

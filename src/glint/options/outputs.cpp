@@ -1,13 +1,20 @@
 #include "glint/options/outputs.h"
 
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <iostream>
 #include <span>
 #include <system_error>
 
+#include "glint/gltf/model_files.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 
 namespace fs = std::filesystem;
 
@@ -20,12 +27,22 @@ bool isSameFile(const std::string& a, const std::string& b) {
   return first == fs::absolute(b, error).lexically_normal();
 }
 
-void checkOutputs(std::initializer_list<OutputOption> outputs,
+void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
+  // What is not there yet cannot be lost.
+  const bool replaces = std::ranges::any_of(outputs, [](const OutputOption& output) {
+    std::error_code error;
+    return fs::exists(output.path, error);
+  });
+  for (const std::string& input : inputs) {
+    if (input.empty()) continue;
+    noteReadFile(input);
+    if (replaces) noteModelFiles(input);
+  }
   for (const OutputOption& output : outputs) {
     if (output.path.empty()) continue;
     const std::string what = output.option + " " + printablePath(output.path) + ": ";
-    for (const OutputOption* other = outputs.begin(); other != &output; ++other) {
+    for (const OutputOption* other = outputs.data(); other != &output; ++other) {
       if (other->path.empty()) continue;
       if (output.path == "-" && other->path == "-")
         throw InputError(what + other->option + " goes to stdout already: give one of them a file");
@@ -36,9 +53,10 @@ void checkOutputs(std::initializer_list<OutputOption> outputs,
         throw InputError(what + other->option + " writes that file already: give another");
     }
     if (output.path == "-") continue;
+    bool isInput = isReadFile(output.path);
     for (const std::string& input : inputs)
-      if (!input.empty() && isSameFile(output.path, input))
-        throw InputError(what + "would overwrite what is read: give another file");
+      isInput = isInput || (!input.empty() && isSameFile(output.path, input));
+    if (isInput) throw InputError(what + "would overwrite what is read: give another file");
   }
 }
 
@@ -52,10 +70,31 @@ void flushStandardOutput() {
   errno = 0;
   std::cout.flush();
   if (std::cout) return;
-  const int error = errno;
-  throw InputError("standard output: " +
-                   (error != 0 ? std::generic_category().message(error) : "cannot be written") +
-                   ": free some space or write elsewhere");
+  throw InputError("standard output: " + writeFailure(errno != 0 ? errno : EIO));
+}
+
+void printWhole(const std::string& text) {
+  flushStandardOutput();
+  struct stat before {};
+  const bool isFile = ::fstat(STDOUT_FILENO, &before) == 0 && S_ISREG(before.st_mode);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(STDOUT_FILENO, text.data() + done, text.size() - done);
+    if (count > 0) done += std::size_t(count);
+    if (count > 0 || (count < 0 && errno == EINTR)) continue;
+    const int error = errno;
+    if (error == EAGAIN) {  // somebody's non-blocking pipe
+      pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+      ::poll(&ready, 1, -1);
+      continue;
+    }
+    // Of a file the part that was written is taken back, unless another writes there too.
+    struct stat after {};
+    if (isFile && done > 0 && ::fstat(STDOUT_FILENO, &after) == 0 &&
+        after.st_size == before.st_size + off_t(done) &&
+        ::ftruncate(STDOUT_FILENO, before.st_size) == 0)
+      ::lseek(STDOUT_FILENO, before.st_size, SEEK_SET);
+    throw InputError("standard output: " + writeFailure(error));
+  }
 }
 
 void writeText(const std::string& path, const std::string& text) {

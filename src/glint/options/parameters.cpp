@@ -136,7 +136,8 @@ Parameter lights() {
       "a light in place of the model's or the default one; repeatable. "
       "directional:x,y,z[:r,g,b] (x,y,z points TO the light), point:x,y,z[:r,g,b], "
       "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines along d; angles in degrees), "
-      "camera[:r,g,b] (shines along the view). Point and spot lights do not weaken with distance, "
+      "camera[@x,y,z][:r,g,b] (fixed to the eye; x,y,z points to it in eye space, 0,0,1, along the "
+      "view, unless given). Point and spot lights do not weaken with distance, "
       "unless :falloff[,RANGE] is appended: then with its square from 1 world unit on, to 0 at "
       "RANGE",
       [](Look& look, const std::string& text) {
@@ -212,8 +213,10 @@ Json materialEdits(const Look& look) {
 
 Parameter materials() {
   Parameter p = custom(
-      "material", "[NAME:]key=value,...",
-      "set parameters of every material, or of NAME: ambient, diffuse, specular, exponent, "
+      "material", "[NAME:|NAME#N:|#N:]key=value,...",
+      "set parameters of every material, of those called NAME, of the N-th of them, or of the "
+      "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): "
+      "ambient, diffuse, specular, exponent, "
       "metalness (1: the highlight has the material's colour, as on real metals; 0: it is white; "
       "the lecture notes' words say the opposite of their formula, which is used), ior, "
       "transmission, color, and the forms highlight and fresnel; repeatable",

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "glint/image/error.h"
+#include "glint/image/task.h"
 #include "glint/reference/pixel.h"
 #include "glint/reference/raster.h"
 #include "glint/shading/safe.h"
@@ -168,7 +169,7 @@ void ReferenceRenderer::inParallel(int count, const std::function<void(int, Stri
     }
   };
   std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(threads_, count); ++i) others.emplace_back(work);
+  for (int i = 1; i < std::min(threads_, count) && addWorker(others, work);) ++i;
   work();
   others.clear();
   if (failure) std::rethrow_exception(failure);

@@ -101,7 +101,7 @@ struct Look {
   std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;
-  std::map<std::string, MaterialEdit> material;  ///< by material name; "" is every material
+  std::map<std::string, MaterialEdit> material;  ///< by key, see material_key.h
 
   glm::dvec3 ambientLight{0.1};
   std::optional<std::vector<Light>> light;  ///< empty: the default light

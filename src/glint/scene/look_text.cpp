@@ -8,6 +8,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/srgb.h"
+#include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
 
 namespace glint {
@@ -259,11 +260,17 @@ std::span<const std::string_view> environmentTexts() {
 
 namespace {
 
+constexpr glm::dvec3 alongView(0, 0, 1);  // the direction to a camera light
+
 Light parseSteadyLight(const std::string& text) {
   const std::string what = "--light";
   const auto parts = split(text, ':');
   Light light;
-  light.type = Light::Type(parseChoice(parts[0], lightNames, what));
+  // A camera's direction stands with its name, so that a colour behind it stays what it was.
+  const std::size_t at = parts[0].find('@');
+  light.type = Light::Type(parseChoice(parts[0].substr(0, at), lightNames, what));
+  if (at != std::string::npos && light.type != Light::Type::camera)
+    refuse(what, text, "a light whose direction stands behind @: that is camera@x,y,z alone");
   // Fields before the colour, the type's name among them.
   const std::size_t fields = std::array<std::size_t, 4>{2, 2, 4, 1}[std::size_t(light.type)];
   if (parts.size() != fields && parts.size() != fields + 1)
@@ -271,9 +278,12 @@ Light parseSteadyLight(const std::string& text) {
            std::array<const char*, 4>{"directional:x,y,z[:r,g,b]",
                                       "point:x,y,z[:r,g,b][:falloff[,RANGE]]",
                                       "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b][:falloff[,RANGE]]",
-                                      "camera[:r,g,b]"}[std::size_t(light.type)]);
+                                      "camera[@x,y,z][:r,g,b]"}[std::size_t(light.type)]);
   if (parts.size() == fields + 1) light.intensity = parseColor(parts[fields], what);
-  if (light.type == Light::Type::camera) light.direction = {0, 0, 1};
+  if (light.type == Light::Type::camera)
+    light.direction = at == std::string::npos
+                          ? alongView
+                          : parseVector(parts[0].substr(at + 1), -1e30, 1e30, what);
   if (light.type == Light::Type::directional)
     light.direction = parseVector(parts[1], -1e30, 1e30, what);
   if (light.type == Light::Type::point || light.type == Light::Type::spot)
@@ -286,8 +296,7 @@ Light parseSteadyLight(const std::string& text) {
         !(light.innerAngle >= 0 && light.innerAngle < light.outerAngle && light.outerAngle <= 90))
       refuse(what, parts[3], "inner,outer with 0 <= inner < outer <= 90 degrees");
   }
-  if ((light.type == Light::Type::directional || light.type == Light::Type::spot) &&
-      light.direction == glm::dvec3(0.0))
+  if (light.type != Light::Type::point && light.direction == glm::dvec3(0.0))
     throw InputError(what + ": '" + text + "' has no direction: give another than 0,0,0");
   return light;
 }
@@ -315,6 +324,8 @@ std::string lightText(const Light& light) {
     return ":" + numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
   };
   std::string text(lightNames[std::size_t(light.type)]);
+  if (light.type == Light::Type::camera && light.direction != alongView)
+    text += vec(light.direction).replace(0, 1, "@");
   if (light.type == Light::Type::point || light.type == Light::Type::spot)
     text += vec(light.position);
   if (light.type == Light::Type::directional || light.type == Light::Type::spot)
@@ -329,7 +340,7 @@ std::string lightText(const Light& light) {
 void setMaterialEdit(Look& look, const std::string& name, const std::string& key,
                      const std::string& text) {
   const std::string what = "--material " + (name.empty() ? key : name + ":" + key);
-  MaterialEdit& edit = look.material[name];
+  MaterialEdit& edit = look.material[materialKey(name)];
   if (key == "color") {
     edit.color = parseColor(text, what);
     return;
@@ -355,11 +366,10 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
 }
 
 void parseMaterialEdit(Look& look, const std::string& text) {
-  // NAME may hold ':' and ',' but not '=': it ends at the last ':' before the first '='.
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     refuse("--material", text, "[NAME:]key=value,...");
-  const std::size_t colon = text.rfind(':', equals);
+  const std::size_t colon = endOfMaterialKey(text);
   const std::string name = colon == std::string::npos ? "" : text.substr(0, colon);
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const std::string& part :

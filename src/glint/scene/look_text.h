@@ -50,8 +50,8 @@ std::span<const std::string_view> environmentTexts();
 Light parseLight(const std::string& text);
 std::string lightText(const Light&);
 void parseMaterialEdit(Look&, const std::string& text);
-/// Sets one parameter of the material `name`; `text` is a number, a colour for "color",
-/// or a form for "highlight" and "fresnel".
+/// Sets one parameter of the material `name`, a key (material_key.h); `text` is a number, a colour
+/// for "color", or a form for "highlight" and "fresnel".
 void setMaterialEdit(Look&, const std::string& name, const std::string& key,
                      const std::string& text);
 

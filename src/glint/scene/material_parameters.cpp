@@ -1,8 +1,10 @@
 #include "glint/scene/material_parameters.h"
 
 #include <algorithm>
+#include <set>
 
 #include "glint/image/error.h"
+#include "glint/scene/material_key.h"
 
 namespace glint {
 
@@ -83,8 +85,11 @@ std::array<const std::optional<Texture>*, 7> texturesOf(const Material& m) {
 
 Material editedMaterial(const Material& material, const Look& look) {
   Material edited = material;
-  for (const std::string& name : {std::string(), material.name}) {
-    const auto found = look.material.find(name);
+  if (look.material.empty()) return edited;
+  const auto keys = materialKeys(material);
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    if (key != keys.begin() && std::find(keys.begin(), key, *key) != key) continue;
+    const auto found = look.material.find(*key);
     if (found == look.material.end()) continue;
     const MaterialEdit& edit = found->second;
     for (const auto& p : materialParameters())
@@ -100,15 +105,21 @@ Material editedMaterial(const Material& material, const Look& look) {
 }
 
 void checkMaterialNames(const Scene& scene, const Look& look) {
-  for (const auto& [name, edit] : look.material) {
-    // Named anew: Clang before 16 captures no structured binding.
-    const auto has = [&name = name](const Material& m) { return m.name == name; };
-    if (name.empty() || std::any_of(scene.materials.begin(), scene.materials.end(), has)) continue;
+  std::set<std::string> known;
+  for (const Material& m : scene.materials)
+    for (std::string& key : materialKeys(m)) known.insert(std::move(key));
+  for (const auto& [key, edit] : look.material) {
+    if (key.empty() || known.contains(key)) continue;
+    constexpr std::size_t most = 20;
     std::string names;
-    for (const Material& m : scene.materials)
-      if (!m.name.empty()) names += (names.empty() ? "'" : ", '") + m.name + "'";
+    std::size_t count = 0;
+    for (const Material& m : scene.materials) {
+      if (m.name.empty()) continue;
+      if (++count <= most) names += (names.empty() ? "'" : ", '") + materialKey(m) + "'";
+    }
+    if (count > most) names += " and " + std::to_string(count - most) + " more";
     throw InputError(
-        "--material: " + scene.name + " has no material '" + name + "': " +
+        "--material: " + scene.name + " has no material '" + key + "': " +
         (names.empty() ? "its materials have no names: leave NAME: out" : "use one of " + names));
   }
 }

@@ -35,12 +35,12 @@ std::span<const MaterialParameter> materialParameters();
 std::array<std::optional<Texture>*, 7> texturesOf(Material&);
 std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
 
-/// What a look makes of a scene's material: its own values with those of the edits for every
-/// material and for the material's name, in this order. An edited number takes the place of a
-/// texture that gave it.
+/// What a look makes of a scene's material: its own values with those of the edits whose keys are
+/// of it (material_key.h), in their order.
+/// An edited number takes the place of a texture that gave it.
 Material editedMaterial(const Material&, const Look&);
 
-/// Throws InputError if an edit names a material that the scene does not have.
+/// Throws InputError if an edit is of a material that the scene does not have.
 void checkMaterialNames(const Scene&, const Look&);
 
 }  // namespace glint

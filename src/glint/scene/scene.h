@@ -116,6 +116,9 @@ struct Material {
   /// Never empty: one without a name is called "#N", N its place in the file from 0, and glTF's
   /// default material "#default".
   std::string name;
+  int index = -1;           ///< its place in Scene::materials, -1: not in one
+  int nth = 0;              ///< its place among those of its name
+  bool nameShared = false;  ///< others have its name
   ShadingParameters shading;
   double alpha = 1.0;        ///< multiplies the texture's and the vertex colour's, [0, 1]
   glm::dvec3 emission{0.0};  ///< linear radiance added to the sum

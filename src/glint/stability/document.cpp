@@ -12,11 +12,13 @@
 namespace glint::stability {
 
 Document::Document() {
-  std::string name = (std::filesystem::temp_directory_path() / "glint-stability-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw InputError(name +
-                     ": cannot make a temporary folder: set TMPDIR to one that can be "
-                     "written");
+  std::error_code error;
+  const auto base = std::filesystem::temp_directory_path(error);
+  std::string name = (base / "glint-stability-XXXXXX").string();
+  if (error || !mkdtemp(name.data()))
+    throw InputError(
+        "no temporary folder can be made: set TMPDIR to a folder that is there and can be "
+        "written");
   folder_ = name;
 }
 

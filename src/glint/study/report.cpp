@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "glint/image/json_text.h"
 #include "glint/scene/look_text.h"
 #include "glint/study/format.h"
 #include "glint/study/statistics.h"
@@ -169,7 +170,7 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
                   {"other", r.mask.other},
                   {"sampledColors", r.mask.sampledColors}};
   json["method"] = studyMethod(head, r);
-  json["look"] = Json::parse(head.lookText);
+  json["look"] = parsedJson<Json>(head.lookText);
   json["spread"] = r.spread;
   json["controls"] = Json::array();
   for (std::size_t i = 0; i < r.controls.size(); ++i) {
