@@ -1,17 +1,53 @@
 #include "diff_html.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
 
+#include "glint/image/error.h"
+#include "glint/image/flip.h"
 #include "glint/image/report_page.h"
 
 namespace glint {
 
 extern const ReportPage diffPage;  // diff_page.html
 
-void DiffHtml::write(const std::string& text) {
-  file_.write(std::as_bytes(std::span(text)));
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The colours of FLIP's map, "rrggbb" for each of 256 errors: a colour tells its error.
+std::string magmaText() {
+  std::string text;
+  for (int i = 0; i < 256; ++i) {
+    unsigned char rgb[3];
+    magma(float(i) / 255, rgb);
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "%02x%02x%02x", rgb[0], rgb[1], rgb[2]);
+    text += hex;
+  }
+  return text;
+}
+
+}  // namespace
+
+DiffHtml::DiffHtml(const std::string& path, bool beside)
+    : file_(path), folder_(beside ? path + ".pictures" : ""), kept_(std::tmpfile(), std::fclose) {
+  if (!kept_) throw InputError("no temporary file: set TMPDIR to a folder with room");
+  if (!beside) return;
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error)
+    throw InputError(printablePath(folder_) + ": " + error.message() +
+                     ": give another place for the report");
+}
+
+void DiffHtml::keep(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), kept_.get()) != text.size())
+    throw InputError("the temporary file of the report: no room: set TMPDIR to a folder with room");
   written_ += text.size();
 }
 
@@ -23,22 +59,43 @@ void DiffHtml::add(std::size_t index, bool differs, PairPictures pictures) {
 }
 
 void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bool differs) {
-  if (!begun_) write(std::string(diffPage.begin));
-  begun_ = true;
+  thumbnails_[index] = pictures.thumbnail;
   // A browser opens some 100 MB at once; what is the same is looked at least.
   constexpr std::size_t longPage = 48u << 20;
   const bool same = !differs && !pictures.a.empty() && pictures.b.empty();
   if (same && written_ > longPage) return;
   for (const auto& [kind, bytes] :
-       {std::pair{"a", &pictures.a}, std::pair{"b", &pictures.b}, std::pair{"m", &pictures.map}})
-    if (!bytes->empty()) write(base64Element(kind + std::to_string(index), *bytes));
+       {std::pair{'a', &pictures.a}, std::pair{'b', &pictures.b}, std::pair{'m', &pictures.map},
+        std::pair{'v', &pictures.valuesA}, std::pair{'w', &pictures.valuesB}}) {
+    if (bytes->empty()) continue;
+    const std::string name = kind + std::to_string(index);
+    if (folder_.empty()) {
+      keep(base64Element(name, *bytes));
+      continue;
+    }
+    OutputFile file(folder_ + "/" + name);
+    file.write(*bytes);
+    file.commit();
+    beside_[index] += kind;
+  }
 }
 
 void DiffHtml::finish(const nlohmann::ordered_json& json) {
-  if (!begun_) write(std::string(diffPage.begin));
+  nlohmann::ordered_json whole = json;
+  whole["magma"] = magmaText();
+  if (!folder_.empty()) whole["pictures"] = fs::path(folder_).filename().string();
+  for (const auto& [index, kinds] : beside_) whole["pairs"][index]["pictures"] = kinds;
+  for (const auto& [index, bytes] : thumbnails_)
+    if (!bytes.empty()) whole["pairs"][index]["thumbnail"] = base64(bytes);
+  const auto write = [&](std::string_view text) { file_.write(std::as_bytes(std::span(text))); };
+  write(diffPage.begin);
   write(jsonElement("data",
-                    json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
-  write(std::string(diffPage.end));
+                    whole.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
+  write(diffPage.end);
+  std::rewind(kept_.get());
+  std::vector<char> piece(1 << 20);
+  while (const std::size_t count = std::fread(piece.data(), 1, piece.size(), kept_.get()))
+    write({piece.data(), count});
   file_.commit();
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -10,16 +12,20 @@
 
 namespace glint {
 
-/// PNG files for the report; those that are not needed are empty.
+/// Files for the report; those that are not needed are empty.
 struct PairPictures {
-  std::vector<std::byte> a, b, map;
+  std::vector<std::byte> a, b, map;         ///< as a browser shows them
+  std::vector<std::byte> valuesA, valuesB;  ///< of 16 bits and floats: see trueValues()
+  std::vector<std::byte> thumbnail;
 };
 
-/// The report of `glint diff`, one page that needs nothing else, written piece by piece so that the
-/// pictures of a large folder need no memory. It appears when finish() has returned.
+/// The report of `glint diff`, one page that needs nothing else. The list of pairs stands at its
+/// beginning, so that it can be read while the pictures are still coming; those wait in a temporary
+/// file until then and need no memory. It appears when finish() has returned.
 class DiffHtml {
  public:
-  explicit DiffHtml(const std::string& path) : file_(path) {}
+  /// With `beside` the pictures go into the folder PATH.pictures.
+  DiffHtml(const std::string& path, bool beside);
 
   /// The pictures of pair `index`, in any order of pairs. Those of pairs without any difference are
   /// left out once the page is long.
@@ -29,7 +35,7 @@ class DiffHtml {
   void finish(const nlohmann::ordered_json& json);
 
  private:
-  void write(const std::string& text);
+  void keep(const std::string& text);
   void writePictures(std::size_t index, const PairPictures& pictures, bool differs);
 
   struct Waiting {
@@ -37,10 +43,13 @@ class DiffHtml {
     PairPictures pictures;
   };
   OutputFile file_;
-  bool begun_ = false;
-  std::size_t written_ = 0;               ///< bytes
-  std::size_t next_ = 0;                  ///< pair
-  std::map<std::size_t, Waiting> later_;  ///< pairs whose turn has not come
+  std::string folder_;                                    ///< of pictures; empty: in the page
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> kept_;  ///< the pictures, as elements
+  std::size_t written_ = 0;                               ///< bytes
+  std::size_t next_ = 0;                                  ///< pair
+  std::map<std::size_t, Waiting> later_;                  ///< pairs whose turn has not come
+  std::map<std::size_t, std::vector<std::byte>> thumbnails_;
+  std::map<std::size_t, std::string> beside_;  ///< kinds of pictures in the folder
 };
 
 }  // namespace glint

@@ -6,16 +6,21 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <future>
+#include <iostream>
+#include <iterator>
 #include <optional>
 
 #include "commands.h"
+#include "diff_layers.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/image/picture_writer.h"
+#include "glint/image/picture_layers.h"
 #include "glint/image/task.h"
+#include "report_pictures.h"
 
 namespace glint {
 namespace {
@@ -47,85 +52,179 @@ struct TemporaryPng {
   }
 };
 
-/// The picture as a browser can show it.
-std::vector<std::byte> pngOf(const std::string& path, const StoredImage& image) {
-  std::vector<std::byte> bytes = readFile(path);
-  constexpr unsigned char magic[4] = {0x89, 'P', 'N', 'G'};
-  if (bytes.size() > 4 &&
-      std::equal(magic, magic + 4, bytes.begin(),
-                 [](unsigned char m, std::byte b) { return std::byte(m) == b; }))
-    return bytes;
-  const TemporaryPng temporary;
-  PictureOptions options;
-  options.alpha = image.hasAlpha();
-  const auto writer = openPictureWriter(temporary.path, image.width, image.height, options);
-  Image row{image.width, 1, std::vector<float>(std::size_t(4) * image.width)};
-  for (int y = 0; y < image.height; ++y) {
-    image.linearRows(y, 1, row.values.data());
-    writer->write(row);
-  }
-  writer->finish();
-  return readFile(temporary.path);
+PictureLayers layersOf(const std::vector<std::byte>& bytes, const std::string& path,
+                       const std::string& wanted) {
+  return decodePictureLayers(bytes, path == "-" ? "stdin" : path, wanted);
 }
 
-void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
-  auto reading = startTask([&] { return readStoredImage(entry.a, settings.layer); });
-  StoredImage b;
-  std::string errorB;
-  try {
-    b = readStoredImage(entry.b, settings.layer);
-  } catch (const InputError& error) {
-    errorB = error.what();
+/// Both pictures of a pair. The same bytes are decoded once.
+struct BothPictures {
+  std::vector<std::byte> bytesA, bytesB;
+  PictureLayers a, b;
+
+  void read(const DiffSettings& settings, DiffEntry& entry) {
+    bytesB = pictureBytes(entry.b);
+    bytesA = pictureBytes(entry.a);
+    const bool same = bytesA == bytesB;
+    std::future<PictureLayers> reading;
+    // A thread costs as much as a small picture.
+    const auto readA = [&] { return layersOf(bytesA, entry.a, settings.layer); };
+    if (!same && bytesA.size() > 200000) reading = startTask(readA);
+    std::string errorB;
+    try {
+      b = layersOf(bytesB, entry.b, settings.layer);
+      entry.readableB = true;
+      entry.textB = b.layers[0].image.text;
+    } catch (const InputError& error) {
+      errorB = error.what();
+    }
+    a = same && errorB.empty() ? b : reading.valid() ? reading.get() : readA();
+    if (!errorB.empty()) throw InputError(errorB);
+    // Other formats than OpenEXR have one picture, which is compared with the main one.
+    if (a.named != b.named && settings.layer == "all") {
+      (a.named ? a : b) = layersOf(a.named ? bytesA : bytesB, a.named ? entry.a : entry.b, "main");
+    }
   }
-  entry.readableB = errorB.empty();
-  entry.textB = b.text;
-  const StoredImage a = reading.get();
-  if (!errorB.empty()) throw InputError(errorB);
-  entry.width = a.width;
-  entry.height = a.height;
-  entry.textA = a.text;
-  entry.note = driverNote(entry);
-  entry.acrossDrivers = !entry.note.empty();
+};
+
+/// The metrics of a comparison and its reports.
+CompareOptions optionsFor(const DiffSettings& settings, const StoredImage& a,
+                          const StoredImage& b) {
   CompareOptions options = settings.compare;
   if (settings.allMetrics) {
     for (const std::string& name : metricNames())
       if (name != "hdr-flip" || !(a.isEncoded() || b.isEncoded())) options.metrics.push_back(name);
   }
-  const bool flipOutput = !settings.output.empty() && settings.difference == DifferenceKind::flip;
+  return options;
+}
+
+bool asksFor(const CompareOptions& options, const char* metric) {
+  return std::count(options.metrics.begin(), options.metrics.end(), metric) > 0 ||
+         std::any_of(options.conditions.begin(), options.conditions.end(),
+                     [&](const Condition& condition) { return condition.metric == metric; });
+}
+
+void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
+  BothPictures both;
+  both.read(settings, entry);
+  entry.width = both.a.layers[0].image.width;
+  entry.height = both.a.layers[0].image.height;
+  entry.textA = both.a.layers[0].image.text;
+  const std::string note = driverNote(entry);
+  entry.acrossDrivers = !note.empty();
+  if (!note.empty()) entry.notes.push_back(note);
+  const LayerPairs pairs = matchLayers(both.a, both.b, entry);
+  if (pairs.matched.empty()) {
+    entry.result.failures = pairs.missing;
+    entry.status = differs;
+    return;
+  }
+  // What is looked at: the main picture, or where that is equal the first that is not.
+  const LayerPair& shown = pairs.matched[pairs.shown];
+  const bool flipWanted =
+      shown.a->colour && settings.difference == DifferenceKind::flip &&
+      std::uint64_t(shown.width()) * std::uint64_t(shown.height()) <= std::uint64_t(1) << 28;
+  const bool flipOutput = !settings.output.empty() && flipWanted;
   std::optional<TemporaryPng> map;
   std::optional<FlipPicture> output;
-  const bool sameSize = a.width == b.width && a.height == b.height;
-  if (sameSize && (pictures || flipOutput)) {
-    if (!flipOutput) map.emplace();
-    output.emplace(flipOutput ? settings.output : map->path, a.width, a.height);
-    const auto hdr = [](const auto& asked, auto nameOf) {
-      return std::any_of(asked.begin(), asked.end(),
-                         [&](const auto& one) { return nameOf(one) == "hdr-flip"; });
-    };
-    if (!hdr(options.metrics, [](const std::string& name) { return name; }) &&
-        !hdr(options.conditions, [](const Condition& condition) { return condition.metric; }))
-      options.metrics.push_back("flip");
-    options.flipMap = [&](int, const float* errors) { output->add(errors); };
-  }
   try {
-    entry.result = compare(a, b, options);
+    for (std::size_t i = 0; i < pairs.matched.size(); ++i) {
+      const LayerPair& pair = pairs.matched[i];
+      CompareOptions options = optionsFor(settings, pair.a->image, pair.b->image);
+      if (i == pairs.shown && flipWanted && (pictures || flipOutput)) {
+        if (!flipOutput) map.emplace();
+        output.emplace(flipOutput ? settings.output : map->path, shown.width(), shown.height());
+        if (!asksFor(options, "hdr-flip")) options.metrics.push_back("flip");
+        options.flipMap = [&](int, const float* errors) { output->add(errors); };
+      }
+      addLayer(pair, options, i == 0, entry);
+    }
   } catch (const InputError& error) {
     throw InputError(printablePath(entry.a) + " and " + printablePath(entry.b) + ": " +
                      error.what());
   }
+  entry.result.failures.insert(entry.result.failures.end(), pairs.missing.begin(),
+                               pairs.missing.end());
+  entry.result.same = entry.result.same && pairs.missing.empty();
+  entry.shown = shown.a->name;
   if (output) output->finish();
-  if (sameSize && !settings.output.empty() && !flipOutput)
-    writeDifference(settings.output, a, b, options, settings.difference, settings.scale);
+  const bool anyDifference =
+      pairs.shown > 0 || entry.result.differing > 0 || entry.result.sizesDiffer;
+  if (!settings.output.empty() && !flipOutput)
+    writeDifference(settings.output, shown.a->image, shown.b->image, settings.compare,
+                    shown.a->colour ? settings.difference : DifferenceKind::absolute,
+                    shown.a->colour ? settings.scale : shownScale(shown));
   if (pictures) {
-    pictures->a = pngOf(entry.a, a);
-    if (entry.result.differing > 0 || !sameSize) pictures->b = pngOf(entry.b, b);
-    if (entry.result.differing > 0)
-      pictures->map = readFile(flipOutput ? settings.output : map->path);
+    pictures->a = browserPicture(both.bytesA, *shown.a, shown.range());
+    if (anyDifference) {
+      pictures->b = browserPicture(both.bytesB, *shown.b, shown.range());
+      if (flipWanted) pictures->map = readFile(flipOutput ? settings.output : map->path, Noted::no);
+      pictures->valuesA = trueValues(shown.a->image);
+      pictures->valuesB = trueValues(shown.b->image);
+    }
+    pictures->thumbnail = thumbnailOf(anyDifference ? shown.b->image : shown.a->image);
   }
   entry.status = entry.result.same ? done : differs;
 }
 
+/// Of several baselines the one that holds, or else the one of the fewest differing pixels.
+void chooseBaseline(const DiffSettings& settings, DiffEntry& entry) {
+  DiffSettings plain = settings;
+  plain.output.clear();
+  plain.allMetrics = false;
+  std::vector<std::string> candidates{entry.a};
+  candidates.insert(candidates.end(), entry.others.begin(), entry.others.end());
+  std::string best;
+  double bestScore = INFINITY;
+  for (const std::string& candidate : candidates) {
+    DiffEntry trial = entry;
+    trial.a = candidate;
+    double score = INFINITY;
+    try {
+      compareFiles(plain, trial, nullptr);
+      score = trial.status == done ? -1 : double(trial.result.differing);
+      if (trial.result.sizesDiffer) score += 1e12;
+    } catch (const InputError&) {
+      continue;  // said if it is the one that is left
+    }
+    if (score >= bestScore) continue;
+    bestScore = score;
+    best = candidate;
+    if (score < 0) break;
+  }
+  if (best.empty() || best == entry.a) return;
+  entry.a = best;
+  entry.notes.push_back("compared with " + fs::path(best).filename().string() +
+                        ", the nearest of " + std::to_string(candidates.size()) + " baselines");
+}
+
+/// What a picture without a partner looks like.
+void showAlone(const DiffSettings& settings, const std::string& path, bool isA, DiffEntry& entry,
+               PairPictures* pictures) {
+  const std::vector<std::byte> bytes = pictureBytes(path);
+  const PictureLayers read = layersOf(bytes, path, settings.layer);
+  (isA ? entry.textA : entry.textB) = read.layers[0].image.text;
+  if (!isA) entry.readableB = true;
+  if (!pictures) return;
+  (isA ? pictures->a : pictures->b) =
+      browserPicture(bytes, read.layers[0], rangeOf(read.layers[0].image));
+  pictures->thumbnail = thumbnailOf(read.layers[0].image);
+}
+
 }  // namespace
+
+std::vector<std::byte> pictureBytes(const std::string& path) {
+  if (path != "-") return readFile(path);
+  std::vector<std::byte> bytes;
+  char piece[1 << 16];
+  while (std::cin.read(piece, sizeof piece), std::cin.gcount() > 0) {
+    const auto* const begin = reinterpret_cast<const std::byte*>(piece);
+    bytes.insert(bytes.end(), begin, begin + std::cin.gcount());
+    if (bytes.size() > std::size_t(4) << 30)
+      throw InputError("stdin: more than 4 GiB: give a smaller picture");
+  }
+  return bytes;
+}
 
 void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
   const auto start = std::chrono::steady_clock::now();
@@ -133,15 +232,13 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
     if (entry.b.empty()) {
       entry.status = unusable;
       entry.error = "missing: there is a baseline and no picture";
-      if (pictures) pictures->a = pngOf(entry.a, readStoredImage(entry.a, settings.layer));
+      if (pictures) showAlone(settings, entry.a, true, entry, pictures);
     } else if (entry.a.empty()) {
-      const StoredImage b = readStoredImage(entry.b, settings.layer);
       entry.status = noBaseline;
       entry.error = "no baseline: accept it with --update";
-      entry.textB = b.text;
-      entry.readableB = true;
-      if (pictures) pictures->b = pngOf(entry.b, b);
+      showAlone(settings, entry.b, false, entry, pictures);
     } else {
+      if (!entry.others.empty()) chooseBaseline(settings, entry);
       compareFiles(settings, entry, pictures);
     }
   } catch (const InputError& error) {
@@ -153,6 +250,17 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
   } catch (const std::system_error& error) {
     entry.status = unusable;
     entry.error = failureOf(error, entry.name);
+  }
+  // Of a pair that could not be compared, what can be read is shown.
+  if (pictures && entry.status == unusable && !entry.b.empty()) {
+    for (const bool isA : {true, false}) {
+      const std::string& path = isA ? entry.a : entry.b;
+      try {
+        if (!path.empty() && path != "-") showAlone(settings, path, isA, entry, pictures);
+      } catch (const std::exception&) {
+        continue;  // the error says which
+      }
+    }
   }
   entry.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -177,13 +285,25 @@ std::string driverBaseline(const std::string& folder, const DiffEntry& entry) {
 void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
   if (entry.b.empty()) return;
   try {
-    entry.textB = readStoredImage(entry.b).text;
+    entry.textB = readPictureLayers(entry.b, "all").layers[0].image.text;
   } catch (const InputError&) {
     return;  // said when it is compared
   }
   const std::string path = driverBaseline(folder, entry);
   std::error_code ignored;
   if (fs::exists(path, ignored)) entry.a = path;
+}
+
+std::vector<std::string> otherBaselines(const std::string& path) {
+  const fs::path whole(path);
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (int i = 1;; ++i) {
+    const fs::path other = whole.parent_path() / (whole.stem().string() + "_" + std::to_string(i) +
+                                                  whole.extension().string());
+    if (!fs::is_regular_file(other, ignored)) return found;
+    found.push_back(other.string());
+  }
 }
 
 }  // namespace glint

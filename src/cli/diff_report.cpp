@@ -1,5 +1,6 @@
 #include "diff_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -49,12 +50,116 @@ std::string xmlText(const std::string& text) {
   return safe;
 }
 
-std::string failureText(const DiffEntry& entry) {
-  if (!entry.error.empty()) return entry.error;
+std::string textOf(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::size_t countOf(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<std::size_t>() : 0;
+}
+
+std::string joined(const Json& json, const char* key) {
   std::string text;
-  for (const std::string& failure : entry.result.failures)
-    text += (text.empty() ? "" : "; ") + failure;
+  if (const auto found = json.find(key); found != json.end())
+    for (const Json& part : *found)
+      if (part.is_string()) text += (text.empty() ? "" : "; ") + part.get<std::string>();
   return text;
+}
+
+std::string failureText(const Json& pair) {
+  const std::string error = textOf(pair, "error");
+  return error.empty() ? joined(pair, "failures") : error;
+}
+
+/// The value of a metric, or nothing.
+std::string metricText(const Json& pair, const std::string& name) {
+  const auto metrics = pair.find("metrics");
+  if (metrics == pair.end() || !metrics->contains(name)) return "";
+  const Json& value = (*metrics)[name]["value"];
+  if (value.is_number()) return shortNumber(value.get<double>());
+  // Equal pictures have no noise; of nothing that is a number there is nothing.
+  const bool equal =
+      name == "psnr" && metrics->contains("max") && (*metrics)["max"]["value"].is_number();
+  return equal ? "inf" : "nan";
+}
+
+/// The metrics of a comparison.
+Json metricsJson(const Comparison& r, const CompareOptions& options) {
+  Json metrics = Json::object();
+  for (const std::string& name : metricNames()) {
+    const auto found = r.values.find(name);
+    if (found == r.values.end()) continue;
+    Json& metric = metrics[name];
+    metric["value"] = numberJson(found->second);
+    const bool hdr = name == "hdr-flip";
+    if (name == "flip" || hdr) {
+      const FlipResult& flip = hdr ? r.hdrFlip : r.flip;
+      metric["mean"] = numberJson(flip.mean);
+      metric["max"] = numberJson(flip.maximum);
+      metric["weightedMedian"] = flip.median;
+      metric["weightedQuartiles"] = {flip.firstQuartile, flip.thirdQuartile};
+      metric["pixelsPerDegree"] = options.flip.pixelsPerDegree;
+      if (hdr) {
+        const ToneMapper mapper = options.flip.toneMapper;
+        metric["startExposure"] = numberJson(flip.startExposure);
+        metric["stopExposure"] = numberJson(flip.stopExposure);
+        metric["exposures"] = flip.exposures;
+        metric["toneMapper"] = mapper == ToneMapper::aces    ? "aces"
+                               : mapper == ToneMapper::hable ? "hable"
+                                                             : "reinhard";
+      } else if (r.aboveOne > 0) {
+        metric["clampedPixels"] = r.aboveOne;
+      }
+    }
+    if (name == "pixels") {
+      metric["tolerance"] = options.tolerance;
+      metric["distance"] =
+          options.distance == PixelDistance::yiq ? "as pixelmatch 7.2" : "as pixelmatch 8.0";
+      if (options.window > 0) metric["window"] = options.window;
+      if (options.shift > 0) metric["shift"] = options.shift;
+      for (const PixelLimit& limit : options.maxPixels)
+        metric["atMost"].push_back(limit.isShare ? shortNumber(limit.most * 100) + "%"
+                                                 : shortNumber(limit.most));
+    }
+    for (const Condition& condition : options.conditions)
+      if (condition.metric == name) metric["threshold"] = condition.threshold;
+  }
+  return metrics;
+}
+
+Json worstJson(const Comparison& r) {
+  Json worst = Json::array();
+  for (const WorstPixel& pixel : r.worst) {
+    Json a = Json::array(), b = Json::array();
+    for (std::size_t c = 0; c < 4; ++c) {
+      a.push_back(numberJson(pixel.a[c]));
+      b.push_back(numberJson(pixel.b[c]));
+    }
+    worst.push_back({{"x", pixel.x},
+                     {"y", pixel.y},
+                     {"a", a},
+                     {"b", b},
+                     {"difference", numberJson(pixel.difference)}});
+  }
+  return worst;
+}
+
+/// Regions: how many there are, and the worst of them.
+void addRegions(const Comparison& r, Json& json) {
+  if (r.regions.empty()) return;
+  json["regionCount"] = r.regions.size();
+  json["regions"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.regions.size(), 100); ++i) {
+    const DifferingRegion& region = r.regions[i];
+    json["regions"].push_back({{"left", region.box.left},
+                               {"top", region.box.top},
+                               {"right", region.box.right},
+                               {"bottom", region.box.bottom},
+                               {"pixels", region.pixels},
+                               {"difference", numberJson(region.difference)}});
+  }
 }
 
 }  // namespace
@@ -74,115 +179,190 @@ std::string jsonText(const Json& json) {
 
 Json diffJson(const DiffEntry& entry, const CompareOptions& options) {
   Json json{{"name", entry.name}, {"a", entry.a}, {"b", entry.b}, {"status", entry.status}};
+  if (!entry.textA.empty()) json["textA"] = entry.textA;
+  if (!entry.textB.empty()) json["textB"] = entry.textB;
   if (!entry.error.empty()) {
     json["error"] = entry.error;
-    if (!entry.textB.empty()) json["textB"] = entry.textB;
     return json;
   }
   const Comparison& r = entry.result;
   json["same"] = r.same;
   json["failures"] = r.failures;
-  if (!entry.note.empty()) json["note"] = entry.note;
+  std::vector<std::string> notes = entry.notes;
+  const bool flipAsked =
+      std::any_of(options.conditions.begin(), options.conditions.end(),
+                  [](const Condition& condition) { return condition.metric == "flip"; }) ||
+      std::count(options.metrics.begin(), options.metrics.end(), "flip") > 0;
+  if (r.aboveOne > 0 && flipAsked)
+    notes.push_back("flip clamps " + std::to_string(r.aboveOne) +
+                    " pixels above 1; hdr-flip does not");
+  if (!entry.notCompared.empty()) {
+    std::string text;
+    for (const std::string& what : entry.notCompared) text += (text.empty() ? "" : ", ") + what;
+    notes.push_back("not compared: " + text);
+    json["notCompared"] = entry.notCompared;
+  }
+  if (!notes.empty()) json["notes"] = notes;
+  if (!entry.unfollowed.empty()) json["notFollowed"] = entry.unfollowed;
+  if (entry.updated) json["updated"] = true;
+  if (entry.acrossDrivers) json["acrossDrivers"] = true;
   json["ms"] = entry.milliseconds;
-  if (!entry.textA.empty()) json["textA"] = entry.textA;
-  if (!entry.textB.empty()) json["textB"] = entry.textB;
-  if (r.values.empty()) return json;  // different sizes
-  json["width"] = entry.width;
-  json["height"] = entry.height;
+  if (r.values.empty()) return json;  // nothing to compare
+  json["width"] = r.width;
+  json["height"] = r.height;
+  json["sizesDiffer"] = r.sizesDiffer;
   json["values"] = r.space == ValueSpace::encoded ? "encoded" : "linear";
   json["pixels"] = r.pixels;
   json["ignoredPixels"] = r.ignoredPixels;
   json["differing"] = r.differing;
   json["antiAliased"] = r.antiAliased;
   json["nan"] = {{"a", r.nanA}, {"b", r.nanB}};
-  json["infinite"] = {{"a", r.infinityA}, {"b", r.infinityB}};
-  json["metrics"] = Json::object();
-  for (const std::string& name : metricNames()) {
-    const auto found = r.values.find(name);
-    if (found == r.values.end()) continue;
-    Json& metric = json["metrics"][name];
-    metric["value"] = numberJson(found->second);
-    const bool hdr = name == "hdr-flip";
-    if (name == "flip" || hdr) {
-      const FlipResult& flip = hdr ? r.hdrFlip : r.flip;
-      metric["mean"] = numberJson(flip.mean);
-      metric["max"] = numberJson(flip.maximum);
-      metric["pixelsPerDegree"] = options.flip.pixelsPerDegree;
-      if (hdr) {
-        metric["startExposure"] = flip.startExposure;
-        metric["stopExposure"] = flip.stopExposure;
-        metric["exposures"] = flip.exposures;
-      }
-    }
-    if (name == "pixels") metric["tolerance"] = options.tolerance;
-    for (const Condition& condition : options.conditions)
-      if (condition.metric == name) metric["threshold"] = condition.threshold;
+  json["infinite"] = {{"a", r.infinityA}, {"b", r.infinityB}, {"differing", r.infinityDiffering}};
+  if (!entry.mainName.empty()) json["layer"] = entry.mainName;
+  json["metrics"] = metricsJson(r, options);
+  json["worst"] = worstJson(r);
+  // The regions and the worst pixels are of the layer that is shown.
+  addRegions(r, json);
+  for (const LayerResult& layer : entry.layers) {
+    Json part{{"name", layer.name},
+              {"same", layer.result.same},
+              {"differing", layer.result.differing},
+              {"metrics", metricsJson(layer.result, options)},
+              {"worst", worstJson(layer.result)}};
+    addRegions(layer.result, part);
+    json["layers"].push_back(part);
   }
-  json["worst"] = Json::array();
-  for (const WorstPixel& pixel : r.worst) {
-    Json a = Json::array(), b = Json::array();
-    for (std::size_t c = 0; c < 4; ++c) {
-      a.push_back(numberJson(pixel.a[c]));
-      b.push_back(numberJson(pixel.b[c]));
-    }
-    json["worst"].push_back({{"x", pixel.x},
-                             {"y", pixel.y},
-                             {"a", a},
-                             {"b", b},
-                             {"difference", numberJson(pixel.difference)}});
-  }
+  if (entry.shown != entry.mainName) json["shown"] = entry.shown;
   return json;
 }
 
-std::string diffLine(const DiffEntry& entry) {
-  if (!entry.error.empty()) return printablePath(entry.name) + ": " + entry.error;
-  const Comparison& r = entry.result;
-  if (entry.updated) return printablePath(entry.name) + ": " + entry.note;
-  std::string line = printablePath(entry.name) + ": " + (r.same ? "same" : "differs");
-  if (r.same && r.differing == 0) {
-    line += ", equal in every pixel";
-  } else if (!r.values.empty()) {
-    for (const std::string& name : metricNames()) {
-      const auto found = r.values.find(name);
-      if (found == r.values.end() || name == "mean" || name == "relative-rmse") continue;
-      line += ", " + name + " " + shortNumber(found->second);
-    }
-    line +=
-        ", " + std::to_string(r.differing) + " of " + std::to_string(r.pixels) + " pixels differ";
+std::string diffLine(const Json& pair) {
+  const std::string name = printablePath(textOf(pair, "name"));
+  if (pair.contains("error")) return name + ": " + textOf(pair, "error");
+  std::string line = name + ": ";
+  const bool same = pair.value("same", false), shownOnly = pair.contains("shown");
+  std::size_t layers = 0;
+  if (const auto found = pair.find("layers"); found != pair.end())
+    for (const Json& layer : *found) layers += countOf(layer, "differing") > 0;
+  if (pair.value("updated", false)) {
+    line += joined(pair, "notes");
+    return line;
   }
-  if (!r.failures.empty()) line += " (" + failureText(entry) + ")";
-  if (!r.worst.empty() && !r.same)
-    line += "; worst at " + std::to_string(r.worst[0].x) + "," + std::to_string(r.worst[0].y);
-  if (!entry.note.empty()) line += "; " + entry.note;
+  line += same ? "same" : "differs";
+  if (same && countOf(pair, "differing") == 0 && layers == 0) {
+    line += ", equal in every pixel";
+  } else if (pair.contains("metrics")) {
+    // What differs is told: the main picture, or the first layer that does.
+    const Json* told = &pair;
+    if (shownOnly)
+      for (const Json& layer : pair["layers"])
+        if (layer["name"] == pair["shown"]) told = &layer;
+    if (told != &pair) line += ", layer " + printablePath(textOf(pair, "shown"));
+    for (const std::string& metric : metricNames()) {
+      const std::string value = metricText(*told, metric);
+      if (value.empty() || metric == "mean" || metric == "relative-rmse") continue;
+      line += ", " + metric + " " + value;
+    }
+    line += ", " + std::to_string(countOf(*told, "differing")) + " of " +
+            std::to_string(countOf(pair, "pixels")) + " pixels differ";
+  }
+  if (const std::string failures = failureText(pair); !failures.empty())
+    line += " (" + failures + ")";
+  if (const auto worst = pair.find("worst"); !same && worst != pair.end() && !worst->empty())
+    line += "; worst at " + std::to_string((*worst)[0]["x"].get<int>()) + "," +
+            std::to_string((*worst)[0]["y"].get<int>());
+  if (const std::string notes = joined(pair, "notes"); !notes.empty()) line += "; " + notes;
   return line;
 }
 
-std::string junitXml(const std::vector<DiffEntry>& entries) {
+std::string notFollowedText(const Json& pair) {
+  std::string text;
+  if (const auto found = pair.find("notFollowed"); found != pair.end())
+    for (const auto& [what, value] : found->items())
+      text += (text.empty() ? "" : ", ") + what +
+              (value == "yes" ? "" : " (" + value.get<std::string>() + ")");
+  return text;
+}
+
+std::string junitXml(const Json& pairs) {
   std::size_t failures = 0, errors = 0;
   double seconds = 0;
-  for (const DiffEntry& entry : entries) {
-    failures += entry.status == 1 || entry.status == 4;
-    errors += entry.status == 2;
-    seconds += entry.milliseconds / 1000;
+  for (const Json& pair : pairs) {
+    const int status = pair["status"].get<int>();
+    failures += status == 1 || status == 4;
+    errors += status == 2;
+    seconds += pair.value("ms", 0.0) / 1000;
   }
-  const std::string counts = "tests=\"" + std::to_string(entries.size()) + "\" failures=\"" +
+  const std::string counts = "tests=\"" + std::to_string(pairs.size()) + "\" failures=\"" +
                              std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
                              "\" time=\"" + shortNumber(seconds) + "\"";
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
                     ">\n<testsuite name=\"glint diff\" " + counts + ">\n";
-  for (const DiffEntry& entry : entries) {
-    xml += "<testcase classname=\"glint.diff\" name=\"" + xmlText(entry.name) + "\" time=\"" +
-           shortNumber(entry.milliseconds / 1000) + "\"";
-    if (entry.status == 0) {
+  for (const Json& pair : pairs) {
+    const int status = pair["status"].get<int>();
+    xml += "<testcase classname=\"glint.diff\" name=\"" + xmlText(textOf(pair, "name")) +
+           "\" time=\"" + shortNumber(pair.value("ms", 0.0) / 1000) + "\"";
+    if (status == 0) {
       xml += "/>\n";
       continue;
     }
-    const char* const kind = entry.status == 2 ? "error" : "failure";
-    xml += std::string(">\n<") + kind + " message=\"" + xmlText(failureText(entry)) + "\">" +
-           xmlText(diffLine(entry) + "\n" + entry.result.worstText()) + "</" + kind +
-           ">\n</testcase>\n";
+    const char* const kind = status == 2 ? "error" : "failure";
+    std::string text = diffLine(pair) + "\n";
+    if (pair.contains("worst"))
+      for (const Json& pixel : pair["worst"])
+        text += "(" + pixel["x"].dump() + ", " + pixel["y"].dump() + "): " + pixel["a"].dump() +
+                " -> " + pixel["b"].dump() + "\n";
+    if (pair.contains("log")) text += textOf(pair, "log");
+    xml += std::string(">\n<") + kind + " message=\"" + xmlText(failureText(pair)) + "\">" +
+           xmlText(text) + "</" + kind + ">\n</testcase>\n";
   }
   return xml + "</testsuite>\n</testsuites>\n";
+}
+
+std::string markdownText(const Json& report) {
+  const auto cell = [](const std::string& text) {
+    std::string safe;
+    for (const char letter : utf8(text)) {
+      if (letter == '|' || letter == '`' || letter == '*' || letter == '_' || letter == '[' ||
+          letter == '<' || letter == '\\')
+        safe += '\\';
+      safe += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
+    }
+    return safe.substr(0, 300);
+  };
+  const Json& pairs = report["pairs"];
+  std::map<std::string, std::size_t> counts;
+  for (const Json& pair : pairs) ++counts[kindOf(pair)];
+  std::string text = "### Pictures: ";
+  bool first = true;
+  for (const auto& [kind, count] : counts) {
+    text += (first ? "" : ", ") + std::to_string(count) + " " + kind;
+    first = false;
+  }
+  text += "\n";
+  constexpr std::size_t most = 50;
+  std::size_t told = 0;
+  for (const Json& pair : pairs) {
+    if (pair["status"] == 0 && !pair.value("updated", false)) continue;
+    if (told++ == most) break;
+    if (told == 1)
+      text += "\n| picture | result | flip | max | pixels | why |\n|---|---|---|---|---|---|\n";
+    text += "| " + cell(textOf(pair, "name")) + " | " + kindOf(pair);
+    for (const char* metric : {"flip", "max", "pixels"}) text += " | " + metricText(pair, metric);
+    text += " | " + cell(failureText(pair)) + " |\n";
+  }
+  if (told > most) text += "\nand more; the report has all.\n";
+  if (report.contains("updateCommand"))
+    text += "\nTo accept them: `" + textOf(report, "updateCommand") + "`\n";
+  return text;
+}
+
+std::string kindOf(const Json& pair) {
+  const int status = pair["status"].get<int>();
+  if (status == 0) return "same";
+  if (status == 1) return "differs";
+  if (status == 4) return "no baseline";
+  return textOf(pair, "b").empty() ? "missing" : "error";
 }
 
 }  // namespace glint

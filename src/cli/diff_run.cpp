@@ -6,13 +6,18 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
+#include <string_view>
 #include <thread>
 
 #include "commands.h"
+#include "diff_baselines.h"
 #include "diff_html.h"
+#include "diff_options.h"
+#include "diff_test_run.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_files.h"
@@ -31,13 +36,6 @@ bool isThere(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
-std::string endingOf(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& letter : ending)
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return ending;
-}
-
 /// The pictures in a folder and its folders, by their paths in it. Driver folders of baselines
 /// begin with "driver-".
 std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
@@ -49,9 +47,7 @@ std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
     if (baselines && relative.begin()->string().starts_with("driver-")) continue;
     std::error_code ignored;
     if (!i->is_regular_file(ignored)) continue;
-    const std::string ending = endingOf(i->path().string());
-    for (const char* known : {".png", ".exr", ".pfm", ".hdr", ".jpg", ".jpeg"})
-      if (ending == known) names.push_back(relative.generic_string());
+    if (isPictureName(i->path().string())) names.push_back(relative.generic_string());
   }
   if (error)
     throw InputError(printablePath(folder) + ": " + error.message() + ": check the folder");
@@ -65,12 +61,26 @@ std::vector<DiffEntry> pairsOf(const DiffRequest& request) {
   std::vector<std::string> all;
   std::set_union(inA.begin(), inA.end(), inB.begin(), inB.end(), std::back_inserter(all));
   if (all.empty())
-    throw InputError(printablePath(request.a) + " and " + printablePath(request.b) +
-                     ": no pictures in them: give folders of PNG, EXR, PFM, HDR or JPEG files");
+    throw InputError(
+        printablePath(request.a) + " and " + printablePath(request.b) +
+        ": no pictures in them: give folders of PNG, EXR, PFM, HDR, JPEG, WebP, TIFF, PPM, BMP "
+        "or TGA files");
+  // NAME_1.png is one more baseline of NAME.png, unless it has a picture of its own.
+  std::set<std::string> alternatives;
+  for (const std::string& name : inA)
+    for (const std::string& other : otherBaselines(request.a + "/" + name))
+      if (const std::string inside = other.substr(request.a.size() + 1);
+          !std::binary_search(inB.begin(), inB.end(), inside))
+        alternatives.insert(inside);
   std::vector<DiffEntry> entries;
   for (const std::string& name : all) {
+    if (alternatives.count(name) > 0) continue;
     DiffEntry entry;
     entry.name = name;
+    if (std::binary_search(inA.begin(), inA.end(), name))
+      for (const std::string& other : otherBaselines(request.a + "/" + name))
+        if (alternatives.count(other.substr(request.a.size() + 1)) > 0)
+          entry.others.push_back(other);
     if (std::binary_search(inA.begin(), inA.end(), name)) entry.a = request.a + "/" + name;
     if (std::binary_search(inB.begin(), inB.end(), name)) entry.b = request.b + "/" + name;
     entries.push_back(std::move(entry));
@@ -78,39 +88,31 @@ std::vector<DiffEntry> pairsOf(const DiffRequest& request) {
   return entries;
 }
 
-void checkNames(const DiffRequest& request, const std::vector<DiffEntry>& entries) {
-  for (const std::string& name : request.named) {
-    const auto is = [&](const DiffEntry& entry) { return entry.name == name; };
-    if (std::none_of(entries.begin(), entries.end(), is))
-      throw InputError("--update " + printablePath(name) + ": no such pair: check the name");
-  }
+/// The settings of a pair: those of the last line of the conditions that names it, with what the
+/// command line says of reports.
+DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairConditions>& conditions,
+                         const std::string& name) {
+  const auto found = std::find_if(conditions.rbegin(), conditions.rend(),
+                                  [&](const auto& one) { return isNamedBy(one.pattern, name); });
+  if (found == conditions.rend()) return given;
+  DiffSettings settings = found->settings;
+  settings.allMetrics = given.allMetrics;
+  settings.compare.regions = given.compare.regions;
+  settings.compare.flip.threads = given.compare.flip.threads;
+  settings.difference = given.difference;
+  settings.scale = given.scale;
+  return settings;
 }
 
-/// Makes B the baseline where it is wanted and not the same, and says so.
-void update(const DiffRequest& request, DiffEntry& entry, const std::string& target) {
-  const auto& names = request.named;
-  if (!names.empty() && std::find(names.begin(), names.end(), entry.name) == names.end()) return;
-  if (entry.status == done || !entry.readableB) return;
-  if (endingOf(target) != endingOf(entry.b))
-    throw InputError("--update: " + printablePath(entry.b) + " is no " + endingOf(target) +
-                     " file as " + printablePath(target) + " is: give one of that format");
-  const bool made = !isThere(target);
-  std::error_code ignored;
-  fs::create_directories(fs::path(target).parent_path(), ignored);
-  forgetReadFile(target);
-  OutputFile file(target);
-  file.write(readFile(entry.b));
-  file.commit();
-  std::cerr << "glint: " << (made ? "made" : "replaced") << " the baseline "
-            << printablePath(target) << "\n";
-  entry.status = done;
-  entry.error.clear();
-  entry.updated = true;
-  entry.note = made ? "baseline made" : "baseline replaced";
-}
-
-void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* page,
+/// Compares, and gives the JSON of the pairs.
+Json comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* page,
                   std::vector<DiffEntry>& entries) {
+  std::string conditionsPath = request.conditions;
+  if (conditionsPath.empty() && isThere(request.a + "/glint-diff.txt"))
+    conditionsPath = request.a + "/glint-diff.txt";
+  std::vector<PairConditions> conditions;
+  if (!conditionsPath.empty()) conditions = readConditions(conditionsPath);
+  std::vector<Json> pairs(entries.size());
   int jobs = request.jobs > 0 ? request.jobs : int(std::thread::hardware_concurrency());
   jobs = std::clamp(jobs, 1, int(std::min<std::size_t>(entries.size(), 64)));
   if (jobs > 1) settings.compare.flip.threads = 1;
@@ -124,7 +126,9 @@ void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* p
       for (std::size_t i = next++; i < entries.size(); i = next++) {
         if (request.perDriver) useDriverBaseline(request.a, entries[i]);
         PairPictures pictures;
-        diffPair(settings, entries[i], page ? &pictures : nullptr);
+        const DiffSettings own = settingsFor(settings, conditions, entries[i].name);
+        diffPair(own, entries[i], page ? &pictures : nullptr);
+        pairs[i] = diffJson(entries[i], own.compare);
         const std::lock_guard lock(mutex);
         if (page) page->add(i, entries[i].result.differing > 0, std::move(pictures));
         progress.show(double(++compared) / double(entries.size()), entries[i].name);
@@ -141,28 +145,33 @@ void comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* p
     work();
   }
   if (failure) std::rethrow_exception(failure);
+  return Json(pairs);
 }
 
 /// Of several statuses the one that tells most: unusable, then differs, then noBaseline.
-int statusOf(const std::vector<DiffEntry>& entries) {
+int statusOf(const Json& pairs) {
   for (const int status : {int(unusable), int(differs), int(noBaseline)})
-    for (const DiffEntry& entry : entries)
-      if (entry.status == status) return status;
+    for (const Json& pair : pairs)
+      if (pair["status"] == status) return status;
   return done;
 }
 
 struct Summary {
   std::size_t same = 0, differ = 0, missing = 0, extra = 0, errors = 0, updated = 0, drivers = 0;
+  std::map<std::string, std::size_t> notFollowed;
 
-  explicit Summary(const std::vector<DiffEntry>& entries) {
-    for (const DiffEntry& entry : entries) {
-      same += entry.status == done;
-      differ += entry.status == differs;
-      missing += entry.b.empty();
-      extra += entry.status == noBaseline;
-      errors += entry.status == unusable && !entry.b.empty();
-      updated += entry.updated;
-      drivers += entry.acrossDrivers;
+  explicit Summary(const Json& pairs) {
+    for (const Json& pair : pairs) {
+      const std::string kind = kindOf(pair);
+      same += kind == "same";
+      differ += kind == "differs";
+      missing += kind == "missing";
+      extra += kind == "no baseline";
+      errors += kind == "error";
+      updated += pair.value("updated", false);
+      drivers += pair.value("acrossDrivers", false);
+      if (const auto found = pair.find("notFollowed"); found != pair.end())
+        for (const auto& [what, value] : found->items()) ++notFollowed[what];
     }
   }
 
@@ -178,48 +187,123 @@ struct Summary {
                        " without baseline, " + std::to_string(errors) + " unreadable";
     if (updated > 0) text += "; " + std::to_string(updated) + " baselines updated";
     if (drivers > 0) text += "; " + std::to_string(drivers) + " compared across drivers";
+    std::string ignored;
+    for (const auto& [what, count] : notFollowed)
+      ignored += (ignored.empty() ? "" : ", ") + what + " of " + std::to_string(count);
+    if (!ignored.empty()) text += "; not followed: " + ignored;
     return text;
   }
 };
+
+std::string quoted(const std::string& word) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("._-/+=:%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// Writes all reports of several pairs; the exit status.
+int report(const DiffRequest& request, Json pairs, DiffHtml* page,
+           const std::vector<std::string>& unused) {
+  const Summary summary(pairs);
+  const int status = statusOf(pairs);
+  const bool ofRun = !request.testRun.empty();
+  const std::string command =
+      "glint diff " +
+      (ofRun ? "--run " + quoted(request.testRun) : quoted(request.a) + " " + quoted(request.b)) +
+      " --update";
+  Json json{{"glint", GLINT_VERSION}, {"a", request.a}, {"b", request.b}, {"status", status}};
+  if (ofRun) json["run"] = request.testRun;
+  json["updateCommand"] = command;
+  json["pairs"] = std::move(pairs);
+  if (!unused.empty()) json["unusedBaselines"] = unused;
+  json["summary"] = summary.json(json["pairs"].size());
+  if (!request.json.empty()) writeText(request.json, jsonText(json));
+  if (!request.junit.empty()) writeText(request.junit, junitXml(json["pairs"]));
+  if (!request.markdown.empty()) writeText(request.markdown, markdownText(json));
+  if (page) page->finish(json);
+  const bool toStdout =
+      request.json == "-" || request.junit == "-" || request.html == "-" || request.markdown == "-";
+  if (toStdout) return status;
+  for (const Json& pair : json["pairs"])
+    if (pair["status"] != done || pair.contains("notCompared")) std::cout << diffLine(pair) << "\n";
+  for (const std::string& path : unused)
+    std::cout << printablePath(path) << ": no test uses this baseline: remove it with --prune\n";
+  std::cout << summary.line(json["pairs"].size()) << "\n";
+  return status;
+}
+
+std::unique_ptr<DiffHtml> openedPage(const DiffRequest& request) {
+  if (request.html.empty()) return nullptr;
+  return std::make_unique<DiffHtml>(request.html, request.picturesBeside);
+}
 
 int diffFolders(const DiffRequest& request) {
   if (!request.settings.output.empty())
     throw InputError("--output with folders: use --html for the pictures of differences");
   std::vector<DiffEntry> entries = pairsOf(request);
-  checkNames(request, entries);
-  std::optional<DiffHtml> page;
-  if (!request.html.empty()) page.emplace(request.html);
-  comparePairs(request, request.settings, page ? &*page : nullptr, entries);
-  if (request.updating) {
-    for (DiffEntry& entry : entries)
-      update(request, entry,
+  checkNames(request.named, entries);
+  const std::unique_ptr<DiffHtml> page = openedPage(request);
+  Json pairs = comparePairs(request, request.settings, page.get(), entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    DiffEntry& entry = entries[i];
+    if (request.updating)
+      update(request.named, entry,
              request.perDriver ? driverBaseline(request.a, entry) : request.a + "/" + entry.name);
+    if (request.pruning && entry.b.empty()) prune(entry);
+    if (entry.updated) pairs[i] = diffJson(entry, request.settings.compare);
   }
-  const Summary summary(entries);
-  const int status = statusOf(entries);
-  Json json{{"glint", GLINT_VERSION}, {"a", request.a}, {"b", request.b}, {"status", status}};
-  json["pairs"] = Json::array();
-  const bool toStdout = request.json == "-" || request.junit == "-" || request.html == "-";
-  for (const DiffEntry& entry : entries) {
-    json["pairs"].push_back(diffJson(entry, request.settings.compare));
+  return report(request, std::move(pairs), page.get(), {});
+}
+
+/// What the tests of a build have left.
+int diffTestRun(const DiffRequest& request) {
+  TestRun run = readTestRun(request.testRun);
+  checkNames(request.named, run.entries);
+  const std::unique_ptr<DiffHtml> page = openedPage(request);
+  for (std::size_t i = 0; i < run.entries.size(); ++i) {
+    DiffEntry& entry = run.entries[i];
+    if (page)
+      page->add(i, run.pairs[i].value("status", 0) != done, picturesOf(run.records[i], entry));
+    if (!request.updating) continue;
+    update(request.named, entry, run.records[i].baseline);
+    if (!entry.updated) continue;
+    Json& pair = run.pairs[i];
+    pair.erase("error");
+    pair["status"] = done;
+    pair["same"] = pair["updated"] = true;
+    pair["failures"] = Json::array();
+    pair["notes"] = entry.notes;
   }
-  json["summary"] = summary.json(entries.size());
-  if (!request.json.empty()) writeText(request.json, jsonText(json));
-  if (!request.junit.empty()) writeText(request.junit, junitXml(entries));
-  if (page) page->finish(json);
-  for (const DiffEntry& entry : entries)
-    if (entry.status != done && !toStdout) std::cout << diffLine(entry) << "\n";
-  if (!toStdout) std::cout << summary.line(entries.size()) << "\n";
-  return status;
+  if (request.pruning) {
+    for (const std::string& path : run.unused) {
+      DiffEntry entry;
+      entry.a = path;
+      prune(entry);
+    }
+    run.unused.clear();
+  }
+  return report(request, std::move(run.pairs), page.get(), run.unused);
 }
 
 int diffPictures(const DiffRequest& request) {
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
-  entry.name = fs::path(request.b).filename().string();
-  if (isThere(request.a)) entry.a = request.a;
-  if (isThere(request.b)) entry.b = request.b;
-  checkNames(request, entries);
+  if (request.a == "-" && request.b == "-")
+    throw InputError("diff - -: one of the two may come from stdin");
+  entry.name = request.b == "-" ? "stdin" : fs::path(request.b).filename().string();
+  if (request.a == "-" || isThere(request.a)) entry.a = request.a;
+  if (request.b == "-" || isThere(request.b)) entry.b = request.b;
+  if (!entry.a.empty() && entry.a != "-") entry.others = otherBaselines(entry.a);
+  if (request.b == "-" && (request.updating || !entry.others.empty())) {
+    if (request.updating) throw InputError("--update with stdin: give the picture as a file");
+    entry.others.clear();
+  }
+  checkNames(request.named, entries);
   std::string baseline = request.a;
   if (request.perDriver) {
     const fs::path a = request.a;
@@ -230,8 +314,7 @@ int diffPictures(const DiffRequest& request) {
     entry.a = named.a;
     baseline = driverBaseline(folder, named);
   }
-  std::optional<DiffHtml> page;
-  if (!request.html.empty()) page.emplace(request.html);
+  const std::unique_ptr<DiffHtml> page = openedPage(request);
   PairPictures pictures;
   diffPair(request.settings, entry, page ? &pictures : nullptr);
   if (entry.b.empty()) {
@@ -240,19 +323,29 @@ int diffPictures(const DiffRequest& request) {
     entry.error = printablePath(request.a) + ": no baseline: look at " + printablePath(request.b) +
                   " and accept it with --update";
   }
-  if (request.updating) update(request, entry, baseline);
+  if (request.updating) update(request.named, entry, baseline);
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));
-  if (!request.junit.empty()) writeText(request.junit, junitXml(entries));
+  if (!request.junit.empty()) writeText(request.junit, junitXml(Json::array({json})));
+  Json whole{
+      {"a", request.a},
+      {"b", request.b},
+      {"updateCommand", "glint diff " + quoted(request.a) + " " + quoted(request.b) + " --update"},
+      {"pairs", Json::array({json})}};
+  if (!request.markdown.empty()) writeText(request.markdown, markdownText(whole));
   if (page) {
     page->add(0, entry.result.differing > 0, std::move(pictures));
-    page->finish({{"a", request.a}, {"b", request.b}, {"pairs", Json::array({json})}});
+    page->finish(whole);
   }
   if (!entry.error.empty()) {
     std::cerr << "glint: " << entry.error << "\n";
-  } else if (request.json != "-" && request.junit != "-" && request.html != "-") {
-    std::cout << diffLine(entry) << "\n";
+  } else if (request.json != "-" && request.junit != "-" && request.html != "-" &&
+             request.markdown != "-") {
+    std::string line = diffLine(json);
+    if (const std::string text = notFollowedText(json); !text.empty())
+      line += "; not followed: " + text;
+    std::cout << line << "\n";
   }
   return entry.status;
 }
@@ -263,22 +356,22 @@ int runDiff(DiffRequest request) {
   checkOutputs({{"--output", request.settings.output},
                 {"--json", request.json},
                 {"--junit", request.junit},
+                {"--markdown", request.markdown},
                 {"--html", request.html}},
                {request.a, request.b, request.mask});
+  if (request.picturesBeside && (request.html.empty() || request.html == "-"))
+    throw InputError("--pictures-beside: it is of a report in a file: give --html FILE, too");
+  if (!request.testRun.empty()) return diffTestRun(request);
   std::error_code ignored;
   const bool folderA = fs::is_directory(request.a, ignored);
   const bool folderB = fs::is_directory(request.b, ignored);
-  StoredImage mask;
-  if (!request.mask.empty()) {
-    mask = readStoredImage(request.mask);
-    request.settings.compare.mask = &mask;
-  }
   if (folderB && (folderA || !isThere(request.a))) return diffFolders(request);
   if (folderA != folderB && isThere(request.a) && isThere(request.b))
     throw InputError(printablePath(request.a) + " and " + printablePath(request.b) +
                      ": one is a folder, the other a file: give two of a kind");
   if (folderA)
     throw InputError(printablePath(request.b) + ": No such file or directory: check the path");
+  if (request.pruning) throw InputError("--prune: it is of two folders, or of --run");
   return diffPictures(request);
 }
 

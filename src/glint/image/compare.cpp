@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "glint/image/compared_rows.h"
 #include "glint/image/error.h"
+#include "glint/image/regions.h"
 
 namespace glint {
 namespace {
@@ -15,24 +17,33 @@ namespace {
 /// The differences of single pixels, summed up row by row.
 class Sums {
  public:
-  Sums(const detail::ComparedRows& rows, std::size_t worst, Comparison& result)
-      : rows_(rows), worst_(worst), result_(result) {}
+  Sums(const detail::ComparedRows& rows, const CompareOptions& options, Comparison& result)
+      : rows_(rows), worst_(options.worst), result_(result) {
+    if (options.regions) regions_.emplace(rows.width(), rows.height());
+  }
 
   void run() {
     const int width = rows_.width();
     std::vector<float> a(std::size_t(4) * width), b(a.size());
     std::vector<unsigned char> counts(std::size_t(width), 1);
     for (int y = 0; y < rows_.height(); ++y) {
-      rows_.values(y, a.data(), b.data());
+      if (!rows_.ignoresSome() && rows_.codesAreEqual(y)) {
+        result_.pixels += std::size_t(width);
+        finite_ += std::size_t(width) * std::size_t(rows_.channels());
+        continue;
+      }
       if (rows_.ignoresSome()) rows_.counted(y, counts.data());
       Row row;
-      for (int x = 0; x < width; ++x) {
-        if (counts[std::size_t(x)]) {
-          add(x, y, &a[std::size_t(4) * x], &b[std::size_t(4) * x], row);
-        } else {
-          ++result_.ignoredPixels;
-        }
+      if (rows_.comparesCodes()) {
+        addCodes(y, counts, row);
+      } else {
+        rows_.values(y, a.data(), b.data());
+        for (int x = 0; x < width; ++x)
+          if (counts[std::size_t(x)])
+            add(x, y, &a[std::size_t(4) * x], &b[std::size_t(4) * x], row);
       }
+      if (rows_.ignoresSome())
+        result_.ignoredPixels += std::size_t(std::count(counts.begin(), counts.end(), 0));
       absolute_ += row.absolute;
       square_ += row.square;
       relative_ += row.relative;
@@ -44,6 +55,29 @@ class Sums {
   struct Row {
     double absolute = 0, square = 0, relative = 0;
   };
+
+  /// A row of 8-bit codes: only the pixels that differ become floats.
+  void addCodes(int y, const std::vector<unsigned char>& counts, Row& row) {
+    const int width = rows_.width();
+    const std::uint8_t *a = rows_.codesA(y), *b = rows_.codesB(y);
+    const std::size_t step = std::size_t(rows_.codeChannels());
+    const auto channels = std::size_t(rows_.channels());
+    std::size_t same = 0, counted = 0;
+    for (int x = 0; x < width; ++x, a += step, b += step) {
+      if (!counts[std::size_t(x)]) continue;
+      ++counted;
+      if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && (step == 3 || a[3] == b[3])) {
+        ++same;
+        continue;
+      }
+      float va[4], vb[4];
+      rows_.valuesOf(a, va);
+      rows_.valuesOf(b, vb);
+      addDifferent(x, y, va, vb, row);
+    }
+    result_.pixels += counted;
+    finite_ += same * channels;
+  }
 
   void add(int x, int y, const float* a, const float* b, Row& row) {
     const std::size_t channels = std::size_t(rows_.channels());
@@ -64,7 +98,8 @@ class Sums {
 
   void addDifferent(int x, int y, const float* a, const float* b, Row& row) {
     const std::size_t channels = std::size_t(rows_.channels());
-    bool nanA = false, nanB = false, infinityA = false, infinityB = false, differs = false;
+    bool nanA = false, nanB = false, infinityA = false, infinityB = false, differs = false,
+         infinityDiffers = false;
     double largest = 0;
     for (std::size_t c = 0; c < channels; ++c) {
       nanA = nanA || std::isnan(a[c]);
@@ -72,6 +107,11 @@ class Sums {
       infinityA = infinityA || std::isinf(a[c]);
       infinityB = infinityB || std::isinf(b[c]);
       differs = differs || !(a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c])));
+      if (std::isinf(a[c]) && a[c] == b[c]) {
+        ++finite_;
+        continue;
+      }
+      infinityDiffers = infinityDiffers || std::isinf(a[c]) || std::isinf(b[c]);
       const double difference = std::fabs(double(a[c]) - double(b[c]));
       if (!std::isfinite(difference)) continue;
       ++finite_;
@@ -85,11 +125,13 @@ class Sums {
     result_.nanB += nanB;
     result_.infinityA += infinityA;
     result_.infinityB += infinityB;
+    result_.infinityDiffering += infinityDiffers;
     result_.differing += differs;
     maximum_ = std::max(maximum_, largest);
     if (!differs) return;
+    if (regions_) regions_->add(x, y, nanA || nanB || infinityDiffers ? INFINITY : largest);
     // Not finite is worse than every number.
-    const bool finite = !(nanA || nanB || infinityA || infinityB);
+    const bool finite = !(nanA || nanB || infinityDiffers);
     keep({x,
           y,
           {a[0], a[1], a[2], a[3]},
@@ -123,17 +165,20 @@ class Sums {
 
   void finish() {
     result_.seenOverWhite = overWhite_ > overBlack_;
-    const double count = finite_ > 0 ? double(finite_) : 1;
+    if (regions_) result_.regions = regions_->found();
+    // Of nothing there is no mean, and no largest one: NaN.
+    const auto count = double(finite_);
     const double rmse = std::sqrt(square_ / count);
-    result_.values["max"] = maximum_;
+    result_.values["max"] = finite_ > 0 ? maximum_ : std::numeric_limits<double>::quiet_NaN();
     result_.values["mean"] = absolute_ / count;
     result_.values["rmse"] = rmse;
     result_.values["relative-rmse"] = std::sqrt(relative_ / count);
     result_.values["psnr"] =
-        rmse > 0 ? -20 * std::log10(rmse) : std::numeric_limits<double>::infinity();
+        rmse == 0 ? std::numeric_limits<double>::infinity() : -20 * std::log10(rmse);
   }
 
   const detail::ComparedRows& rows_;
+  std::optional<detail::Regions> regions_;
   std::size_t worst_;
   Comparison& result_;
   double absolute_ = 0, square_ = 0, relative_ = 0, maximum_ = 0;
@@ -148,7 +193,7 @@ std::string number(double value) {
 }
 
 void judge(const CompareOptions& options, Comparison& result) {
-  const bool equality = options.conditions.empty() && !options.maxPixels;
+  const bool equality = options.conditions.empty() && options.maxPixels.empty();
   if (equality && result.differing > 0)
     result.failures.push_back(std::to_string(result.differing) + " pixels differ");
   for (const auto& [name, threshold] : options.conditions) {
@@ -159,13 +204,14 @@ void judge(const CompareOptions& options, Comparison& result) {
                               (isSimilarity(name) ? " is below " : " is above ") +
                               number(threshold));
   }
-  if (options.maxPixels) {
+  for (const PixelLimit& limit : options.maxPixels) {
     const double over = result.values.at("pixels");
-    const double allowed =
-        options.maxPixelsIsShare ? *options.maxPixels * double(result.pixels) : *options.maxPixels;
-    if (!(over <= allowed))
-      result.failures.push_back(number(over) + " pixels are over the tolerance of " +
-                                number(options.tolerance) + ", allowed are " + number(allowed));
+    const double allowed = limit.isShare ? limit.most * double(result.pixels) : limit.most;
+    if (over <= allowed) continue;
+    std::string failure = number(over) + " pixels are over the tolerance of " +
+                          number(options.tolerance) + ", allowed are " + number(allowed);
+    if (options.window > 0) failure += " in a window of " + std::to_string(options.window);
+    result.failures.push_back(failure);
   }
   const auto refuse = [&](std::size_t count, const char* what) {
     if (!equality && count > 0)
@@ -173,13 +219,62 @@ void judge(const CompareOptions& options, Comparison& result) {
   };
   refuse(result.nanA, "of the baseline are not numbers");
   refuse(result.nanB, "are not numbers");
-  refuse(result.infinityA, "of the baseline are infinite");
-  refuse(result.infinityB, "are infinite");
+  refuse(result.infinityDiffering, "are infinite in one of the two");
   if (result.pixels == 0) result.failures.push_back("no pixel is left to compare");
   result.same = result.failures.empty();
 }
 
+Comparison comparePadded(const StoredImage& a, const StoredImage& b,
+                         const CompareOptions& options) {
+  const int width = std::max(a.width, b.width), height = std::max(a.height, b.height);
+  Comparison result;
+  if (std::uint64_t(width) * std::uint64_t(height) <= std::uint64_t(1) << 28) {
+    CompareOptions inside = options;
+    StoredImage mask;
+    if (options.mask) {
+      // What a mask does not reach counts.
+      const StoredImage& given = *options.mask;
+      mask = {width, height, 3, std::vector<std::uint8_t>(std::size_t(3) * width * height, 255)};
+      std::vector<float> row(std::size_t(4) * given.width);
+      for (int y = 0; y < std::min(height, given.height); ++y) {
+        given.encodedRows(y, 1, row.data());
+        for (int x = 0; x < std::min(width, given.width); ++x) {
+          const float* p = &row[std::size_t(4) * x];
+          const std::size_t at = std::size_t(3) * (std::size_t(width) * y + x);
+          if (p[0] + p[1] + p[2] < 1.5f) std::fill_n(&std::get<0>(mask.values)[at], 3, 0);
+        }
+      }
+      inside.mask = &mask;
+    }
+    result = compare(padded(a, width, height), padded(b, width, height), inside);
+  }
+  result.same = false;
+  result.sizesDiffer = true;
+  result.failures.insert(result.failures.begin(), detail::sizesText(a, b));
+  return result;
+}
+
 }  // namespace
+
+StoredImage padded(const StoredImage& image, int width, int height) {
+  StoredImage wide{width, height, 4, {}, image.text, image.unfollowed};
+  std::visit(
+      [&](const auto& from) {
+        using Value = typename std::decay_t<decltype(from)>::value_type;
+        const Value opaque = std::is_same_v<Value, float> ? Value(1) : static_cast<Value>(-1);
+        auto& to = wide.values.emplace<std::vector<Value>>(std::size_t(4) * width * height);
+        for (int y = 0; y < image.height; ++y) {
+          const Value* in = from.data() + std::size_t(image.channels) * image.width * y;
+          Value* out = to.data() + std::size_t(4) * width * y;
+          for (int x = 0; x < image.width; ++x, in += image.channels, out += 4) {
+            for (int c = 0; c < 3; ++c) out[c] = in[image.channels == 1 ? 0 : c];
+            out[3] = image.channels == 4 ? in[3] : opaque;
+          }
+        }
+      },
+      image.values);
+  return wide;
+}
 
 const std::vector<std::string>& metricNames() {
   static const std::vector<std::string> names{"max",    "mean", "rmse", "relative-rmse", "psnr",
@@ -192,7 +287,7 @@ bool isSimilarity(const std::string& metric) { return metric == "psnr" || metric
 Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOptions& options) {
   std::vector<std::string> wanted = options.metrics;
   for (const Condition& condition : options.conditions) wanted.push_back(condition.metric);
-  if (options.maxPixels) wanted.push_back("pixels");
+  if (!options.maxPixels.empty()) wanted.push_back("pixels");
   const auto asked = [&](const char* name) {
     return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   };
@@ -203,34 +298,45 @@ Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOpti
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
     throw InputError("unknown metric '" + name + "': give one of " + all);
   }
+  if (a.width != b.width || a.height != b.height) return comparePadded(a, b, options);
   Comparison result;
-  if (a.width != b.width || a.height != b.height) {
-    result.failures.push_back(detail::sizesText(a, b));
-    return result;
-  }
+  result.width = a.width;
+  result.height = a.height;
   detail::ComparedRows rows(a, b, options);
   result.space = rows.space();
-  Sums(rows, options.worst, result).run();
+  Sums(rows, options, result).run();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const bool empty = std::isnan(result.values["max"]);
+  // What is equal needs no filters.
+  const bool equal = result.differing == 0 && result.nanA == 0 && result.infinityA == 0;
   if (asked("pixels")) {
     std::vector<const detail::ComparedRows*> views{&rows};
     detail::ComparedRows white = rows;
     white.showOver({1, 1, 1});
     if (result.alphaDiffering > 0) views.push_back(&white);
-    const auto count = detail::countPixels(views, options.tolerance, options.ignoreAntiAliasing);
+    const auto count = equal ? detail::PixelCount() : detail::countPixels(views, options);
     result.values["pixels"] = double(count.over);
     result.antiAliased = count.antiAliased;
   }
   if (result.seenOverWhite) rows.showOver({1, 1, 1});
-  if (asked("ssim")) result.values["ssim"] = detail::structuralSimilarity(rows);
+  if (asked("ssim"))
+    result.values["ssim"] = empty ? none : equal ? 1 : detail::structuralSimilarity(rows);
   std::function<void(int, unsigned char*)> counts;
   if (rows.ignoresSome()) counts = [&](int y, unsigned char* row) { rows.counted(y, row); };
   if (asked("flip")) {
-    result.flip = flip(rows.linearA(), rows.linearB(), options.flip,
-                       asked("hdr-flip") ? FlipRows() : options.flipMap, counts);
+    result.aboveOne = rows.pixelsAboveOne();
+    const FlipRows map = asked("hdr-flip") ? FlipRows() : options.flipMap;
+    if (equal && !map) {
+      result.flip.pixels = result.pixels;
+    } else {
+      result.flip = flip(rows.linearA(), rows.linearB(), options.flip, map, counts);
+    }
+    if (empty) result.flip.mean = result.flip.maximum = none;
     result.values["flip"] = result.flip.mean;
   }
   if (asked("hdr-flip")) {
     result.hdrFlip = hdrFlip(rows.linearA(), rows.linearB(), options.flip, options.flipMap, counts);
+    if (empty) result.hdrFlip.mean = result.hdrFlip.maximum = none;
     result.values["hdr-flip"] = result.hdrFlip.mean;
   }
   judge(options, result);

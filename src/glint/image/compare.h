@@ -38,20 +38,32 @@ struct Condition {
   double threshold = 0;
 };
 
+/// At most so many pixels: a number, or a share of all.
+struct PixelLimit {
+  double most = 0;
+  bool isShare = false;
+};
+
+/// What "pixels" holds against the tolerance: the distance of pixelmatch to version 7 (YIQ) or
+/// that of version 8 (HyAB in OKLab with its lightness corrected near black).
+enum class PixelDistance { yiq, oklab };
+
 struct CompareOptions {
   std::vector<Condition> conditions;
-  std::vector<std::string> metrics;  ///< to be computed beside those of the conditions
-  /// At most so many pixels may differ by more than `tolerance`: a number, or a share of all.
-  std::optional<double> maxPixels;
-  bool maxPixelsIsShare = false;
-  double tolerance = 0.1;           ///< of "pixels": [0, 1], distance of pixelmatch
+  std::vector<std::string> metrics;   ///< to be computed beside those of the conditions
+  std::vector<PixelLimit> maxPixels;  ///< at most so many pixels may be over the tolerance
+  double tolerance = 0.1;             ///< of "pixels": [0, 1], distance of pixelmatch
+  PixelDistance distance = PixelDistance::yiq;
   bool ignoreAntiAliasing = false;  ///< pixels that look like anti-aliasing are not counted
+  int shift = 0;   ///< pixels that are found so far away in the other picture are not counted
+  int window = 0;  ///< of "pixels": the largest count of a window of this side; 0: of the picture
   AlphaUse alpha = AlphaUse::straight;
   std::array<float, 3> background{};  ///< linear light, for AlphaUse::over
   ValueSpace values = ValueSpace::asStored;
   std::vector<PixelBox> ignored;
   const StoredImage* mask = nullptr;  ///< of the same size; black (below half) is ignored
   std::size_t worst = 10;             ///< how many of the worst pixels are kept
+  bool regions = false;               ///< whether the regions that differ are told apart
   FlipOptions flip;
   FlipRows flipMap;  ///< takes the rows of the map of "hdr-flip" if that is asked for, or "flip"
 };
@@ -60,6 +72,14 @@ struct WorstPixel {
   int x = 0, y = 0;
   std::array<float, 4> a{}, b{};  ///< the values compared
   double difference = 0;          ///< the largest over the channels
+};
+
+/// Differing pixels that lie together: no more than 15 pixels between them.
+struct DifferingRegion {
+  PixelBox box;
+  std::size_t pixels = 0;
+  double difference = 0;  ///< the largest over channels and pixels
+  double sum = 0;         ///< of the largest of each pixel; not finite ones count as 1
 };
 
 /// The metrics' names, in the order in which they are reported. max to psnr are of the values
@@ -92,21 +112,31 @@ struct Comparison {
   bool seenOverWhite = false;            ///< by ssim and FLIP; else over black or the background
   std::size_t antiAliased = 0;           ///< over the tolerance, but left out as anti-aliasing
   std::size_t nanA = 0, nanB = 0, infinityA = 0, infinityB = 0;  ///< pixels
-  ValueSpace space = ValueSpace::encoded;                        ///< of the values below
-  std::vector<WorstPixel> worst;                                 ///< descending
+  std::size_t infinityDiffering = 0;  ///< pixels with an infinity that the other has not
+  std::size_t aboveOne = 0;           ///< pixels that "flip" clamps: a colour is above 1
+  bool sizesDiffer = false;           ///< values are then of both, padded with transparent pixels
+  int width = 0, height = 0;          ///< of what was compared
+  ValueSpace space = ValueSpace::encoded;  ///< of the values below
+  std::vector<WorstPixel> worst;           ///< descending
+  std::vector<DifferingRegion> regions;    ///< if asked for, those of the largest sums first
 
   /// The worst pixels with both values, a line each.
   std::string worstText() const;
 };
 
-/// Compares two pictures, A being the baseline. Values that are not finite are counted and left
-/// out of the metrics; they fail every comparison but the one that asks for equality (no
-/// condition), where the same NaN or infinity is equal. Pictures of different sizes are not the
-/// same: one failure says so, and there are no values.
+/// Compares two pictures, A being the baseline. The same infinity in both is equal. Other values
+/// that are not finite are counted and left out of the metrics; they fail every comparison but the
+/// one that asks for equality (no condition), where the same NaN is equal. Metrics of which no
+/// value is left are NaN. Pictures of different sizes are not the same, whatever the conditions:
+/// one failure says so, and the values are of both pictures padded with transparent pixels at their
+/// right and lower ends (if that has at most 2^28 pixels; else there are none).
 /// Throws InputError for unknown metrics, a mask of another size, and value spaces that do not
 /// match.
 Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOptions& options = {});
 /// The same for pictures in linear light.
 Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// `image` with transparent pixels at its right and lower ends, as wide and high as is said.
+StoredImage padded(const StoredImage& image, int width, int height);
 
 }  // namespace glint

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "glint/image/error.h"
 
@@ -38,22 +39,74 @@ ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
   }
   if (options.alpha == AlphaUse::straight && (a.hasAlpha() || b.hasAlpha())) channels_ = 4;
   ignoresSome_ = options.mask || !options.ignored.empty();
+  bothCodes_ = a.isEncoded() && b.isEncoded();
+  comparesCodes_ = space_ == ValueSpace::encoded && options.alpha != AlphaUse::over &&
+                   a.values.index() == 0 && b.values.index() == 0 && a.channels == b.channels;
+}
+
+void ComparedRows::valuesOf(const std::uint8_t* codes, float* values) const {
+  const bool seen = channels_ == 3 || a_.channels == 3 || codes[3] > 0;
+  for (int c = 0; c < 3; ++c) values[c] = seen ? codes[c] / 255.0f : 0;
+  values[3] = a_.channels == 4 && channels_ == 4 ? codes[3] / 255.0f : 1;
+}
+
+bool ComparedRows::codesAreEqual(int y) const {
+  if (a_.values.index() != b_.values.index() || a_.channels != b_.channels || !a_.isEncoded())
+    return false;
+  const std::size_t size = std::size_t(a_.channels) * a_.width;
+  return std::visit(
+      [&](const auto& a) {
+        const auto& b = std::get<std::decay_t<decltype(a)>>(b_.values);
+        return std::memcmp(&a[size * y], &b[size * y], size * sizeof a[0]) == 0;
+      },
+      a_.values);
+}
+
+std::size_t ComparedRows::pixelsAboveOne() const {
+  std::size_t count = 0;
+  std::vector<float> row(std::size_t(4) * a_.width);
+  std::vector<char> above(std::size_t(a_.width));
+  if (bothCodes_) return 0;
+  for (int y = 0; y < a_.height; ++y) {
+    std::fill(above.begin(), above.end(), 0);
+    for (const StoredImage* image : {&a_, &b_}) {
+      if (image->isEncoded()) continue;
+      image->linearRows(y, 1, row.data());
+      for (std::size_t x = 0; x < above.size(); ++x)
+        if (row[4 * x] > 1 || row[4 * x + 1] > 1 || row[4 * x + 2] > 1) above[x] = 1;
+    }
+    count += std::size_t(std::count(above.begin(), above.end(), 1));
+  }
+  return count;
 }
 
 void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha,
                          float* rgba) const {
+  const bool encoded = space == ValueSpace::encoded;
+  const int width = image.width;
+  if (alpha == AlphaUse::ignored) {
+    // What is stored, whatever alpha is: nothing is divided by it.
+    image.storedRows(y, 1, rgba);
+    for (int x = 0; x < width; ++x) {
+      float* p = rgba + 4 * x;
+      p[3] = 1;
+      if (encoded == image.isEncoded()) continue;
+      for (int c = 0; c < 3; ++c) p[c] = encoded ? encodedValue(p[c]) : decodedValue(p[c]);
+    }
+    return;
+  }
   const bool over = alpha == AlphaUse::over && image.hasAlpha();
-  if (space == ValueSpace::encoded) {
+  if (encoded && image.isEncoded() && (bothCodes_ || over || !image.hasAlpha())) {
     image.encodedRows(y, 1, rgba);
     if (!over) return;
     const auto opaque = [](float a) { return a == 1; };
     bool all = true;
-    for (int x = 0; x < image.width; ++x) all = all && opaque(rgba[4 * x + 3]);
+    for (int x = 0; x < width; ++x) all = all && opaque(rgba[4 * x + 3]);
     if (all) return;
     // Laying a picture over another is done in linear light; what is opaque keeps its codes.
-    std::vector<float> linear(std::size_t(4) * image.width);
+    std::vector<float> linear(std::size_t(4) * width);
     image.linearRows(y, 1, linear.data());
-    for (int x = 0; x < image.width; ++x) {
+    for (int x = 0; x < width; ++x) {
       float* p = rgba + 4 * x;
       if (opaque(p[3])) continue;
       for (std::size_t c = 0; c < 3; ++c)
@@ -62,18 +115,19 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
     }
     return;
   }
+  // Linear light is premultiplied, in files of floats and here: dividing by a small alpha would
+  // make much of little.
   image.linearRows(y, 1, rgba);
-  for (int x = 0; x < image.width && image.hasAlpha(); ++x) {
-    float* p = rgba + 4 * x;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (over) {
-        p[c] += (1 - p[3]) * background_[c];
-      } else if (p[3] > 0 && p[3] < 1) {
-        p[c] /= p[3];
-      }
+  if (over) {
+    for (int x = 0; x < width; ++x) {
+      float* p = rgba + 4 * x;
+      for (std::size_t c = 0; c < 3; ++c) p[c] += (1 - p[3]) * background_[c];
+      p[3] = 1;
     }
-    if (over) p[3] = 1;
   }
+  if (!encoded) return;
+  for (int x = 0; x < width; ++x)
+    for (int c = 0; c < 3; ++c) rgba[4 * x + c] = encodedValue(rgba[4 * x + c]);
 }
 
 void ComparedRows::pair(int y, ValueSpace space, AlphaUse alpha, float* a, float* b) const {

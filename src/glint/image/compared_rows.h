@@ -25,6 +25,18 @@ class ComparedRows {
   int channels() const { return channels_; }  ///< that are compared: 3 or 4
   ValueSpace space() const { return space_; }
 
+  /// Whether what is compared are the 8-bit codes of both, of as many channels, as they stand.
+  bool comparesCodes() const { return comparesCodes_; }
+  int codeChannels() const { return a_.channels; }
+  const std::uint8_t* codesA(int y) const { return codesOf(a_, y); }
+  const std::uint8_t* codesB(int y) const { return codesOf(b_, y); }
+  /// The values compared of one pixel's codes.
+  void valuesOf(const std::uint8_t* codes, float* values) const;
+  /// Whether all codes of a row are the same in both (of 16 bits too).
+  bool codesAreEqual(int y) const;
+  /// Pixels with a colour above 1, in linear light, in one of the two; of codes there is none.
+  std::size_t pixelsAboveOne() const;
+
   /// Row y of both in the space asked for: 4 * width values each.
   void values(int y, float* a, float* b) const;
   /// In sRGB over the background, opaque.
@@ -39,6 +51,9 @@ class ComparedRows {
   PixelRows linearB() const;
 
  private:
+  static const std::uint8_t* codesOf(const StoredImage& image, int y) {
+    return std::get<0>(image.values).data() + std::size_t(image.channels) * image.width * y;
+  }
   void rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha, float* rgba) const;
   void pair(int y, ValueSpace space, AlphaUse alpha, float* a, float* b) const;
 
@@ -49,6 +64,8 @@ class ComparedRows {
   Background background_;
   int channels_ = 3;
   bool ignoresSome_ = false;
+  bool comparesCodes_ = false;
+  bool bothCodes_ = false;
 };
 
 /// Mean structural similarity (Wang et al. 2004): 11 x 11 Gaussian of 1.5 pixels, K1 = 0.01,
@@ -57,12 +74,13 @@ class ComparedRows {
 double structuralSimilarity(const ComparedRows& rows);
 
 /// Counts the pixels that differ by more than a tolerance, as pixelmatch does: the distance in YIQ
-/// (Kotsarenko and Ramos 2010), anti-aliasing by Vysniauskas (2009). Given several views of the
-/// pictures, a pixel differs if it does in one of them.
+/// (Kotsarenko and Ramos 2010) or by HyAB (Abasi, Tehran, Fairchild 2019) in OKLab (Ottosson 2020)
+/// with its lightness corrected near black, anti-aliasing by Vysniauskas (2009). Given several
+/// views of the pictures, a pixel differs if it does in one of them.
 struct PixelCount {
   std::size_t over = 0, antiAliased = 0;
 };
-PixelCount countPixels(const std::vector<const ComparedRows*>& views, double tolerance,
-                       bool ignoreAntiAliasing);
+PixelCount countPixels(const std::vector<const ComparedRows*>& views,
+                       const CompareOptions& options);
 
 }  // namespace glint::detail

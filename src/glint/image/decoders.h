@@ -10,6 +10,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/picture_layers.h"
 #include "glint/image/stored_image.h"
 #include "glint/image/texture.h"
 
@@ -17,7 +18,8 @@ struct spng_ctx;
 
 namespace glint::detail {
 
-constexpr int maxSide = 16384;  ///< pixels
+constexpr int maxSide = 1 << 20;                           ///< pixels
+constexpr std::uint64_t maxArea = std::uint64_t(1) << 28;  ///< pixels: 1 GiB of bytes
 
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
@@ -25,6 +27,12 @@ bool isWebp(std::span<const std::byte> bytes);
 bool isPfm(std::span<const std::byte> bytes);
 bool isHdr(std::span<const std::byte> bytes);
 bool isExr(std::span<const std::byte> bytes);
+bool isTiff(std::span<const std::byte> bytes);
+/// PPM, PGM and their binary kin, BMP.
+bool isPnm(std::span<const std::byte> bytes);
+bool isBmp(std::span<const std::byte> bytes);
+/// TGA has no magic: its header must be one that is possible. To be asked last.
+bool isTga(std::span<const std::byte> bytes);
 
 /// Throws InputError, too, where the build has no libwebp.
 ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name);
@@ -34,6 +42,21 @@ StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name)
 StoredImage decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer);
+PictureLayers decodeExrLayers(std::span<const std::byte> bytes, const std::string& name,
+                              const std::string& wanted);
+/// PPM, PGM, BMP and TGA.
+StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name);
+/// The first page; `skipped` takes what else the file holds, in words.
+StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name,
+                       std::vector<std::string>& skipped);
+
+/// What a PNG, JPEG or WebP says of colours and orientation beside the pixels; see
+/// StoredImage::unfollowed.
+std::map<std::string, std::string> unfollowedIn(std::span<const std::byte> bytes);
+/// The orientation in EXIF data (a TIFF header and its first directory); 1, as stored, if there is
+/// none.
+int exifOrientation(std::span<const std::byte> exif);
+
 /// The string attributes of an EXR's first part; reads no pixels.
 std::map<std::string, std::string> exrText(std::span<const std::byte> bytes,
                                            const std::string& name);
@@ -61,12 +84,14 @@ class PngReader {
   void decodeTo(void* out, std::size_t size, int format);
   void check(int status) const;
 
+  std::span<const std::byte> bytes_;
   std::string name_;
   std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png_;
   int width_ = 0;
   int height_ = 0;
   int bitDepth_ = 0;
   int colourType_ = 0;
+  bool isPlain_ = false;  ///< 8 bits, rows in order
 };
 
 /// A line for data that no decoder can make sense of.
@@ -74,10 +99,11 @@ inline InputError damaged(const std::string& name, const std::string& what) {
   return InputError(printablePath(name) + ": " + what + ": save the picture again");
 }
 
-/// Throws InputError if there are more pixels than are read, or a side is longer than maxSide.
+/// Throws InputError if there are more pixels than are read as 16 bits or floats, or a side is
+/// longer than maxSide.
 void checkSize(const std::string& name, std::uint64_t width, std::uint64_t height);
 
-/// Throws InputError if a side is longer than maxSide.
+/// Throws InputError if a side is longer than maxSide, or there are more than maxArea pixels.
 void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height);
 
 }  // namespace glint::detail

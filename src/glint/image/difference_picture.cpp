@@ -44,6 +44,13 @@ void FlipPicture::finish() { parts_->writer->finish(); }
 
 void writeDifference(const std::string& path, const StoredImage& a, const StoredImage& b,
                      const CompareOptions& options, DifferenceKind kind, double scale) {
+  if (a.width != b.width || a.height != b.height) {
+    const int wide = std::max(a.width, b.width), high = std::max(a.height, b.height);
+    CompareOptions all = options;
+    all.mask = nullptr;
+    writeDifference(path, padded(a, wide, high), padded(b, wide, high), all, kind, scale);
+    return;
+  }
   const detail::ComparedRows rows(a, b, options);
   if (kind == DifferenceKind::flip) {
     FlipPicture picture(path, rows.width(), rows.height());

@@ -4,17 +4,17 @@
 #include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfPartType.h>
 #include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdio>
 #include <cstring>
 #include <mutex>
-#include <optional>
 
 #include "glint/image/decoders.h"
+#include "glint/image/exr_layers.h"
 
 namespace glint::detail {
 namespace {
@@ -39,85 +39,6 @@ class MemoryStream : public Imf::IStream {
   std::uint64_t at_ = 0;
 };
 
-/// One layer: where its channels are.
-struct Layer {
-  int part = 0;
-  std::string prefix;  ///< of the channel names, with the dot
-  /// Names of the channels of R, G, B and A; empty is none. Grey has one name three times.
-  std::array<std::string, 4> channels;
-  bool chroma = false;  ///< Y, RY, BY
-};
-
-using Channels = std::vector<std::pair<std::string, Imf::Channel>>;
-
-/// The channels whose names are `prefix` and one more word.
-Channels channelsOf(const Imf::Header& header, const std::string& prefix) {
-  Channels found;
-  for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
-    const std::string name = i.name();
-    if (name.starts_with(prefix) && name.find('.', prefix.size()) == std::string::npos)
-      found.emplace_back(name.substr(prefix.size()), i.channel());
-  }
-  return found;
-}
-
-/// Which of the channels make the colour; nothing if they make none.
-std::optional<Layer> colourOf(const Channels& channels, const std::string& prefix) {
-  const auto has = [&](const char* name) {
-    return std::any_of(channels.begin(), channels.end(),
-                       [&](const auto& channel) { return channel.first == name; });
-  };
-  Layer layer;
-  layer.prefix = prefix;
-  layer.chroma = has("Y") && has("RY") && has("BY");
-  if (has("R") || has("G") || has("B")) {
-    for (const int c : {0, 1, 2}) {
-      const char* const name = c == 0 ? "R" : c == 1 ? "G" : "B";
-      if (has(name)) layer.channels[std::size_t(c)] = prefix + name;
-    }
-  } else {
-    std::string grey;
-    int others = 0;
-    for (const auto& [name, channel] : channels) {
-      if (name == "A" || name == "RY" || name == "BY") continue;
-      grey = name;
-      ++others;
-    }
-    if (has("Y")) grey = "Y";
-    if (grey.empty() || (others > 1 && grey != "Y")) return std::nullopt;
-    std::fill_n(layer.channels.begin(), 3, prefix + grey);
-  }
-  if (has("A")) layer.channels[3] = prefix + "A";
-  return layer;
-}
-
-/// Layers by name: parts, prefixes of channels, and prefixes within a named part ("part.prefix").
-std::map<std::string, Layer> layersOf(const Imf::MultiPartInputFile& file) {
-  std::map<std::string, Layer> layers;
-  const auto add = [&](const std::string& name, const Imf::Header& header, int part,
-                       const std::string& prefix) {
-    if (auto layer = colourOf(channelsOf(header, prefix), prefix)) {
-      layer->part = part;
-      layers.emplace(name, *layer);
-    }
-  };
-  for (int part = 0; part < file.parts(); ++part) {
-    const Imf::Header& header = file.header(part);
-    const std::string partName = header.hasName() ? header.name() : "";
-    if (part == 0) add("", header, part, "");
-    if (!partName.empty()) add(partName, header, part, "");
-    for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
-      const std::string name = i.name();
-      const auto dot = name.rfind('.');
-      if (dot == std::string::npos) continue;
-      const std::string prefix = name.substr(0, dot);
-      add(prefix, header, part, prefix + ".");
-      if (!partName.empty()) add(partName + "." + prefix, header, part, prefix + ".");
-    }
-  }
-  return layers;
-}
-
 /// How many bytes one of the file can become, at most.
 std::uint64_t largestExpansion(Imf::Compression compression) {
   switch (compression) {
@@ -141,6 +62,26 @@ std::map<std::string, std::string> textOf(const Imf::Header& header) {
   return all;
 }
 
+/// Whether colours are said to be of other primaries or another white than sRGB's.
+bool hasOtherPrimaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return false;
+  const Imf::Chromaticities c = Imf::chromaticities(header), srgb;
+  const auto far = [](const Imath::V2f& a, const Imath::V2f& b) {
+    return (a - b).length() > 2e-3f;
+  };
+  return far(c.red, srgb.red) || far(c.green, srgb.green) || far(c.blue, srgb.blue) ||
+         far(c.white, srgb.white);
+}
+
+std::string primariesText(const Imf::Header& header) {
+  const Imf::Chromaticities c = Imf::chromaticities(header);
+  char text[160];
+  std::snprintf(text, sizeof text, "red %.4g,%.4g green %.4g,%.4g blue %.4g,%.4g white %.4g,%.4g",
+                double(c.red.x), double(c.red.y), double(c.green.x), double(c.green.y),
+                double(c.blue.x), double(c.blue.y), double(c.white.x), double(c.white.y));
+  return text;
+}
+
 class ExrReader {
  public:
   ExrReader(std::span<const std::byte> bytes, const std::string& name)
@@ -149,32 +90,85 @@ class ExrReader {
   std::map<std::string, std::string> text() const { return textOf(file_.header(0)); }
 
   StoredImage read(const std::string& wanted) {
-    const Layer layer = find(wanted);
-    const Imf::Header& header = file_.header(layer.part);
-    if (header.hasType() && Imf::isDeepData(header.type())) {
+    const std::vector<ExrLayer> layers = exrLayersOf(file_);
+    const ExrLayer* const layer = find(layers, wanted);
+    if (!layer) refuse(layers, wanted);
+    if (layer->deep)
       throw InputError(printablePath(name_) + ": deep pixels: flatten the picture first");
+    PictureLayers read;
+    readTogether({layer}, read);
+    return std::move(read.layers[0].image);
+  }
+
+  PictureLayers readAll(const std::string& wanted) {
+    const std::vector<ExrLayer> layers = exrLayersOf(file_);
+    PictureLayers read;
+    read.named = true;
+    std::vector<const ExrLayer*> chosen;
+    std::uint64_t values = 0;
+    const ExrLayer* const main = find(layers, "");
+    for (const ExrLayer& layer : layers) {
+      // A layer of the file may have one of the names that mean something here.
+      const bool isWanted =
+          layer.isOf(wanted) || wanted == "all" || (wanted == "main" && &layer == main);
+      if (!isWanted) {
+        if (wanted == "main") read.skipped.push_back("layer " + printablePath(layer.name));
+        continue;
+      }
+      if (layer.deep) {
+        const std::string what = "the deep layer " + printablePath(layer.name);
+        if (std::find(read.skipped.begin(), read.skipped.end(), what) == read.skipped.end())
+          read.skipped.push_back(what);
+        continue;
+      }
+      chosen.push_back(&layer);
+      const Imath::Box2i& box = file_.header(layer.part).displayWindow();
+      values += std::uint64_t(std::int64_t(box.max.x) - box.min.x + 1) *
+                std::uint64_t(std::int64_t(box.max.y) - box.min.y + 1) * (layer.isGrey() ? 1 : 4);
     }
-    setSizes(header);
-    image_.text = textOf(header);
-    image_.channels = layer.channels[3].empty() && data_ == display_ ? 3 : 4;
-    values_.resize(std::size_t(image_.channels) * image_.width * image_.height);
-    if (layer.chroma) {
-      readChroma(layer);
-    } else {
-      readChannels(layer, header);
+    if (chosen.empty()) refuse(layers, wanted == "all" ? "" : wanted);
+    if (values > maxValues)
+      throw InputError(printablePath(name_) + ": " + std::to_string(chosen.size()) +
+                       " layers of that size are too many at once: name one (--layer)");
+    // The main picture first, then part by part, each of which is decoded once.
+    std::stable_partition(chosen.begin(), chosen.end(), [&](auto* one) { return one == main; });
+    for (std::size_t i = 0; i < chosen.size();) {
+      std::vector<const ExrLayer*> together{chosen[i++]};
+      // Chroma is read by another way.
+      while (!together[0]->chroma && i < chosen.size() && !chosen[i]->chroma &&
+             chosen[i]->part == together[0]->part)
+        together.push_back(chosen[i++]);
+      readTogether(together, read);
     }
-    image_.values = std::move(values_);
-    return std::move(image_);
+    return read;
   }
 
  private:
-  Layer find(const std::string& wanted) const {
-    const auto layers = layersOf(file_);
-    if (const auto found = layers.find(wanted); found != layers.end()) return found->second;
-    if (wanted.empty() && layers.size() == 1) return layers.begin()->second;
+  static constexpr std::uint64_t maxValues = std::uint64_t(1) << 29;  // 2 GiB of floats
+
+  /// The layer of a name, or nothing. The main picture has no name.
+  static const ExrLayer* find(const std::vector<ExrLayer>& layers, const std::string& wanted) {
+    if (wanted.empty()) {
+      for (const ExrLayer& layer : layers)
+        if (layer.part == 0 && layer.colour && layer.prefix.empty()) return &layer;
+      return layers.size() == 1 ? &layers[0] : nullptr;
+    }
+    for (const bool whole : {true, false}) {
+      const ExrLayer* found = nullptr;
+      for (const ExrLayer& layer : layers) {
+        if (whole ? layer.name != wanted && layer.alias != wanted : !layer.isOf(wanted)) continue;
+        if (!found) found = &layer;
+        if (!whole && found != &layer) return nullptr;  // several: none of them is meant
+      }
+      if (found) return found;
+    }
+    return nullptr;
+  }
+
+  [[noreturn]] void refuse(const std::vector<ExrLayer>& layers, const std::string& wanted) const {
     std::string names;
-    for (const auto& [name, layer] : layers) {
-      if (!name.empty()) names += (names.empty() ? "" : ", ") + printablePath(name);
+    for (const ExrLayer& layer : layers) {
+      if (!layer.name.empty()) names += (names.empty() ? "" : ", ") + printablePath(layer.name);
       if (names.size() > 300) break;
     }
     const std::string what = wanted.empty() ? "no main picture in the EXR"
@@ -190,13 +184,52 @@ class ExrReader {
     const auto side = [](int low, int high) { return std::uint64_t(std::int64_t(high) - low + 1); };
     for (const Imath::Box2i& box : {display_, data_})
       checkSize(name_, side(box.min.x, box.max.x), side(box.min.y, box.max.y));
-    image_.width = display_.max.x - display_.min.x + 1;
-    image_.height = display_.max.y - display_.min.y + 1;
+    width_ = display_.max.x - display_.min.x + 1;
+    height_ = display_.max.y - display_.min.y + 1;
     const auto pixels = side(data_.min.x, data_.max.x) * side(data_.min.y, data_.max.y);
     // A chunk's head (20 bytes with its place in the table) for at most 256 rows at the very least,
     // and two bytes a value. Refused before memory is spent on it.
     if (pixels * 2 / 16 > bytes_.size() * largestExpansion(header.compression())) cut();
   }
+
+  /// Layers of one part, with one pass over it.
+  void readTogether(const std::vector<const ExrLayer*>& layers, PictureLayers& read) {
+    const Imf::Header& header = file_.header(layers[0]->part);
+    setSizes(header);
+    std::vector<Target> targets;
+    for (const ExrLayer* layer : layers) {
+      Target& target = targets.emplace_back();
+      target.layer = layer;
+      target.channels = !layer->channels[3].empty() || (data_ != display_ && layer->colour) ? 4
+                        : layer->isGrey() && !layer->colour                                 ? 1
+                                                                                            : 3;
+      target.values.resize(std::size_t(target.channels) * width_ * height_);
+    }
+    if (layers[0]->chroma) {
+      readChroma(targets[0]);
+    } else {
+      readChannels(targets, header);
+    }
+    for (Target& target : targets) {
+      PictureLayer& layer = read.layers.emplace_back();
+      layer.name = target.layer->name;
+      layer.channels = target.layer->channelNames();
+      layer.colour = target.layer->colour;
+      layer.image = {width_,         height_, target.channels, std::move(target.values),
+                     textOf(header), {}};
+      if (hasOtherPrimaries(header))
+        layer.image.unfollowed["chromaticities"] = primariesText(header);
+      if (target.rounded)
+        layer.image.unfollowed["whole numbers above 16777216"] = "compared as 32-bit floats";
+    }
+  }
+
+  struct Target {
+    const ExrLayer* layer = nullptr;
+    int channels = 4;
+    std::vector<float> values;
+    bool rounded = false;
+  };
 
   /// Calls use(y, x, count): the columns of a data row that lie in the display window.
   template <class Use>
@@ -209,66 +242,71 @@ class ExrReader {
       use(y, left, right - left + 1);
   }
 
-  float* at(int x, int y) {
-    return values_.data() +
-           std::size_t(image_.channels) *
-               (std::size_t(y - display_.min.y) * image_.width + std::size_t(x - display_.min.x));
+  float* at(Target& target, int x, int y) const {
+    return target.values.data() +
+           std::size_t(target.channels) *
+               (std::size_t(y - display_.min.y) * width_ + std::size_t(x - display_.min.x));
   }
 
   /// All rows of the data window, in pieces of a few.
-  void readChannels(const Layer& layer, const Imf::Header& header) {
-    const Imf::Channel* kinds[4] = {};
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (layer.channels[c].empty()) continue;
-      kinds[c] = header.channels().findChannel(layer.channels[c]);
-      if (kinds[c]->xSampling != 1 || kinds[c]->ySampling != 1) {
-        throw InputError(printablePath(name_) + ": the channel " +
-                         printablePath(layer.channels[c]) +
-                         " has fewer samples than pixels: save it with all");
+  void readChannels(std::vector<Target>& targets, const Imf::Header& header) {
+    std::vector<std::string> names;  // each once: the library refuses a channel twice
+    for (const Target& target : targets) {
+      for (const std::string& name : target.layer->channelNames()) {
+        const Imf::Channel* const kind = header.channels().findChannel(name);
+        if (kind->xSampling != 1 || kind->ySampling != 1) {
+          throw InputError(printablePath(name_) + ": the channel " + printablePath(name) +
+                           " has fewer samples than pixels: save it with all");
+        }
+        names.push_back(name);
       }
     }
-    Imf::InputPart part(file_, layer.part);
+    Imf::InputPart part(file_, targets[0].layer->part);
     const std::size_t width = std::size_t(data_.max.x) - data_.min.x + 1;
     constexpr int pieceRows = 64;
-    std::vector<float> rows(4 * width * pieceRows);
+    const std::size_t plane = width * pieceRows;
+    std::vector<float> rows(names.size() * plane);
     for (int first = data_.min.y; first <= data_.max.y; first += pieceRows) {
       const int last = std::min(data_.max.y, first + pieceRows - 1);
       Imf::FrameBuffer frame;
-      for (std::size_t c = 0; c < 4; ++c) {
-        if (!kinds[c]) continue;
-        // Grey is read once: the library refuses a channel twice.
-        if (c > 0 && c < 3 && layer.channels[c] == layer.channels[0]) continue;
-        frame.insert(layer.channels[c],
-                     Imf::Slice::Make(Imf::FLOAT, &rows[c],
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        frame.insert(names[i],
+                     Imf::Slice::Make(Imf::FLOAT, &rows[i * plane],
                                       Imath::Box2i({data_.min.x, first}, {data_.max.x, last}),
-                                      4 * sizeof(float), 4 * sizeof(float) * width));
+                                      sizeof(float), sizeof(float) * width));
       }
       part.setFrameBuffer(frame);
       part.readPixels(first, last);
-      const bool grey = layer.channels[1] == layer.channels[0];
-      overlap([&](int y, int x, int count) {
-        if (y < first || y > last) return;
-        const float* in =
-            &rows[4 * (width * std::size_t(y - first) + std::size_t(x - data_.min.x))];
-        float* out = at(x, y);
-        for (int i = 0; i < count; ++i, in += 4, out += image_.channels) {
-          out[0] = kinds[0] ? in[0] : 0;
-          out[1] = grey ? out[0] : kinds[1] ? in[1] : 0;
-          out[2] = grey ? out[0] : kinds[2] ? in[2] : 0;
-          if (image_.channels == 4) out[3] = kinds[3] ? in[3] : 1;
+      for (Target& target : targets) {
+        const float* planes[4] = {};
+        for (std::size_t c = 0; c < 4; ++c) {
+          const auto found = std::find(names.begin(), names.end(), target.layer->channels[c]);
+          if (found != names.end()) planes[c] = &rows[std::size_t(found - names.begin()) * plane];
         }
-      });
+        const Imf::Channel* const kind = header.channels().findChannel(target.layer->channels[0]);
+        const bool whole = kind && kind->type == Imf::UINT;
+        overlap([&](int y, int x, int count) {
+          if (y < first || y > last) return;
+          const std::size_t from = width * std::size_t(y - first) + std::size_t(x - data_.min.x);
+          float* out = at(target, x, y);
+          for (std::size_t i = from; i < from + std::size_t(count); ++i) {
+            for (int c = 0; c < target.channels; ++c)
+              *out++ = planes[c] ? planes[c][i] : c == 3 ? 1 : 0;
+            target.rounded = target.rounded || (whole && out[-1] > 16777216);
+          }
+        });
+      }
     }
   }
 
   /// Luminance and chroma, which the library turns into RGB of half floats.
-  void readChroma(const Layer& layer) {
-    if (layer.part != 0) {
+  void readChroma(Target& target) {
+    if (target.layer->part != 0) {
       throw InputError(printablePath(name_) +
                        ": luminance and chroma in a part that is not the first: save it as RGB");
     }
     MemoryStream stream(bytes_);
-    std::string name = layer.prefix;
+    std::string name = target.layer->prefix;
     if (!name.empty()) name.pop_back();
     Imf::RgbaInputFile file(stream, name, 0);
     std::vector<Imf::Rgba> row(std::size_t(data_.max.x - data_.min.x) + 1);
@@ -277,13 +315,13 @@ class ExrReader {
       file.readPixels(y);
       overlap([&](int wanted, int x, int count) {
         if (wanted != y) return;
-        float* out = at(x, y);
-        for (int i = 0; i < count; ++i, out += image_.channels) {
+        float* out = at(target, x, y);
+        for (int i = 0; i < count; ++i, out += target.channels) {
           const Imf::Rgba& in = row[std::size_t(x - data_.min.x + i)];
           out[0] = in.r;
           out[1] = in.g;
           out[2] = in.b;
-          if (image_.channels == 4) out[3] = in.a;
+          if (target.channels == 4) out[3] = in.a;
         }
       });
     }
@@ -296,8 +334,7 @@ class ExrReader {
   MemoryStream stream_;
   Imf::MultiPartInputFile file_;
   Imath::Box2i display_, data_;
-  StoredImage image_;
-  std::vector<float> values_;
+  int width_ = 0, height_ = 0;
 };
 
 /// The library's message in one line of its own words, without its paths and advice.
@@ -341,6 +378,11 @@ auto guarded(const std::string& name, Read read) {
 StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer) {
   return guarded(name, [&] { return ExrReader(bytes, name).read(layer); });
+}
+
+PictureLayers decodeExrLayers(std::span<const std::byte> bytes, const std::string& name,
+                              const std::string& wanted) {
+  return guarded(name, [&] { return ExrReader(bytes, name).readAll(wanted); });
 }
 
 std::map<std::string, std::string> exrText(std::span<const std::byte> bytes,

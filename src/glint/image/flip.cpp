@@ -1,11 +1,13 @@
 #include "glint/image/flip.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <exception>
 #include <numbers>
 #include <thread>
+#include <utility>
 
 #include "glint/image/error.h"
 #include "glint/image/flip_kernels.h"
@@ -133,6 +135,7 @@ class Pool {
     for (int x = 0; x < width_; ++x) {
       if (!counted_[std::size_t(x)]) continue;
       sum += errors[x];
+      weights_[std::size_t(std::min(errors[x], 1.0f) * float(weights_.size() - 1))] += errors[x];
       result.maximum = std::max(result.maximum, double(errors[x]));
       ++result.pixels;
     }
@@ -142,6 +145,16 @@ class Pool {
 
   FlipResult finish() {
     result.mean = result.pixels > 0 ? sum_ / double(result.pixels) : 0;
+    double all = 0, below = 0;
+    for (const double weight : weights_) all += weight;
+    for (std::size_t i = 0; i < weights_.size() && all > 0; ++i) {
+      const double before = below / all, error = (double(i) + 0.5) / double(weights_.size() - 1);
+      below += weights_[i];
+      for (const auto& [part, quantile] : {std::pair{0.25, &result.firstQuartile},
+                                           {0.5, &result.median},
+                                           {0.75, &result.thirdQuartile}})
+        if (before < part && below / all >= part) *quantile = std::min(error, 1.0);
+    }
     return result;
   }
 
@@ -152,18 +165,32 @@ class Pool {
   const FlipRows& map_;
   const Counts& counts_;
   std::vector<unsigned char> counted_;
+  std::vector<double> weights_ = std::vector<double>(65537);  ///< sums of errors, by error
   double sum_ = 0;
 };
 
-// ACES as Narkowicz fitted it, with the 0.6 that the paper takes out of the exposure.
-constexpr double aces[6] = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
+/// (a x^2 + b x + c) / (d x^2 + e x + f).
+using ToneCurve = std::array<double, 6>;
+
+/// ACES as Narkowicz fitted it, with the 0.6 that the paper takes out of the exposure; Hable's
+/// filmic curve; Reinhard's.
+const ToneCurve& curveOf(ToneMapper mapper) {
+  static constexpr ToneCurve aces{0.6 * 0.6 * 2.51, 0.6 * 0.03, 0,
+                                  0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
+  static constexpr ToneCurve hable{0.231683, 0.013791, 0, 0.18, 0.3, 0.018};
+  static constexpr ToneCurve reinhard{0, 1, 0, 0, 1, 1};
+  return mapper == ToneMapper::aces ? aces : mapper == ToneMapper::hable ? hable : reinhard;
+}
 
 /// The exposures (in stops) that the paper tries for a reference: from the one where the brightest
 /// pixel reaches 0.85 of the tone curve to the one where the median does.
-void exposuresOf(const PixelRows& reference, FlipResult& result) {
+void exposuresOf(const PixelRows& reference, const FlipOptions& options, FlipResult& result) {
+  const ToneCurve& curve = curveOf(options.toneMapper);
   const double t = 0.85;
-  const double a = aces[0] - t * aces[3], b = aces[1] - t * aces[4], c = aces[2] - t * aces[5];
-  const double half = -0.5 * b / a, reached = half + std::sqrt(half * half - c / a);
+  const double a = curve[0] - t * curve[3], b = curve[1] - t * curve[4],
+               c = curve[2] - t * curve[5];
+  const double half = a == 0 ? 0 : -0.5 * b / a;
+  const double reached = a == 0 ? -c / b : half + std::sqrt(half * half - c / a);
   std::vector<float> luminances;
   luminances.reserve(std::size_t(reference.width) * std::size_t(reference.height));
   std::vector<float> row(std::size_t(4) * reference.width);
@@ -183,22 +210,37 @@ void exposuresOf(const PixelRows& reference, FlipResult& result) {
   const auto stops = [&](double luminance, double other) {
     return luminance > 0 ? std::log2(reached / luminance) : other;
   };
-  result.startExposure = stops(brightest, 0);
-  result.stopExposure = std::max(result.startExposure, stops(*middle, result.startExposure + 16));
+  result.startExposure = options.startExposure.value_or(stops(brightest, 0));
+  result.stopExposure = options.stopExposure.value_or(
+      std::max(result.startExposure, stops(*middle, result.startExposure + 16)));
+  if (!(result.stopExposure >= result.startExposure))
+    throw InputError("HDR-FLIP from exposure " + std::to_string(result.startExposure) + " to " +
+                     std::to_string(result.stopExposure) +
+                     ": give a start that is not above the stop");
   result.exposures =
-      int(std::clamp(std::ceil(result.stopExposure - result.startExposure), 2.0, 64.0));
+      options.exposures > 0
+          ? options.exposures
+          : int(std::clamp(std::ceil(result.stopExposure - result.startExposure), 2.0, 64.0));
 }
 
-PixelRows toneMapped(const PixelRows& picture, double exposure) {
+PixelRows toneMapped(const PixelRows& picture, ToneMapper mapper, double exposure) {
   const auto scale = static_cast<float>(std::exp2(exposure));
+  const ToneCurve& curve = curveOf(mapper);
+  std::array<float, 6> k{};
+  for (std::size_t i = 0; i < 6; ++i) k[i] = static_cast<float>(curve[i]);
   PixelRows mapped = picture;
-  mapped.read = [&picture, scale](int first, int count, float* rgba) {
+  mapped.read = [&picture, scale, k, mapper](int first, int count, float* rgba) {
     picture.read(first, count, rgba);
     const std::size_t values = std::size_t(4) * picture.width * count;
-    for (std::size_t i = 0; i < values; ++i) {
+    for (std::size_t i = 0; i < values; i += mapper == ToneMapper::reinhard ? 4 : 1) {
+      if (mapper == ToneMapper::reinhard) {
+        float* const p = rgba + i;
+        const float luminance = scale * (0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2]);
+        for (int c = 0; c < 3; ++c) p[c] = p[c] * scale / (1 + luminance);
+        continue;
+      }
       const float x = rgba[i] * scale, s = x * x;
-      const float over = s * float(aces[0]) + x * float(aces[1]) + float(aces[2]);
-      const float under = s * float(aces[3]) + x * float(aces[4]) + float(aces[5]);
+      const float over = s * k[0] + x * k[1] + k[2], under = s * k[3] + x * k[4] + k[5];
       // Beyond 1e15 the squares overflow where the curve has long been above 1.
       rgba[i] = x > 1e15f ? 1 : over / under;
     }
@@ -223,14 +265,15 @@ FlipResult hdrFlip(const PixelRows& reference, const PixelRows& test, const Flip
                    const FlipRows& map, const Counts& counts) {
   check(reference, test, options);
   Pool pool(reference.width, map, counts);
-  exposuresOf(reference, pool.result);
+  exposuresOf(reference, options, pool.result);
   const FlipResult found = pool.result;
   const auto width = std::size_t(reference.width);
   std::vector<float> largest(width * std::size_t(reference.height));
   for (int i = 0; i < found.exposures; ++i) {
-    const double exposure = found.startExposure +
-                            i * (found.stopExposure - found.startExposure) / (found.exposures - 1);
-    const PixelRows a = toneMapped(reference, exposure), b = toneMapped(test, exposure);
+    const double exposure = found.startExposure + i * (found.stopExposure - found.startExposure) /
+                                                      std::max(1, found.exposures - 1);
+    const PixelRows a = toneMapped(reference, options.toneMapper, exposure),
+                    b = toneMapped(test, options.toneMapper, exposure);
     forErrors(a, b, options, [&](int y, const float* errors) {
       float* row = largest.data() + width * std::size_t(y);
       for (std::size_t x = 0; x < width; ++x) row[x] = std::max(row[x], errors[x]);

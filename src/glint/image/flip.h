@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "glint/image/pixel_rows.h"
@@ -11,9 +12,16 @@ namespace glint {
 /// along that width. 0.7, 3840, 0.7 give FLIP's default, 67.0206.
 double pixelsPerDegree(double distance, double pixels, double width);
 
+/// The curves of HDR-FLIP. Reinhard's is of the luminance, x / (1 + x); the others of each channel.
+enum class ToneMapper { aces, hable, reinhard };
+
 struct FlipOptions {
   double pixelsPerDegree = 67.02064327658226;  ///< (0, 1000]
-  int threads = 0;                             ///< 0: as many as the processor has
+  // Of HDR-FLIP: stops; what is not given comes from the reference.
+  std::optional<double> startExposure, stopExposure;
+  int exposures = 0;  ///< how many are tried; 0: one a stop
+  ToneMapper toneMapper = ToneMapper::aces;
+  int threads = 0;  ///< 0: as many as the processor has
 };
 
 /// The differences that FLIP sees, 0 (none) to 1.
@@ -21,6 +29,9 @@ struct FlipResult {
   double mean = 0;         ///< over the pixels that count
   double maximum = 0;      ///< likewise
   std::size_t pixels = 0;  ///< that count
+  /// Weighted by themselves: the errors below which lie a quarter, a half and three quarters of
+  /// the sum of all errors; to 1/65536.
+  double firstQuartile = 0, median = 0, thirdQuartile = 0;
   // Of HDR-FLIP: the exposures tried.
   double startExposure = 0, stopExposure = 0;
   int exposures = 0;
@@ -43,8 +54,8 @@ FlipResult flip(const PixelRows& reference, const PixelRows& test, const FlipOpt
 
 /// HDR-FLIP (Andersson, Nilsson, Shirley, Akenine-Moeller, "Visualizing Errors in Rendered High
 /// Dynamic Range Images", Eurographics 2021): the largest LDR-FLIP over exposures that show the
-/// reference between its brightest and its median pixel, tone-mapped by the ACES curve. Keeps a
-/// map of floats.
+/// reference between its brightest and its median pixel, tone-mapped. Keeps a map of floats.
+/// Throws InputError for a start that is above the stop.
 FlipResult hdrFlip(const PixelRows& reference, const PixelRows& test,
                    const FlipOptions& options = {}, const FlipRows& map = {},
                    const std::function<void(int y, unsigned char* row)>& counts = {});

@@ -20,8 +20,8 @@ void check(int result) {
   if (result != 0) throw Error(std::string("PNG in memory: ") + spng_strerror(result));
 }
 
-std::vector<std::byte> encode(std::span<const std::uint8_t> codes, int width, int height,
-                              std::span<const std::array<std::uint8_t, 3>> palette) {
+std::vector<std::byte> encode(std::span<const std::uint8_t> codes, int width, int height, int kind,
+                              std::span<const std::array<std::uint8_t, 3>> palette = {}) {
   const std::unique_ptr<spng_ctx, FreeContext> png(spng_ctx_new(SPNG_CTX_ENCODER));
   if (!png) throw std::bad_alloc();
   check(spng_set_option(png.get(), SPNG_ENCODE_TO_BUFFER, 1));
@@ -29,7 +29,7 @@ std::vector<std::byte> encode(std::span<const std::uint8_t> codes, int width, in
   header.width = static_cast<std::uint32_t>(width);
   header.height = static_cast<std::uint32_t>(height);
   header.bit_depth = 8;
-  header.color_type = palette.empty() ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_INDEXED;
+  header.color_type = static_cast<std::uint8_t>(kind);
   check(spng_set_ihdr(png.get(), &header));
   check(spng_set_srgb(png.get(), 0));  // perceptual
   if (!palette.empty()) {
@@ -53,12 +53,16 @@ std::vector<std::byte> encode(std::span<const std::uint8_t> codes, int width, in
 }  // namespace
 
 std::vector<std::byte> pngOfRgb(std::span<const std::uint8_t> rgb, int width, int height) {
-  return encode(rgb, width, height, {});
+  return encode(rgb, width, height, SPNG_COLOR_TYPE_TRUECOLOR);
+}
+
+std::vector<std::byte> pngOfRgba(std::span<const std::uint8_t> rgba, int width, int height) {
+  return encode(rgba, width, height, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA);
 }
 
 std::vector<std::byte> pngOfIndices(std::span<const std::uint8_t> indices, int width, int height,
                                     std::span<const std::array<std::uint8_t, 3>> palette) {
-  return encode(indices, width, height, palette);
+  return encode(indices, width, height, SPNG_COLOR_TYPE_INDEXED, palette);
 }
 
 }  // namespace glint

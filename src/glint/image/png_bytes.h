@@ -14,6 +14,9 @@ namespace glint {
 /// 8-bit sRGB: 3 * width * height codes, rows from the top.
 std::vector<std::byte> pngOfRgb(std::span<const std::uint8_t> rgb, int width, int height);
 
+/// The same with straight alpha: 4 * width * height codes.
+std::vector<std::byte> pngOfRgba(std::span<const std::uint8_t> rgba, int width, int height);
+
 /// Indices into a palette of at most 256 sRGB colours, width * height of them.
 std::vector<std::byte> pngOfIndices(std::span<const std::uint8_t> indices, int width, int height,
                                     std::span<const std::array<std::uint8_t, 3>> palette);

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "glint/image/decoders.h"
+#include "glint/image/png_unpack.h"
 
 namespace glint::detail {
 namespace {
@@ -46,14 +47,16 @@ bool isPng(std::span<const std::byte> bytes) {
 }
 
 void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height) {
-  if (width <= maxSide && height <= maxSide) return;
+  const bool sides = width <= maxSide && height <= maxSide;
+  if (sides && width * height <= maxArea) return;
   throw InputError(printablePath(name) + ": " + std::to_string(width) + " x " +
                    std::to_string(height) + " pixels are too many: at most " +
-                   std::to_string(maxSide) + " a side");
+                   std::to_string(sides ? maxArea : std::uint64_t(maxSide)) +
+                   (sides ? " in all" : " a side"));
 }
 
 PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
-    : name_(name), png_(spng_ctx_new(0), spng_ctx_free) {
+    : bytes_(bytes), name_(name), png_(spng_ctx_new(0), spng_ctx_free) {
   if (!png_) throw std::bad_alloc();
   check(spng_set_crc_action(png_.get(), SPNG_CRC_ERROR, SPNG_CRC_DISCARD));
   check(spng_set_chunk_limits(png_.get(), chunkLimit, chunkLimit));
@@ -70,6 +73,7 @@ PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
   height_ = static_cast<int>(header.height);
   bitDepth_ = header.bit_depth;
   colourType_ = header.color_type;
+  isPlain_ = header.bit_depth == 8 && header.interlace_method == SPNG_INTERLACE_NONE;
 }
 
 bool PngReader::hasAlpha() const {
@@ -80,6 +84,9 @@ bool PngReader::hasAlpha() const {
 }
 
 void PngReader::decodeOpaque(std::vector<std::uint8_t>& rgb) {
+  if (isPlain_ && colourType_ == SPNG_COLOR_TYPE_TRUECOLOR &&
+      unpackPng(bytes_, width_, height_, 3, rgb))
+    return;
   rgb.resize(std::size_t(3) * width_ * height_);
   decodeTo(rgb.data(), rgb.size(), SPNG_FMT_RGB8);
 }
@@ -98,6 +105,9 @@ std::map<std::string, std::string> PngReader::text() {
 }
 
 void PngReader::decode(std::vector<std::uint8_t>& rgba) {
+  if (isPlain_ && colourType_ == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA &&
+      unpackPng(bytes_, width_, height_, 4, rgba))
+    return;
   rgba.resize(std::size_t(4) * width_ * height_);
   decodeTo(rgba.data(), rgba.size(), SPNG_FMT_RGBA8);
 }

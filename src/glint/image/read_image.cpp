@@ -3,6 +3,7 @@
 #include <new>
 
 #include "glint/image/decoders.h"
+#include "glint/image/picture_layers.h"
 #include "glint/image/stored_image.h"
 
 namespace glint {
@@ -28,9 +29,30 @@ StoredImage decodePng(std::span<const std::byte> bytes, const std::string& name)
   return image;
 }
 
-StoredImage fromJpeg(std::span<const std::byte> bytes, const std::string& name) {
-  ByteImage jpeg = detail::decodeJpeg(bytes, name);
-  return {jpeg.width, jpeg.height, 4, std::move(jpeg.values)};
+StoredImage stored(ByteImage image) {
+  return {image.width, image.height, 4, std::move(image.values)};
+}
+
+/// A picture of a format that has one.
+StoredImage decodeOne(std::span<const std::byte> bytes, const std::string& name,
+                      std::vector<std::string>& skipped) {
+  if (detail::isPng(bytes)) return decodePng(bytes, name);
+  if (detail::isJpeg(bytes)) return stored(detail::decodeJpeg(bytes, name));
+  if (detail::isWebp(bytes)) return stored(detail::decodeWebp(bytes, name));
+  if (detail::isPfm(bytes)) return detail::decodePfm(bytes, name);
+  if (detail::isHdr(bytes)) return detail::decodeHdr(bytes, name);
+  if (detail::isTiff(bytes)) return detail::decodeTiff(bytes, name, skipped);
+  if (detail::isPnm(bytes) || detail::isBmp(bytes) || detail::isTga(bytes))
+    return detail::decodeSimple(bytes, name);
+  throw InputError(
+      printablePath(name) +
+      ": neither PNG, JPEG, WebP, EXR, HDR, PFM, TIFF, PPM, BMP nor TGA: convert it to "
+      "one of them");
+}
+
+[[noreturn]] void refuseLayer(const std::string& name, const std::string& layer) {
+  throw InputError(printablePath(name) + ": only OpenEXR has layers: leave out the layer '" +
+                   printablePath(layer) + "'");
 }
 
 }  // namespace
@@ -46,19 +68,33 @@ StoredImage decodeStoredImage(std::span<const std::byte> bytes, const std::strin
                               const std::string& layer) {
   try {
     if (detail::isExr(bytes)) return detail::decodeExr(bytes, name, layer);
-    if (!layer.empty()) {
-      throw InputError(printablePath(name) + ": only OpenEXR has layers: leave out the layer '" +
-                       printablePath(layer) + "'");
-    }
-    if (detail::isPng(bytes)) return decodePng(bytes, name);
-    if (detail::isJpeg(bytes)) return fromJpeg(bytes, name);
-    if (detail::isPfm(bytes)) return detail::decodePfm(bytes, name);
-    if (detail::isHdr(bytes)) return detail::decodeHdr(bytes, name);
+    if (!layer.empty()) refuseLayer(name, layer);
+    std::vector<std::string> skipped;
+    StoredImage image = decodeOne(bytes, name, skipped);
+    image.unfollowed.merge(detail::unfollowedIn(bytes));
+    return image;
   } catch (const std::bad_alloc&) {
     throw InputError(printablePath(name) + ": too large for the memory: give a smaller picture");
   }
-  throw InputError(printablePath(name) +
-                   ": neither PNG, JPEG, EXR, HDR nor PFM: convert it to one of them");
+}
+
+PictureLayers decodePictureLayers(std::span<const std::byte> bytes, const std::string& name,
+                                  const std::string& wanted) {
+  try {
+    if (detail::isExr(bytes)) return detail::decodeExrLayers(bytes, name, wanted);
+    if (wanted != "all" && wanted != "main") refuseLayer(name, wanted);
+    PictureLayers read;
+    PictureLayer& layer = read.layers.emplace_back();
+    layer.image = decodeOne(bytes, name, read.skipped);
+    layer.image.unfollowed.merge(detail::unfollowedIn(bytes));
+    return read;
+  } catch (const std::bad_alloc&) {
+    throw InputError(printablePath(name) + ": too large for the memory: give a smaller picture");
+  }
+}
+
+PictureLayers readPictureLayers(const std::string& path, const std::string& wanted) {
+  return decodePictureLayers(readFile(path), path, wanted);
 }
 
 StoredImage readStoredImage(const std::string& path, const std::string& layer) {

@@ -11,22 +11,23 @@ namespace glint {
 
 /// Reads a picture to linear light; the format is told by the file's first bytes.
 ///
-/// PNG: all colour types and depths, text chunks. JPEG: as decodeTexture(). Colours of both are
-/// taken as sRGB whatever the file says of its colour space, and are premultiplied by the straight
-/// alpha of the file.
+/// PNG: all colour types and depths, text chunks. JPEG, WebP: as decodeTexture(). PPM and PGM
+/// (binary), BMP, TGA, TIFF (its first page). Colours of all these are taken as sRGB whatever the
+/// file says of its colour space (but for TIFF of floats, which is linear light), and are
+/// premultiplied by the straight alpha of the file.
 /// OpenEXR: scan lines and tiles, one part or several, any compression, half, float and integer
 /// channels, luminance and chroma; string attributes. The picture is the display window; outside
 /// the data window it is black and transparent. `layer` names a layer, either a part or a prefix
 /// of channel names ("diffuse" of "diffuse.R"); empty is the main picture. Channels are R, G, B, A;
-/// Y, or a single channel of any other name, is grey.
+/// Y (without an X), or a single channel of any other name, is grey.
 /// Radiance .hdr: plain, old and new run lengths; without a half: (128,128,128,129) is 1.0;
 /// EXPOSURE is not applied; header variables become text.
 /// PFM: both byte orders, "PF" and "Pf" (grey), values as they stand (NaN too), alpha 1; the
 /// absolute value of its scale is not applied.
 ///
 /// Throws InputError "PATH: what: what to do" for a file that cannot be read or is damaged or cut
-/// short, for other formats, for a layer that is not there, and for more than 16384 pixels a side
-/// or 2^27 in all.
+/// short, for other formats, for a layer that is not there, and for more than 2^20 pixels a
+/// side, 2^28 in all, or 2^27 of 16 bits or floats.
 Image readImage(const std::string& path, const std::string& layer = "");
 
 /// The same from memory; `name` stands in the messages.

@@ -9,10 +9,15 @@ std::string jsonElement(std::string_view id, std::string json) {
 }
 
 std::string base64Element(std::string_view id, std::span<const std::byte> bytes) {
+  return "<script type=\"text/plain\" id=\"" + std::string(id) + "\">" + base64(bytes) +
+         "</script>\n";
+}
+
+std::string base64(std::span<const std::byte> bytes) {
   static constexpr char letters[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = "<script type=\"text/plain\" id=\"" + std::string(id) + "\">";
-  text.reserve(text.size() + bytes.size() * 4 / 3 + 16);
+  std::string text;
+  text.reserve(bytes.size() * 4 / 3 + 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     unsigned word = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -20,7 +25,7 @@ std::string base64Element(std::string_view id, std::span<const std::byte> bytes)
     for (std::size_t k = 0; k < 4; ++k)
       text += i + k > bytes.size() ? '=' : letters[word >> (18 - 6 * k) & 63];
   }
-  return text + "</script>\n";
+  return text;
 }
 
 }  // namespace glint

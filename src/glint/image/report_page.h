@@ -17,6 +17,8 @@ struct ReportPage {
 /// JSON.parse(document.getElementById(id).textContent). No text in it can end the element.
 std::string jsonElement(std::string_view id, std::string json);
 
+std::string base64(std::span<const std::byte> bytes);
+
 /// The same for the bytes of a file, in base64.
 std::string base64Element(std::string_view id, std::span<const std::byte> bytes);
 

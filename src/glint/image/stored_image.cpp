@@ -33,11 +33,12 @@ void codesToLinear(const Code* codes, int channels, std::size_t pixels, float* r
   }
 }
 
+/// Where alpha is 0, colours are 0 unless they are wanted as `stored`.
 template <class Code>
-void codesToValues(const Code* codes, int channels, std::size_t pixels, float* rgba) {
+void codesToValues(const Code* codes, int channels, std::size_t pixels, bool stored, float* rgba) {
   constexpr float maxCode = static_cast<Code>(-1);
   for (std::size_t i = 0; i < pixels; ++i, codes += channels, rgba += 4) {
-    const bool seen = channels == 3 || codes[3] > 0;
+    const bool seen = stored || channels == 3 || codes[3] > 0;
     for (int c = 0; c < 3; ++c) rgba[c] = seen ? codes[c] / maxCode : 0;
     rgba[3] = channels == 4 ? codes[3] / maxCode : 1;
   }
@@ -51,6 +52,12 @@ float encodedValue(float linear) {
   return static_cast<float>(std::copysign(y, linear));
 }
 
+float decodedValue(float encoded) {
+  const double x = std::fabs(double(encoded));
+  const double y = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  return static_cast<float>(std::copysign(y, encoded));
+}
+
 void StoredImage::linearRows(int first, int count, float* rgba) const {
   const std::size_t begin = std::size_t(channels) * width * first;
   const std::size_t pixels = std::size_t(width) * count;
@@ -61,9 +68,21 @@ void StoredImage::linearRows(int first, int count, float* rgba) const {
   } else {
     const float* in = std::get<2>(values).data() + begin;
     for (std::size_t i = 0; i < pixels; ++i, in += channels, rgba += 4) {
-      for (int c = 0; c < 3; ++c) rgba[c] = in[c];
+      for (int c = 0; c < 3; ++c) rgba[c] = in[channels == 1 ? 0 : c];
       rgba[3] = channels == 4 ? in[3] : 1;
     }
+  }
+}
+
+void StoredImage::storedRows(int first, int count, float* rgba) const {
+  const std::size_t begin = std::size_t(channels) * width * first;
+  const std::size_t pixels = std::size_t(width) * count;
+  if (const auto* bytes = std::get_if<0>(&values)) {
+    codesToValues(bytes->data() + begin, channels, pixels, true, rgba);
+  } else if (const auto* words = std::get_if<1>(&values)) {
+    codesToValues(words->data() + begin, channels, pixels, true, rgba);
+  } else {
+    linearRows(first, count, rgba);
   }
 }
 
@@ -71,9 +90,9 @@ void StoredImage::encodedRows(int first, int count, float* rgba) const {
   const std::size_t begin = std::size_t(channels) * width * first;
   const std::size_t pixels = std::size_t(width) * count;
   if (const auto* bytes = std::get_if<0>(&values)) {
-    codesToValues(bytes->data() + begin, channels, pixels, rgba);
+    codesToValues(bytes->data() + begin, channels, pixels, false, rgba);
   } else if (const auto* words = std::get_if<1>(&values)) {
-    codesToValues(words->data() + begin, channels, pixels, rgba);
+    codesToValues(words->data() + begin, channels, pixels, false, rgba);
   } else {
     linearRows(first, count, rgba);
     for (std::size_t i = 0; i < pixels; ++i, rgba += 4) {

@@ -17,9 +17,12 @@ namespace glint {
 struct StoredImage {
   int width = 0;
   int height = 0;
-  int channels = 4;  ///< 3 (opaque) or 4
+  int channels = 4;  ///< 3 (opaque) or 4; 1 for floats that are grey, opaque
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
   std::map<std::string, std::string> text = {};  ///< what the file says of the picture (UTF-8)
+  /// What the file says of its colours or its orientation, by name, and is not followed: colours
+  /// are taken as sRGB's, rows as they are stored. What says just that is not here.
+  std::map<std::string, std::string> unfollowed = {};
 
   bool isEncoded() const { return values.index() < 2; }  ///< sRGB codes, not linear light
   bool hasAlpha() const { return channels == 4; }
@@ -32,10 +35,16 @@ struct StoredImage {
   /// light through the sRGB curve, which is continued beyond [0, 1] by its own formula, odd about
   /// 0. Where alpha is 0 or less the colour is 0.
   void encodedRows(int first, int count, float* rgba) const;
+
+  /// The same rows as numbers of the file, sRGB or linear light: colours as they are stored,
+  /// whatever alpha is (straight with codes, premultiplied with floats).
+  void storedRows(int first, int count, float* rgba) const;
 };
 
 /// The sRGB curve, continued beyond [0, 1] by its own formula, odd about 0.
 float encodedValue(float linear);
+/// Its inverse.
+float decodedValue(float encoded);
 
 /// Reads a picture; see readImage() for the formats and the errors.
 StoredImage readStoredImage(const std::string& path, const std::string& layer = "");

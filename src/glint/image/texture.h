@@ -26,7 +26,7 @@ bool canDecodeWebp();
 /// stands in the messages. Nothing is printed.
 ///
 /// Throws InputError "NAME: what: what to do" for other formats, for data that are damaged or cut
-/// short, and for more than 16384 pixels a side.
+/// short, and for more than 2^20 pixels a side or 2^28 in all.
 ByteImage decodeTexture(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace glint

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diff_report.h"
+#include "glint/image/picture_layers.h"
+
+namespace glint {
+
+/// Two layers of one name.
+struct LayerPair {
+  const PictureLayer *a = nullptr, *b = nullptr;
+
+  int width() const { return std::max(a->image.width, b->image.width); }
+  int height() const { return std::max(a->image.height, b->image.height); }
+  /// The least and the largest value of both.
+  std::pair<float, float> range() const;
+};
+
+struct LayerPairs {
+  std::vector<LayerPair> matched;    ///< the main picture first
+  std::vector<std::string> missing;  ///< failures: what only one of the two has
+  std::size_t shown = 0;             ///< the first that is not equal; the main one if all are
+};
+
+/// The least and the largest finite value; 0 and 1 if there is none.
+std::pair<float, float> rangeOf(const StoredImage& image);
+
+/// Matches layers by their names, and notes what is not compared and what is not followed.
+LayerPairs matchLayers(const PictureLayers& a, const PictureLayers& b, DiffEntry& entry);
+
+/// Compares two layers and adds the result to the entry. What is no colour is judged by the
+/// conditions on values (max, mean, rmse, relative-rmse, psnr); a difference that none of them
+/// judges is told.
+void addLayer(const LayerPair& pair, const CompareOptions& options, bool first, DiffEntry& entry);
+
+/// The factor that makes the largest difference white.
+double shownScale(const LayerPair& pair);
+
+}  // namespace glint

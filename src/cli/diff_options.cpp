@@ -1,0 +1,280 @@
+#include "diff_options.h"
+
+#include <fnmatch.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+
+namespace glint {
+namespace {
+
+double numberOf(const std::string& text, const char* option) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || std::isnan(value))
+    throw InputError(std::string(option) + " '" + printablePath(text) + "': give a number");
+  return value;
+}
+
+std::vector<double> numbersOf(const std::string& text, const std::string& separators,
+                              const char* option, const char* form) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= separators.size(); ++i) {
+    const auto end = i < separators.size() ? text.find(separators[i], begin) : text.size();
+    double value = 0;
+    const char* last = text.data() + (end == std::string::npos ? begin : end);
+    const auto result = std::from_chars(text.data() + std::min(begin, text.size()), last, value);
+    if (end == std::string::npos || result.ec != std::errc() || result.ptr != last)
+      throw InputError(std::string(option) + " '" + printablePath(text) + "': give " + form);
+    values.push_back(value);
+    begin = end + 1;
+  }
+  return values;
+}
+
+PixelBox boxOf(const std::string& text) {
+  const auto v = numbersOf(text, ",-,", "--ignore", "x1,y1-x2,y2, whole pixels");
+  for (const double value : v)
+    if (value < 0 || value > 1e6 || value != std::floor(value))
+      throw InputError("--ignore '" + printablePath(text) + "': give x1,y1-x2,y2, whole pixels");
+  return {int(std::min(v[0], v[2])), int(std::min(v[1], v[3])), int(std::max(v[0], v[2])),
+          int(std::max(v[1], v[3]))};
+}
+
+std::array<float, 3> colourOf(const std::string& text) {
+  if (text.size() == 7 && text[0] == '#') {
+    unsigned codes = 0;
+    const auto result = std::from_chars(text.data() + 1, text.data() + 7, codes, 16);
+    if (result.ec == std::errc() && result.ptr == text.data() + 7) {
+      std::array<float, 3> colour{};
+      const StoredImage pixel{
+          1, 1, 3,
+          std::vector<std::uint8_t>{std::uint8_t(codes >> 16), std::uint8_t(codes >> 8),
+                                    std::uint8_t(codes)}};
+      float rgba[4];
+      pixel.linearRows(0, 1, rgba);
+      std::copy_n(rgba, 3, colour.begin());
+      return colour;
+    }
+  }
+  const auto v = numbersOf(text, ",,", "--alpha over:", "r,g,b in linear light, or #rrggbb");
+  return {float(v[0]), float(v[1]), float(v[2])};
+}
+
+}  // namespace
+
+void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
+  const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
+    return command.add_option(name, value, help)->type_name(type)->take_last();
+  };
+  given.metric =
+      command
+          .add_option("--metric", given.metricNames,
+                      "max, mean, rmse, relative-rmse, psnr, pixels, ssim, flip or hdr-flip; "
+                      "repeatable; without a threshold it is only reported")
+          ->type_name("NAME")
+          ->allow_extra_args(false);
+  given.threshold =
+      command
+          .add_option(
+              "--threshold", given.thresholds,
+              "limit of the metric before it: the largest value that passes (psnr, ssim: the "
+              "smallest); without any limit the pictures must be identical")
+          ->type_name("T")
+          ->allow_extra_args(false);
+  command
+      .add_option("--max-pixels", given.maxPixels,
+                  "how many pixels may be over the tolerance; repeatable: all must hold")
+      ->type_name("N|P%")
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--tolerance", given.tolerance,
+          "of a pixel, 0 to 1: a distance, the same as pixelmatch's threshold [default: 0.1]")
+      ->type_name("T")
+      ->check(CLI::Range(0.0, 1.0).description(""));
+  text("--pixelmatch", given.pixelmatch, "7|8",
+       "the version of pixelmatch whose distance is used: 7 in YIQ, 8 HyAB in OKLab [default: 7]");
+  command
+      .add_option("--shift", given.shift,
+                  "do not count pixels that the other picture has up to N pixels away")
+      ->type_name("N")
+      ->check(CLI::Range(0, 16).description(""));
+  command
+      .add_option("--window", given.window,
+                  "count in the worst window of N x N pixels instead of in the whole picture")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1 << 20).description(""));
+  command.add_flag("--ignore-anti-aliasing", given.ignoreAntiAliasing,
+                   "do not count pixels that look anti-aliased");
+  command.add_option("--ignore", given.ignored, "ignore a rectangle, corners included; repeatable")
+      ->type_name("x1,y1-x2,y2")
+      ->allow_extra_args(false);
+  text("--mask", given.mask, "FILE", "ignore the pixels that are black in this picture");
+  text("--alpha", given.alpha, "straight|ignored|over:COLOUR",
+       "compare alpha as a fourth value, ignore it, or put both pictures over a colour "
+       "[default: straight]");
+  text("--values", given.values, "stored|encoded|linear",
+       "compare sRGB values or linear light; stored: as in the files, which must be of one kind "
+       "[default: stored]");
+  text(
+      "--layer", given.layer, "NAME|main|all",
+      "of EXR files: compare this layer, channel or part, the main picture, or all [default: all]");
+  command
+      .add_option("--pixels-per-degree", given.pixelsPerDegree,
+                  "viewing condition of FLIP [default: 67.0206]")
+      ->type_name("P")
+      ->check(CLI::Range(1e-3, 1000.0).description(""));
+  text("--screen", given.screen, "distance,pixels,width",
+       "viewing condition of FLIP by metres to the screen, its width in pixels, and in metres");
+  text("--start-exposure", given.startExposure, "EV", "for HDR-FLIP [default: from the baseline]");
+  text("--stop-exposure", given.stopExposure, "EV", "for HDR-FLIP [default: from the baseline]");
+  command.add_option("--exposures", given.exposures, "for HDR-FLIP [default: one a stop]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64).description(""));
+  text("--tone-mapper", given.toneMapper, "aces|hable|reinhard", "for HDR-FLIP [default: aces]");
+}
+
+DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArguments& given,
+                                const std::string& folder) {
+  // --metric NAME and --threshold T as they stand one after the other, the latter's name empty.
+  std::vector<std::pair<std::string, std::string>> ordered;
+  std::size_t nextMetric = 0, nextThreshold = 0;
+  for (const CLI::Option* option : command.parse_order()) {
+    if (option == given.metric) ordered.emplace_back(given.metricNames[nextMetric++], "");
+    if (option == given.threshold) ordered.emplace_back("", given.thresholds[nextThreshold++]);
+  }
+  DiffSettings settings;
+  CompareOptions& options = settings.compare;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const auto& [name, none] = ordered[i];
+    if (name.empty())
+      throw InputError("--threshold " + printablePath(none) + ": give the metric before it");
+    const bool bounded = i + 1 < ordered.size() && ordered[i + 1].first.empty();
+    if (!bounded) {
+      options.metrics.push_back(name);
+      continue;
+    }
+    ++i;
+    options.conditions.push_back({name, numberOf(ordered[i].second, "--threshold")});
+  }
+  for (std::string text : given.maxPixels) {
+    const std::string asGiven = text;
+    const bool isShare = !text.empty() && text.back() == '%';
+    if (isShare) text.pop_back();
+    const double number = numberOf(text, "--max-pixels");
+    if (number < 0 || (isShare && number > 100))
+      throw InputError("--max-pixels " + printablePath(asGiven) +
+                       ": give a number of pixels, or 0% to 100%");
+    options.maxPixels.push_back({number / (isShare ? 100 : 1), isShare});
+  }
+  const std::string& alpha = given.alpha;
+  if (alpha.starts_with("over:")) {
+    options.alpha = AlphaUse::over;
+    options.background = colourOf(alpha.substr(5));
+  } else if (alpha == "ignored") {
+    options.alpha = AlphaUse::ignored;
+  } else if (alpha != "straight") {
+    throw InputError("--alpha '" + printablePath(alpha) +
+                     "': give straight, ignored or over:COLOUR");
+  }
+  if (given.values == "encoded") {
+    options.values = ValueSpace::encoded;
+  } else if (given.values == "linear") {
+    options.values = ValueSpace::linear;
+  } else if (given.values != "stored") {
+    throw InputError("--values '" + printablePath(given.values) +
+                     "': give stored, encoded or linear");
+  }
+  if (given.pixelmatch == "8") {
+    options.distance = PixelDistance::oklab;
+  } else if (given.pixelmatch != "7") {
+    throw InputError("--pixelmatch '" + printablePath(given.pixelmatch) + "': give 7 or 8");
+  }
+  if (given.toneMapper == "hable") {
+    options.flip.toneMapper = ToneMapper::hable;
+  } else if (given.toneMapper == "reinhard") {
+    options.flip.toneMapper = ToneMapper::reinhard;
+  } else if (given.toneMapper != "aces") {
+    throw InputError("--tone-mapper '" + printablePath(given.toneMapper) +
+                     "': give aces, hable or reinhard");
+  }
+  const auto exposure = [](const std::string& text, const char* option) {
+    std::optional<double> value;
+    if (!text.empty()) value = numberOf(text, option);
+    if (value && std::fabs(*value) > 100)
+      throw InputError(std::string(option) + " '" + printablePath(text) +
+                       "': give -100 to 100 stops");
+    return value;
+  };
+  options.flip.startExposure = exposure(given.startExposure, "--start-exposure");
+  options.flip.stopExposure = exposure(given.stopExposure, "--stop-exposure");
+  options.flip.exposures = given.exposures;
+  options.shift = given.shift;
+  options.window = given.window;
+  if (options.maxPixels.empty() && given.shift > 0)
+    throw InputError("--shift " + std::to_string(given.shift) +
+                     ": it is of --max-pixels: give that, too (--max-pixels 0)");
+  for (const std::string& box : given.ignored) options.ignored.push_back(boxOf(box));
+  options.tolerance = given.tolerance;
+  options.ignoreAntiAliasing = given.ignoreAntiAliasing;
+  if (given.pixelsPerDegree != 0) options.flip.pixelsPerDegree = given.pixelsPerDegree;
+  if (!given.screen.empty()) {
+    const auto v = numbersOf(given.screen, ",,", "--screen", "distance,pixels,width");
+    options.flip.pixelsPerDegree = pixelsPerDegree(v[0], v[1], v[2]);
+  }
+  settings.layer = given.layer;
+  if (!given.mask.empty()) {
+    const bool inFolder = !folder.empty() && given.mask[0] != '/';
+    settings.mask = std::make_shared<const StoredImage>(
+        readStoredImage(inFolder ? folder + "/" + given.mask : given.mask));
+    options.mask = settings.mask.get();
+  }
+  return settings;
+}
+
+std::vector<PairConditions> readConditions(const std::string& path) {
+  const std::vector<std::byte> bytes = readFile(path);
+  std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  std::vector<PairConditions> conditions;
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    std::vector<std::string> words = CLI::detail::split_up(line);
+    std::erase(words, "");
+    if (words.empty() || words[0].starts_with('#')) continue;
+    CLI::App app;
+    app.set_help_flag();
+    ComparisonArguments given;
+    addComparisonOptions(app, given);
+    const std::string where = printablePath(path) + ":" + std::to_string(number) + ": ";
+    try {
+      // The parser takes the words from the end.
+      app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
+      conditions.push_back(
+          {words[0], comparisonSettings(app, given, folder.empty() ? "." : folder)});
+    } catch (const CLI::Error& error) {
+      throw InputError(where + error.what() +
+                       ": give a pattern of names and options of glint diff");
+    } catch (const InputError& error) {
+      throw InputError(where + error.what());
+    }
+  }
+  return conditions;
+}
+
+bool isNamedBy(const std::string& pattern, const std::string& name) {
+  const std::string folder = pattern.ends_with('/') ? pattern : pattern + "/";
+  return name.starts_with(folder) || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+}  // namespace glint

@@ -1,0 +1,165 @@
+#include "diff_test_run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "commands.h"
+#include "diff_baselines.h"
+#include "diff_pair.h"
+#include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "report_pictures.h"
+
+namespace glint {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool isThere(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// A file's text, its end if it is long; empty if there is none.
+std::string textIn(const std::string& path, std::size_t most = 1 << 20) {
+  if (!isThere(path)) return "";
+  const std::vector<std::byte> bytes = readFile(path);
+  const std::size_t from = bytes.size() > most ? bytes.size() - most : 0;
+  return {reinterpret_cast<const char*>(bytes.data()) + from, bytes.size() - from};
+}
+
+std::vector<std::string> linesIn(const std::string& path) {
+  std::istringstream in(textIn(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The result of a test from how far it came.
+Json pairOf(const std::string& folder, const std::string& file, const TestRecord& record,
+            const std::vector<std::string>& options) {
+  std::istringstream status(textIn(folder + "/status/" + file + ".txt"));
+  std::string stage;
+  int number = 0;
+  status >> stage >> number;
+  Json pair;
+  if (stage == "compared" || stage == "updated") {
+    const std::string text = textIn(folder + "/result/" + file + ".json", std::size_t(1) << 30);
+    pair = Json::parse(text, nullptr, false);
+    if (!pair.is_object() || !pair.contains("status")) pair = Json::object();
+  }
+  std::string error;
+  if (stage.empty()) {
+    error = "the test has not run";
+  } else if (stage == "started") {
+    error = "the test did not end: it was killed, or took too long";
+  } else if (stage == "command") {
+    error = number > 128 ? "the program crashed (signal " + std::to_string(number - 128) + ")"
+                         : "the program ended with status " + std::to_string(number);
+  } else if (stage == "nothing") {
+    error = "the program has not written its picture";
+  } else if (pair.empty()) {
+    error = "the comparison has left no result";
+  }
+  if (!error.empty()) pair = Json{{"status", int(unusable)}, {"error", error}};
+  if (stage == "updated") pair["updated"] = true;
+  pair["name"] = record.name;
+  pair["a"] = isThere(record.baseline) ? record.baseline : "";
+  pair["b"] = record.actual;
+  pair.erase("glint");
+  pair["conditions"] = options;
+  if (const std::string log = textIn(folder + "/log/" + file + ".txt", 20000); !log.empty())
+    pair["log"] = log;
+  return pair;
+}
+
+/// Pictures in the folders of the tests' baselines that belong to none of them. Folders that hold
+/// something else than baselines would list it: only those count that hold nothing but pictures.
+std::vector<std::string> unusedBaselines(const std::vector<TestRecord>& records) {
+  std::set<std::string> used, folders;
+  for (const TestRecord& record : records) {
+    used.insert(fs::path(record.baseline).lexically_normal().string());
+    for (const std::string& other : otherBaselines(record.baseline))
+      used.insert(fs::path(other).lexically_normal().string());
+    folders.insert(fs::path(record.baseline).parent_path().string());
+  }
+  std::vector<std::string> unused;
+  std::error_code ignored;
+  for (const std::string& folder : folders)
+    for (const auto& file : fs::directory_iterator(folder, ignored)) {
+      const std::string path = file.path().lexically_normal().string();
+      if (file.is_regular_file(ignored) && isPictureName(path) && used.count(path) == 0)
+        unused.push_back(path);
+    }
+  std::sort(unused.begin(), unused.end());
+  return unused;
+}
+
+}  // namespace
+
+TestRun readTestRun(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const auto& file : fs::directory_iterator(folder + "/tests", ignored))
+    if (file.path().extension() == ".txt") files.push_back(file.path().stem().string());
+  if (files.empty())
+    throw InputError("--run " + printablePath(folder) +
+                     ": no image tests in it: give the folder image-tests of a build folder");
+  std::sort(files.begin(), files.end());
+  TestRun run;
+  run.pairs = Json::array();
+  for (const std::string& file : files) {
+    const std::vector<std::string> lines = linesIn(folder + "/tests/" + file + ".txt");
+    if (lines.size() < 3)
+      throw InputError("--run " + printablePath(folder) + ": tests/" + printablePath(file) +
+                       ".txt is damaged: configure the project again");
+    TestRecord record{lines[0], lines[1], "", "", ""};
+    const auto ifThere = [](const std::string& path) {
+      return isThere(path) ? path : std::string();
+    };
+    record.actual = ifThere(folder + "/actual/" + file + lines[2]);
+    record.kept = ifThere(folder + "/baseline/" + file + lines[2]);
+    record.difference = ifThere(folder + "/difference/" + file + ".png");
+    Json pair = pairOf(folder, file, record, {lines.begin() + 3, lines.end()});
+    DiffEntry entry;
+    entry.name = record.name;
+    entry.a = pair["a"].get<std::string>();
+    entry.b = record.actual;
+    entry.status = pair["status"].get<int>();
+    // A test that did not compare has no picture to accept, whatever lies there.
+    entry.readableB = !entry.b.empty() && (entry.status == differs || entry.status == noBaseline);
+    run.records.push_back(record);
+    run.entries.push_back(entry);
+    run.pairs.push_back(std::move(pair));
+  }
+  run.unused = unusedBaselines(run.records);
+  return run;
+}
+
+PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry) {
+  PairPictures pictures;
+  const auto load = [&](const std::string& path, std::vector<std::byte>& picture,
+                        std::vector<std::byte>& values) {
+    if (path.empty()) return;
+    try {
+      const std::vector<std::byte> bytes = readFile(path);
+      const PictureLayers read = decodePictureLayers(bytes, path, "main");
+      const PictureLayer& layer = read.layers[0];
+      picture = browserPicture(bytes, layer, {0.0f, 1.0f});
+      if (entry.status != done) values = trueValues(layer.image);
+      pictures.thumbnail = thumbnailOf(layer.image);
+    } catch (const InputError&) {
+      return;  // what can be read is shown
+    }
+  };
+  load(record.kept.empty() ? entry.a : record.kept, pictures.a, pictures.valuesA);
+  load(record.actual, pictures.b, pictures.valuesB);
+  if (!record.difference.empty() && entry.status != done)
+    pictures.map = readFile(record.difference);
+  return pictures;
+}
+
+}  // namespace glint

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glint/image/picture_layers.h"
+
+namespace glint {
+
+/// A layer as a browser can show it: the file itself if that is a PNG, JPEG or WebP; else a PNG,
+/// of what is no colour in greys from black for the least of the range to white for the largest.
+std::vector<std::byte> browserPicture(std::span<const std::byte> file, const PictureLayer& layer,
+                                      std::pair<float, float> range);
+
+/// The values of a picture of 16 bits or floats, for the page to show: a line of JSON (width,
+/// height, channels, kind, largest code), a line feed, and the values as 32-bit floats, little-
+/// endian, deflated (zlib). Empty for 8 bits and for more than 2^22 pixels.
+std::vector<std::byte> trueValues(const StoredImage& image);
+
+/// A small PNG.
+std::vector<std::byte> thumbnailOf(const StoredImage& image);
+
+}  // namespace glint

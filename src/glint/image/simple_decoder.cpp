@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <climits>
+#include <cstdint>
+#include <memory>
+
+#include "glint/image/decoders.h"
+
+// BMP and TGA are read by stb_image, of which nothing else is compiled. PPM and PGM are not: it
+// knows neither the largest value of theirs nor the byte order of 16 bits.
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_NO_STDIO
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#define STBI_MAX_DIMENSIONS (1 << 20)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace glint::detail {
+namespace {
+
+unsigned at(std::span<const std::byte> bytes, std::size_t i) { return unsigned(bytes[i]); }
+
+}  // namespace
+
+bool isPnm(std::span<const std::byte> bytes) {
+  return bytes.size() >= 3 && at(bytes, 0) == 'P' && at(bytes, 1) >= '1' && at(bytes, 1) <= '7' &&
+         (at(bytes, 2) <= ' ' || at(bytes, 2) == '#');
+}
+
+bool isBmp(std::span<const std::byte> bytes) {
+  return bytes.size() >= 26 && at(bytes, 0) == 'B' && at(bytes, 1) == 'M' && at(bytes, 15) == 0 &&
+         at(bytes, 16) == 0;
+}
+
+bool isTga(std::span<const std::byte> bytes) {
+  if (bytes.size() < 18) return false;
+  const unsigned map = at(bytes, 1), kind = at(bytes, 2), bits = at(bytes, 16);
+  const bool knownKind = (kind >= 1 && kind <= 3) || (kind >= 9 && kind <= 11);
+  const bool knownBits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
+  return map <= 1 && knownKind && (map == 1) == (kind == 1 || kind == 9) && knownBits &&
+         (at(bytes, 12) | at(bytes, 13)) != 0 && (at(bytes, 14) | at(bytes, 15)) != 0 &&
+         (at(bytes, 17) & 0xc0) == 0;
+}
+
+namespace {
+
+/// Binary PPM or PGM: "P6" or "P5", width, height, the largest value, one white space, the values
+/// (Netpbm). A # begins a comment.
+class PnmReader {
+ public:
+  PnmReader(std::span<const std::byte> bytes, const std::string& name)
+      : bytes_(bytes), name_(name) {}
+
+  StoredImage read() {
+    if (at(bytes_, 1) != '5' && at(bytes_, 1) != '6') {
+      throw InputError(printablePath(name_) +
+                       ": a PNM of this kind is not read: save it as binary PPM (P6) or PGM (P5)");
+    }
+    const int samples = at(bytes_, 1) == '6' ? 3 : 1;
+    const std::uint32_t width = number(), height = number(), largest = number();
+    if (width == 0 || height == 0 || largest == 0 || largest > 65535) fail();
+    checkSides(name_, width, height);
+    ++at_;
+    const int size = largest > 255 ? 2 : 1;
+    const std::uint64_t values = std::uint64_t(width) * height * samples;
+    if (at_ > bytes_.size() || bytes_.size() - at_ < values * size)
+      throw damaged(name_, "the PPM is cut short");
+    StoredImage image{int(width), int(height), 3, {}};
+    if (size == 2) {
+      checkSize(name_, width, height);
+      read(samples, values, largest, image.values.emplace<1>());
+    } else {
+      read(samples, values, largest, image.values.emplace<0>());
+    }
+    return image;
+  }
+
+ private:
+  std::uint32_t number() {
+    while (at_ < bytes_.size() && (at(bytes_, at_) <= ' ' || at(bytes_, at_) == '#')) {
+      if (at(bytes_, at_) == '#')
+        while (at_ < bytes_.size() && at(bytes_, at_) != '\n') ++at_;
+      else
+        ++at_;
+    }
+    std::uint64_t value = 0;
+    const std::size_t begin = at_;
+    for (; at_ < bytes_.size() && at(bytes_, at_) >= '0' && at(bytes_, at_) <= '9'; ++at_)
+      value = std::min<std::uint64_t>(value * 10 + at(bytes_, at_) - '0', UINT32_MAX);
+    if (at_ == begin) fail();
+    return std::uint32_t(value);
+  }
+
+  template <class Code>
+  void read(int samples, std::uint64_t values, std::uint32_t largest, std::vector<Code>& codes) {
+    constexpr std::uint32_t most = static_cast<Code>(-1);
+    codes.reserve(values * std::uint64_t(3 / samples));
+    for (std::uint64_t i = 0; i < values; ++i) {
+      std::uint32_t value = 0;
+      for (std::size_t k = 0; k < sizeof(Code); ++k) value = value << 8 | at(bytes_, at_++);
+      value = std::min(value, largest);
+      const auto code = static_cast<Code>((value * most + largest / 2) / largest);
+      codes.insert(codes.end(), std::size_t(3 / samples), code);
+    }
+  }
+
+  [[noreturn]] void fail() const { throw damaged(name_, "the PPM's header is damaged"); }
+
+  std::span<const std::byte> bytes_;
+  const std::string& name_;
+  std::size_t at_ = 2;
+};
+
+}  // namespace
+
+StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name) {
+  if (isPnm(bytes)) return PnmReader(bytes, name).read();
+  const char* const format = isBmp(bytes) ? "BMP" : "TGA";
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  if (bytes.size() > INT_MAX)
+    throw InputError(printablePath(name) + ": too large a file: convert it to PNG");
+  const int size = int(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  const auto check = [&](bool good) {
+    if (!good)
+      throw damaged(name,
+                    std::string("the ") + format + " is damaged (" + stbi_failure_reason() + ")");
+  };
+  check(stbi_info_from_memory(data, size, &width, &height, &channels) == 1);
+  checkSides(name, std::uint64_t(width), std::uint64_t(height));
+  const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
+  // The library fills what is missing with black. Without run lengths a file is as long as its
+  // pixels say, with them a byte or more stands for 128 pixels at most.
+  const bool runs = !isBmp(bytes) && at(bytes, 2) >= 9;
+  const std::uint64_t bits = isBmp(bytes) ? at(bytes, 28) : at(bytes, 16);
+  if (bytes.size() < (runs ? pixels / 128 : pixels * bits / 8))
+    throw damaged(name, std::string("the ") + format + " is cut short");
+  StoredImage image{width, height, channels == 2 || channels == 4 ? 4 : 3, {}};
+  const std::unique_ptr<stbi_uc, void (*)(void*)> read(
+      stbi_load_from_memory(data, size, &width, &height, &channels, image.channels),
+      stbi_image_free);
+  check(read != nullptr);
+  image.values.emplace<0>(read.get(), read.get() + std::size_t(image.channels) * pixels);
+  return image;
+}
+
+}  // namespace glint::detail

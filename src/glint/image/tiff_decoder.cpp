@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+#include "glint/image/decoders.h"
+
+#if GLINT_TIFF
+#include <tiffio.h>
+#endif
+
+namespace glint::detail {
+
+bool isTiff(std::span<const std::byte> bytes) {
+  const auto is = [&](const char* magic) {
+    return bytes.size() >= 8 && std::memcmp(bytes.data(), magic, 4) == 0;
+  };
+  return is("II*\0") || is("MM\0*") || is("II+\0") || is("MM\0+");
+}
+
+#if GLINT_TIFF
+namespace {
+
+/// The file in memory, as the library reads it, and the library's last complaint.
+struct Memory {
+  std::span<const std::byte> bytes;
+  std::uint64_t at = 0;
+  std::string complaint;
+};
+
+Memory& memoryOf(thandle_t handle) { return *static_cast<Memory*>(handle); }
+
+tsize_t readBytes(thandle_t handle, void* out, tsize_t size) {
+  Memory& memory = memoryOf(handle);
+  if (size <= 0 || memory.at >= memory.bytes.size()) return 0;
+  const auto count = std::min<std::uint64_t>(std::uint64_t(size), memory.bytes.size() - memory.at);
+  std::memcpy(out, memory.bytes.data() + memory.at, count);
+  memory.at += count;
+  return tsize_t(count);
+}
+
+tsize_t writeNothing(thandle_t, void*, tsize_t) { return 0; }
+
+toff_t seek(thandle_t handle, toff_t offset, int whence) {
+  Memory& memory = memoryOf(handle);
+  memory.at = whence == SEEK_SET   ? offset
+              : whence == SEEK_CUR ? memory.at + offset
+                                   : memory.bytes.size() + offset;
+  return memory.at;
+}
+
+int closeNothing(thandle_t) { return 0; }
+toff_t sizeOf(thandle_t handle) { return memoryOf(handle).bytes.size(); }
+
+void complain(thandle_t handle, const char*, const char* format, va_list arguments) {
+  if (!handle) return;
+  char text[200];
+  std::vsnprintf(text, sizeof text, format, arguments);
+  memoryOf(handle).complaint = text;
+}
+
+class TiffReader {
+ public:
+  TiffReader(std::span<const std::byte> bytes, const std::string& name)
+      : memory_{bytes, 0, {}}, name_(name), file_(nullptr, TIFFClose) {
+    // The library's handlers are global: silence, but for the handle's own.
+    static std::once_flag once;
+    std::call_once(once, [] {
+      TIFFSetErrorHandler(nullptr);
+      TIFFSetWarningHandler(nullptr);
+      TIFFSetErrorHandlerExt(complain);
+    });
+    file_.reset(TIFFClientOpen("picture", "rm", &memory_, readBytes, writeNothing, seek,
+                               closeNothing, sizeOf, nullptr, nullptr));
+    if (!file_) fail();
+  }
+
+  StoredImage read(std::vector<std::string>& skipped) {
+    std::uint32_t width = 0, height = 0;
+    if (!TIFFGetField(file_.get(), TIFFTAG_IMAGEWIDTH, &width) ||
+        !TIFFGetField(file_.get(), TIFFTAG_IMAGELENGTH, &height) || width == 0 || height == 0)
+      fail();
+    checkSides(name_, width, height);
+    const auto field = [&](ttag_t tag, std::uint16_t value) {
+      TIFFGetFieldDefaulted(file_.get(), tag, &value);
+      return value;
+    };
+    const int bits = field(TIFFTAG_BITSPERSAMPLE, 1), samples = field(TIFFTAG_SAMPLESPERPIXEL, 1);
+    const int format = field(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    const int photometric = field(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    const bool plain = field(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_CONTIG &&
+                       !TIFFIsTiled(file_.get()) &&
+                       (photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_RGB) &&
+                       samples <= 4;
+    image_ = {int(width), int(height), samples == 2 || samples == 4 ? 4 : 3, {}};
+    if (plain && bits == 32 && format == SAMPLEFORMAT_IEEEFP) {
+      checkSize(name_, width, height);
+      readRows<float>(samples, image_.values.emplace<2>());
+    } else if (plain && bits == 16 && format == SAMPLEFORMAT_UINT) {
+      checkSize(name_, width, height);
+      readRows<std::uint16_t>(samples, image_.values.emplace<1>());
+      makeStraight(std::get<1>(image_.values));
+    } else if (plain && bits == 8 && format == SAMPLEFORMAT_UINT) {
+      readRows<std::uint8_t>(samples, image_.values.emplace<0>());
+      makeStraight(std::get<0>(image_.values));
+    } else if (bits <= 8) {
+      readAsRgba();
+    } else {
+      throw InputError(printablePath(name_) + ": a TIFF of " + std::to_string(bits) +
+                       " bits in this layout is not read: save it as 8 or 16 bits or 32-bit float, "
+                       "RGB or grey, in strips");
+    }
+    if (const int way = field(TIFFTAG_ORIENTATION, 1); way != 1)
+      image_.unfollowed["EXIF orientation"] = std::to_string(way);
+    std::uint32_t size = 0;
+    const void* profile = nullptr;
+    if (TIFFGetField(file_.get(), TIFFTAG_ICCPROFILE, &size, &profile) &&
+        std::string_view(static_cast<const char*>(profile), size).find("sRGB") ==
+            std::string_view::npos)
+      image_.unfollowed["ICC profile"] = "";
+    if (!TIFFLastDirectory(file_.get())) skipped.push_back("the pages after the first");
+    return std::move(image_);
+  }
+
+ private:
+  template <class Value>
+  void readRows(int samples, std::vector<Value>& values) {
+    const std::size_t rowBytes = std::size_t(samples) * image_.width * sizeof(Value);
+    if (std::size_t(TIFFScanlineSize(file_.get())) != rowBytes) fail();
+    std::vector<Value> row(std::size_t(samples) * image_.width);
+    // Grown as rows arrive: a small file that claims to be a giant touches little memory.
+    for (int y = 0; y < image_.height; ++y) {
+      if (TIFFReadScanline(file_.get(), row.data(), std::uint32_t(y), 0) != 1) fail();
+      const Value* in = row.data();
+      for (int x = 0; x < image_.width; ++x, in += samples) {
+        for (int c = 0; c < 3; ++c) values.push_back(in[samples < 3 ? 0 : c]);
+        if (image_.channels == 4) values.push_back(in[samples - 1]);
+      }
+    }
+  }
+
+  /// Codes are straight everywhere else.
+  template <class Code>
+  void makeStraight(std::vector<Code>& codes) {
+    std::uint16_t count = 0;
+    const std::uint16_t* kinds = nullptr;
+    if (image_.channels != 4 || !TIFFGetField(file_.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds) ||
+        count == 0 || kinds[0] != EXTRASAMPLE_ASSOCALPHA)
+      return;
+    constexpr std::uint32_t most = static_cast<Code>(-1);
+    for (std::size_t i = 0; i < codes.size(); i += 4) {
+      const std::uint32_t alpha = codes[i + 3];
+      for (std::size_t c = 0; c < 3 && alpha > 0; ++c)
+        codes[i + c] = static_cast<Code>(std::min(most, (codes[i + c] * most + alpha / 2) / alpha));
+    }
+  }
+
+  /// Palettes, YCbCr, tiles, planes: as the library's own conversion has them.
+  void readAsRgba() {
+    std::vector<std::uint32_t> pixels(std::size_t(image_.width) * image_.height);
+    if (TIFFReadRGBAImageOriented(file_.get(), std::uint32_t(image_.width),
+                                  std::uint32_t(image_.height), pixels.data(), ORIENTATION_TOPLEFT,
+                                  1) != 1)
+      fail();
+    image_.channels = 4;
+    auto& codes = image_.values.emplace<0>();
+    codes.reserve(pixels.size() * 4);
+    for (const std::uint32_t pixel : pixels)
+      for (const int shift : {0, 8, 16, 24}) codes.push_back(std::uint8_t(pixel >> shift));
+    makeStraight(codes);
+  }
+
+  [[noreturn]] void fail() const {
+    throw damaged(name_, "the TIFF is damaged (" +
+                             (memory_.complaint.empty() ? std::string("cut short")
+                                                        : printablePath(memory_.complaint)) +
+                             ")");
+  }
+
+  Memory memory_;
+  const std::string& name_;
+  std::unique_ptr<TIFF, void (*)(TIFF*)> file_;
+  StoredImage image_;
+};
+
+}  // namespace
+
+StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name,
+                       std::vector<std::string>& skipped) {
+  return TiffReader(bytes, name).read(skipped);
+}
+#else
+StoredImage decodeTiff(std::span<const std::byte>, const std::string& name,
+                       std::vector<std::string>&) {
+  throw InputError(printablePath(name) +
+                   ": TIFF, which this build does not read: convert it to PNG or EXR");
+}
+#endif
+
+}  // namespace glint::detail
