@@ -49,8 +49,8 @@ void update(const std::vector<std::string>& named, DiffEntry& entry, const std::
   if (endingOf(target) != endingOf(entry.b))
     throw InputError("--update: " + printablePath(entry.b) + " is no " + endingOf(target) +
                      " file as " + printablePath(target) + " is: give one of that format");
-  const bool made = !isThere(target);
   std::error_code ignored;
+  const bool made = !fs::exists(target, ignored);
   fs::create_directories(fs::path(target).parent_path(), ignored);
   forgetReadFile(target);
   OutputFile file(target);
