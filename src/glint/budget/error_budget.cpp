@@ -22,7 +22,7 @@
 namespace glint {
 namespace {
 
-constexpr double u = 0x1p-24;
+using rounding::u;
 constexpr double cosineError = 6e-7;  // of a dot product of rounded unit vectors, at most 10 u
 
 // What the bounds read of the surfaces of a material's name.

@@ -69,7 +69,7 @@ Imf::Header headerOf(const std::string& path, int width, int height, const Text&
 
 /// Runs `write`, whose errors of the library become ours.
 template <class Write>
-void guarded(const std::string& path, Write write) {
+void withSentence(const std::string& path, Write write) {
   try {
     write();
   } catch (const Error&) {
@@ -95,7 +95,7 @@ class ExrWriter : public PictureWriter {
   ExrWriter(const std::string& path, int width, int height, const PictureOptions& options)
       : PictureWriter(path, width, height), stream_(path) {
     channels_ = options.alpha ? 4 : 3;
-    guarded(path_, [&] {
+    withSentence(path_, [&] {
       Imf::Header header = headerOf(path, width, height, options.text);
       for (std::size_t c = 0; c < channels_; ++c)
         header.channels().insert(std::string(1, "RGBA"[c]), Imf::Channel(Imf::FLOAT));
@@ -111,7 +111,7 @@ class ExrWriter : public PictureWriter {
       for (std::size_t c = 0; c < channels_; ++c) nan = nan || std::isnan(rows.values[4 * i + c]);
       nanPixels_ += nan;
     }
-    guarded(path_, [&] {
+    withSentence(path_, [&] {
       Imf::FrameBuffer frame;
       for (std::size_t c = 0; c < channels_; ++c)
         frame.insert(std::string(1, "RGBA"[c]), slice(rows.values.data(), c, width_, rowsWritten_));
@@ -121,7 +121,7 @@ class ExrWriter : public PictureWriter {
   }
 
   void finishFile() override {
-    guarded(path_, [&] {
+    withSentence(path_, [&] {
       file_.reset();  // writes the table of chunks
       stream_.commit();
     });
@@ -143,7 +143,7 @@ void writeExr(const std::string& path, std::span<const ExrLayer> layers,
               const std::map<std::string, std::string>& text) {
   if (layers.empty()) throw Error(printablePath(path) + ": an EXR without layers");
   const int width = layers[0].pixels->width, height = layers[0].pixels->height;
-  guarded(path, [&] {
+  withSentence(path, [&] {
     Imf::Header header = headerOf(path, width, height, text);
     Imf::FrameBuffer frame;
     for (const ExrLayer& layer : layers) {

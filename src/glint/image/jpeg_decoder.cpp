@@ -20,7 +20,7 @@ constexpr long memoryLimit = 1L << 30;
 // A hostile progressive file repeats empty scans, each of which visits the whole picture; real
 // ones have about ten.
 constexpr int scanLimit = 100;
-constexpr int blockRows = 64;
+constexpr int rowsAtOnce = 64;
 
 struct JpegReader {
   jpeg_decompress_struct info{};
@@ -158,8 +158,8 @@ ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name) 
   const std::size_t rowBytes = std::size_t(4) * image.width;
   image.values.reserve(rowBytes * image.height);
   // Grown as rows arrive: a small file that claims to be a giant touches little memory.
-  for (int y = 0; y < image.height; y += blockRows) {
-    const int count = std::min(blockRows, image.height - y);
+  for (int y = 0; y < image.height; y += rowsAtOnce) {
+    const int count = std::min(rowsAtOnce, image.height - y);
     image.values.resize(rowBytes * (y + count));
     check(readRows(reader, image.values.data() + rowBytes * y, count));
   }

@@ -9,7 +9,6 @@ namespace {
 
 using Kind = PictureTerm::Kind;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -25,7 +24,7 @@ Image drawReferenceTerm(const Scene& scene, const DecodedImages& images, const B
   Image image{look.resolution.x, look.resolution.y, {}};
   image.values.reserve(std::size_t(4) * image.width * image.height);
   for (const reference::Attributes& a : renderer.attributes(0, look.resolution.y)) {
-    glm::dvec3 value(term.kind == Kind::depth ? infinity : 0.0);
+    glm::dvec3 value(term.kind == Kind::depth ? std::numeric_limits<double>::infinity() : 0.0);
     if (a.item >= 0 && term.kind == Kind::depth) value = glm::dvec3(-a.position.z * camera.unit);
     if (a.item >= 0 && term.kind == Kind::normal) {
       const reference::Surface& surface = renderer.stage().items[std::size_t(a.item)].surface;

@@ -9,7 +9,8 @@
 namespace glint {
 namespace {
 
-constexpr double u = 0x1p-24;
+using rounding::u;
+
 constexpr double vectorError = 6.5e-7;  // of D
 
 // Of the dot product c of unit vectors that are rounded: each has its length off by 2.5 u (a dot

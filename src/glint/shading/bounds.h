@@ -6,6 +6,11 @@
 
 namespace glint {
 
+/// Half the distance from 1 to the next float.
+namespace rounding {
+constexpr double u = 0x1p-24;
+}
+
 // How far the forms of lobe and reflectance are from the exact functions, as upper bounds in
 // absolute terms. Two kinds, which add up: that of the formula, as if computed without rounding,
 // and that of the rounding of a shader in single precision.

@@ -10,7 +10,7 @@
 namespace glint {
 namespace {
 
-constexpr double u = 0x1p-24;
+using rounding::u;
 
 /// A power by squaring.
 double powerRounding(double power) { return (1.5 * power + 4.0) * u; }

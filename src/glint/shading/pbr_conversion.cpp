@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/shading/safe.h"
+
 namespace glint {
 namespace {
 
 constexpr double largestIor = 1e3;
 constexpr double dielectricF0 = 0.04;
-
-// NaN gives the lower bound.
-double clampTo(double x, double low, double high) { return x > low ? std::min(x, high) : low; }
 
 double interpolate(double a, double b, double t) { return a + (b - a) * t; }
 
