@@ -12,6 +12,7 @@
 #include "glint/image/printable.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
+#include "glint/options/read_options.h"
 #include "glint/render/decode.h"
 #include "glint/render/draw_list.h"
 #include "glint/render/left_out.h"
@@ -252,6 +253,8 @@ Command addInfo(CLI::App& app) {
   command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb")->required();
   command->add_option("--json", *jsonFile, "write the list as JSON; - is stdout")
       ->type_name("FILE");
+  addConfineOption(*command);
+  addDecodeLimitOption(*command);
   auto makeLook = addLookOptions(*command);
   return [=] {
     checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});

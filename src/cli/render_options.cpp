@@ -4,6 +4,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/options/read_options.h"
 
 namespace glint {
 
@@ -61,6 +62,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       "also write the terms whose sum the picture is (ambient, diffuse and specular of "
       "each light, reflection, refraction, emission, background), normal and depth: as "
       "layers of an EXR, or one file each (OUT.ambient.png)");
+  addConfineOption(command);
+  addDecodeLimitOption(command);
   const char* batch = "Batches";
   command
       .add_option(

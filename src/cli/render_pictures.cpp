@@ -123,6 +123,10 @@ class ModelDrawing {
     else
       drawRows(planned, *source, file, out);
     if (Interrupt::signal() != 0) return;
+    for (std::string& warning : stage_->takeWarnings()) {
+      result.news.push_back(model_.entry.model + ": " + warning);
+      result.warnings.push_back(std::move(warning));
+    }
     const RenderTimes times = source->times();
     result.entry["triangles"] = triangleCount(model_.scene, source->list());
     result.entry["draws"] = source->list().items.size();

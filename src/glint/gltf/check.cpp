@@ -48,6 +48,8 @@ void checkExtensions(Cursor root, Messages& messages) {
   }
 }
 
+}  // namespace
+
 std::int64_t componentBytes(std::int64_t componentType) {
   switch (componentType) {
     case 5120:
@@ -63,6 +65,8 @@ std::int64_t componentBytes(std::int64_t componentType) {
       return 0;
   }
 }
+
+namespace {
 
 /// Bytes of one element, the padding of matrix columns to four bytes included; 0 if unknown. What
 /// would follow the `last` column of all need not be there.
@@ -276,6 +280,16 @@ void checkScenesAndSkins(Cursor root) {
 }
 
 }  // namespace
+
+std::uint64_t spanOfElements(Cursor accessor, std::int64_t stride) {
+  const std::int64_t component =
+      componentBytes(accessor.member("componentType").integer(0, 0, INT_MAX));
+  const std::string type = accessor.member("type").text();
+  const std::int64_t count = accessor.member("count").integer(0, 0, UINT32_MAX);
+  if (count == 0) return 0;
+  if (stride == 0) stride = elementBytes(type, component);
+  return static_cast<std::uint64_t>((count - 1) * stride + elementBytes(type, component, true));
+}
 
 void checkDocument(Json& document, Messages& messages) {
   const Cursor root(document, messages);

@@ -8,6 +8,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/read_image.h"
+#include "glint/render/decode.h"
 
 namespace glint {
 namespace {
@@ -113,10 +114,12 @@ std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path)
   } catch (const InputError& error) {
     throw InputError("--hdri-file: " + std::string(error.what()));
   }
+  // In place: large pictures would take twice the memory.
+  std::vector<float>& rgb = image.values;
   const std::size_t count = std::size_t(image.width) * image.height;
-  std::vector<float> rgb(3 * count);
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = image.values[4 * i + c];
+    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = rgb[4 * i + c];
+  rgb.resize(3 * count);
   auto result = std::make_shared<EnvironmentImage>(
       makeEnvironmentImage(image.width, image.height, std::move(rgb)));
   result->name = path;
@@ -144,8 +147,9 @@ glm::dvec3 EnvironmentImage::radiance(const glm::dvec3& direction, double spread
 EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> rgb) {
   for (float& value : rgb) value = value > 0 ? std::min(value, 1e30f) : 0.0f;
   EnvironmentImage image;
-  image.levels.push_back({width, height, std::move(rgb)});
-  Level level = image.levels[0];
+  Level level{width, height, std::move(rgb)};
+  while (std::max(level.width, level.height) > maxTextureSide) level = halved(level);
+  image.levels.push_back(level);
   while (level.width > 1 || level.height > 1) {
     level = halved(level);
     image.levels.push_back(level);

@@ -98,14 +98,23 @@ GLint wrapMode(Wrap wrap) {
                                      : GL_MIRRORED_REPEAT;
 }
 
-TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name, bool isData) {
-  const ByteImage& image = decoded.image;
+// What a driver cannot take is left out from the pyramid's top. False where nothing was.
+bool fitDriver(DecodedImage& decoded, bool isData) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-  if (image.width > limit || image.height > limit)
-    throw InputError(name + ": " + std::to_string(image.width) + "x" +
-                     std::to_string(image.height) + " pixels are more than this driver's " +
-                     std::to_string(limit) + ": make the texture smaller");
+  const auto fits = [&] { return std::max(decoded.image.width, decoded.image.height) <= limit; };
+  if (fits()) return false;
+  const bool hadLevels = !decoded.mipLevels.empty();
+  if (!hadLevels) decoded.mipLevels = mipLevels(decoded.image, isData);
+  while (!fits()) {
+    decoded.image = std::move(decoded.mipLevels.front());
+    decoded.mipLevels.erase(decoded.mipLevels.begin());
+  }
+  if (!hadLevels) decoded.mipLevels.clear();
+  return true;
+}
+
+TextureHandle uploadTexture(const DecodedImage& decoded, bool isData) {
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -114,7 +123,7 @@ TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name
     glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, from.values.data());
   };
-  upload(0, image);
+  upload(0, decoded.image);
   for (std::size_t i = 0; i < decoded.mipLevels.size(); ++i)
     upload(GLint(i + 1), decoded.mipLevels[i]);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
@@ -194,7 +203,14 @@ void GpuScene::bindTexture(const Texture& use, GLuint unit) {
   TextureHandle& texture = textures_[use.image];
   if (!texture) {
     const EncodedImage& image = scene_->images[std::size_t(use.image)];
-    texture = uploadTexture(images_.at(use.image), image.name, image.isData);
+    DecodedImage& decoded = images_.at(use.image);
+    if (fitDriver(decoded, image.isData))
+      warnings_.push_back("the image " + image.name +
+                          " is larger than this driver takes, and is "
+                          "shown with " +
+                          std::to_string(decoded.image.width) + " x " +
+                          std::to_string(decoded.image.height) + " pixels");
+    texture = uploadTexture(decoded, image.isData);
     images_.erase(use.image);
   }
   glBindTexture(GL_TEXTURE_2D, texture.id());
