@@ -179,6 +179,17 @@ void checkAttributes(Cursor attributes, std::size_t accessors) {
   attributes.forEachMember([&](Cursor attribute) { attribute.index(accessors); });
 }
 
+/// Each takes a kilobyte, be it an empty object; a model that somebody made has some hundreds.
+void checkCounts(Cursor root) {
+  constexpr std::size_t most = 1 << 16;
+  for (const char* list : {"materials", "textures", "images", "samplers", "animations", "skins"}) {
+    const std::size_t count = root.member(list).size();
+    if (count > most)
+      root.member(list).fail("has " + std::to_string(count) + " entries, more than " +
+                             std::to_string(most));
+  }
+}
+
 void checkMeshes(Cursor root) {
   const std::size_t accessors = root.member("accessors").size();
   const std::size_t materials = root.member("materials").size();
@@ -300,6 +311,7 @@ void checkDocument(Json& document, Messages& messages) {
 
 void checkStructure(Json& document, const Messages& messages) {
   const Cursor root(document, messages);
+  checkCounts(root);
   checkAccessors(root, checkViews(root));
   checkMeshes(root);
   checkNodes(root);

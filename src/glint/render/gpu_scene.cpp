@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "glint/image/error.h"
+#include "glint/image/mipmaps.h"
 #include "glint/render/face_mesh.h"
 #include "glint/render/variant.h"
 
