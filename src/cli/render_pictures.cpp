@@ -158,8 +158,9 @@ class ModelDrawing {
   void pose(const PlannedPicture& planned) {
     if (model_.file) {
       stage_.reset();
-      const double time = model_.duration * double(planned.frame) / run_.options.frames;
-      model_.file->pose(model_.scene, {time, run_.look.animation});
+      PoseRequest request = poseOf(run_.look);
+      request.time = model_.duration * double(planned.frame) / run_.options.frames;
+      model_.file->pose(model_.scene, request);
       model_.bounds = boundsOf(model_.scene);
     }
     if (!stage_) stage_.emplace(run_.renderer, model_);
