@@ -61,6 +61,12 @@ std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_
   for (std::size_t i = 0; i < jobs.size(); ++i)
     for (; std::max(jobs[i].width(), jobs[i].height()) > maxTextureSide; ++jobs[i].halvings)
       tooLong[i] = true;
+  // What is halved while it is read takes time all the same.
+  std::uint64_t full = 0;
+  for (const DecodeJob& job : jobs) full += std::uint64_t(4) * job.header.width * job.header.height;
+  if (full > 3 * limit)
+    refuse(*std::ranges::max_element(jobs, {}, &DecodeJob::kept),
+           "the model's textures are " + mebibytes(full) + " in full,", 3 * limit);
   while (sumOf(jobs) > limit) {
     const auto largest = std::ranges::max_element(jobs, {}, [&](const DecodeJob& job) {
       return std::max(job.width(), job.height()) > useful ? job.kept() : 0;

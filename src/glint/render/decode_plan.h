@@ -27,7 +27,8 @@ struct DecodeJob {
 
 /// Halves what is longer than maxTextureSide, and where all takes more than `limit` bytes (0: the
 /// rule of limitDecoding()) what is larger than `useful` pixels a side. Gives the warnings. Throws
-/// InputError where it is still more, or where one alone needs three times as much to be decoded.
+/// InputError where it is still more, or where three times as much would have to be read for it or
+/// is needed to decode one alone.
 std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t limit,
                                       int useful);
 
