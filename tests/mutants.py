@@ -119,7 +119,7 @@ def take_apart(path):
             return document, binary
         length = struct.unpack_from("<I", data, 12)[0]
         return json.loads(data[20 : 20 + length]), data[20 + length + 8 :]
-    except (ValueError, KeyError, AttributeError, TypeError, IndexError, struct.error):
+    except (ValueError, KeyError, AttributeError, TypeError, IndexError, RecursionError, struct.error):
         return None
 
 

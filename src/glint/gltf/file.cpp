@@ -292,6 +292,7 @@ ByteSource openUri(const std::string& uri, const std::filesystem::path& model, s
     if (other == name) continue;
     std::string second;
     source = open(other, second);
+    if (second == liesOutside) error = second;
     if (!second.empty()) continue;
     error.clear();
     return source;

@@ -27,53 +27,102 @@ std::uint64_t step(std::uint64_t state, std::uint64_t word) {
   return state ^ (state >> 32);
 }
 
-// Bytes that are needed of what a file refers to, by the names that it has: of buffers as far as
-// views of them reach, of images all. Loading refuses what these leave out.
-std::vector<std::pair<std::string, std::uint64_t>> neededOf(const Json& root) {
-  std::vector<std::uint64_t> ends;
-  const auto number = [](const Json& from, const char* key) {
-    const auto found = from.find(key);
-    const bool known = found != from.end() && found->is_number_unsigned();
-    return known ? std::min(found->get<std::uint64_t>(), maxBytes) : std::uint64_t(0);
-  };
-  const auto use = [&](const Json& view) {
-    const std::uint64_t buffer = number(view, "buffer");
-    if (buffer >= 1u << 20) return;
-    if (ends.size() <= buffer) ends.resize(buffer + 1, 0);
-    ends[buffer] = std::max(ends[buffer], number(view, "byteOffset") + number(view, "byteLength"));
-  };
-  const auto each = [&](const char* list, const auto& take) {
-    const auto found = root.find(list);
-    if (found == root.end() || !found->is_array()) return;
-    for (const Json& item : *found)
-      if (item.is_object()) take(item);
-  };
-  each("bufferViews", [&](const Json& view) {
-    use(view);
-    const auto extensions = view.find("extensions");
-    if (extensions == view.end() || !extensions->is_object()) return;
-    for (const Json& extension : *extensions)  // EXT_meshopt_compression
-      if (extension.is_object() && extension.contains("buffer")) use(extension);
-  });
-  std::vector<std::pair<std::string, std::uint64_t>> needed;
-  std::map<std::string, std::size_t> places;
-  const auto name = [&](const Json& item, std::uint64_t bytes) {
-    const auto uri = item.find("uri");
-    if (uri == item.end() || !uri->is_string()) return;
-    const auto& text = uri->get_ref<const std::string&>();
-    if (gltf::isDataUri(text)) return;
-    const auto [place, isNew] = places.try_emplace(text, needed.size());
-    if (isNew) needed.emplace_back(text, 0);
-    needed[place->second].second = std::max(needed[place->second].second, bytes);
-  };
-  std::size_t buffer = 0;
-  each("buffers", [&](const Json& item) {
-    name(item, buffer < ends.size() ? ends[buffer] : 0);
-    ++buffer;
-  });
-  each("images", [&](const Json& item) { name(item, maxImageBytes); });
-  return needed;
+std::uint64_t numberOf(const Json& from, const char* key) {
+  const auto found = from.find(key);
+  const bool known = found != from.end() && found->is_number_unsigned();
+  return known ? std::min(found->get<std::uint64_t>(), maxBytes) : 0;
 }
+
+// How much of what a file refers to loading it can need.
+class Needs {
+ public:
+  explicit Needs(const Json& root) : root_(root) {
+    each("bufferViews", [&](const Json&) { views_.push_back(0); });
+    each("accessors", [&](const Json& accessor) {
+      useElements(accessor, numberOf(accessor, "count"));
+      const auto sparse = accessor.find("sparse");
+      if (sparse == accessor.end() || !sparse->is_object()) return;
+      for (const Json& part : *sparse)
+        if (part.is_object()) useElements(part, numberOf(*sparse, "count"));
+    });
+    for (auto it = root.begin(); it != root.end(); ++it)
+      if (it.key() != "accessors") useWhole(*it, it.key() == "images" ? maxImageBytes : maxBytes);
+  }
+
+  /// Bytes of each file by the name that it has, in their order; `whole`: all, or none where it is
+  /// larger than any picture.
+  std::vector<std::pair<std::string, std::uint64_t>> files() const {
+    std::vector<std::uint64_t> ends;
+    const auto use = [&](const Json& view, std::uint64_t bytes) {
+      const std::uint64_t buffer = numberOf(view, "buffer");
+      if (buffer >= 1u << 20 || bytes == 0) return;
+      if (ends.size() <= buffer) ends.resize(buffer + 1, 0);
+      ends[buffer] = std::max(ends[buffer], numberOf(view, "byteOffset") + bytes);
+    };
+    std::size_t number = 0;
+    each("bufferViews", [&](const Json& view) {
+      use(view, std::min(views_[number++], numberOf(view, "byteLength")));
+      const auto extensions = view.find("extensions");
+      if (extensions == view.end() || !extensions->is_object()) return;
+      for (const Json& extension : *extensions)  // EXT_meshopt_compression
+        if (extension.is_object()) use(extension, numberOf(extension, "byteLength"));
+    });
+    std::vector<std::pair<std::string, std::uint64_t>> files;
+    std::map<std::string, std::size_t> places;
+    const auto name = [&](const Json& item, std::uint64_t bytes) {
+      const auto uri = item.find("uri");
+      if (uri == item.end() || !uri->is_string()) return;
+      const auto& text = uri->get_ref<const std::string&>();
+      if (gltf::isDataUri(text)) return;
+      const auto [place, isNew] = places.try_emplace(text, files.size());
+      if (isNew) files.emplace_back(text, 0);
+      files[place->second].second = std::max(files[place->second].second, bytes);
+    };
+    number = 0;
+    each("buffers", [&](const Json& item) {
+      name(item, number < ends.size() ? ends[number] : 0);
+      ++number;
+    });
+    each("images", [&](const Json& item) { name(item, whole); });
+    return files;
+  }
+
+  static constexpr std::uint64_t whole = UINT64_MAX;
+
+ private:
+  template <typename Take>
+  void each(const char* list, const Take& take) const {
+    const auto found = root_.find(list);
+    if (found == root_.end() || !found->is_array()) return;
+    static const Json nothing = Json::object();
+    for (const Json& item : *found) take(item.is_object() ? item : nothing);
+  }
+
+  // What refers to a view: at most 252 bytes lie between elements.
+  void useElements(const Json& from, std::uint64_t count) {
+    if (from.contains("bufferView"))
+      use(numberOf(from, "bufferView"), numberOf(from, "byteOffset") + 256 * count);
+  }
+
+  void use(std::uint64_t view, std::uint64_t bytes) {
+    if (view < views_.size()) views_[view] = std::max(views_[view], bytes);
+  }
+
+  // Whatever else refers to one reads all of it, if it is not larger than that.
+  void useWhole(const Json& json, std::uint64_t most) {
+    if (json.is_object() && json.contains("bufferView")) {
+      const std::uint64_t view = numberOf(json, "bufferView");
+      const auto list = root_.find("bufferViews");
+      if (view < views_.size() && numberOf((*list)[view], "byteLength") <= most) use(view, most);
+    }
+    if (!json.is_structured()) return;
+    for (const Json& item : json)
+      if (item.is_structured()) useWhole(item, most);
+  }
+
+  const Json& root_;
+  std::vector<std::uint64_t> views_;  ///< bytes from each one's beginning
+};
 
 // Adds the beginning of a source; false where it cannot be read.
 template <typename Source>
@@ -137,9 +186,14 @@ std::string modelHash(const std::string& path) {
     if (container.json.find("\"uri\"") == std::string::npos) return hash.text();
     const auto root = parseJsonText<Json>(container.json, error);
     if (!root || !root->is_object()) return hash.text();
-    for (const auto& [name, size] : neededOf(*root)) {
+    std::uint64_t left = maxBytes;
+    for (const auto& [name, needed] : Needs(*root).files()) {
+      error.clear();
       const gltf::ByteSource source = gltf::openUri(name, path, error);
-      addBytes(hash, source, std::min(size, source.size()));
+      std::uint64_t size = std::min({needed, source.size(), left});
+      if (needed == Needs::whole && source.size() > maxImageBytes) size = 0;
+      addBytes(hash, source, size);
+      left -= size;
     }
   } catch (const InputError&) {
   } catch (const std::bad_alloc&) {
