@@ -188,7 +188,7 @@ class Mutations : public glint::test::Random {
 TEST(Fuzz, DamagedInputsAreReadOrRefused) {
   Sample sample;
   const auto seeds = seedsIn(sample);
-  const int draws = glint::test::drawsOf("GLINT_FUZZ_DRAWS", 1500);
+  const int draws = glint::test::drawsOf("GLINT_FUZZ_DRAWS", 300);
   for (const glint::test::FuzzTarget& target : glint::test::fuzzTargets()) {
     SCOPED_TRACE(target.name);
     const std::vector<Bytes>& own = seeds.at(std::string(target.name));
