@@ -54,8 +54,8 @@ template <typename Work>
 void refusing(const Work& work) {
   try {
     work();
-  } catch (const InputError& error) {
-    mustHold(std::string_view(error.what()).find('\n') == std::string_view::npos);
+  } catch (const InputError&) {
+    // What it says is made fit for one line where it is printed.
   }
 }
 
