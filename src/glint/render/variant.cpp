@@ -167,7 +167,8 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.program = programOf(look);
   v.unlit = material.unlit || (mesh.topology != Topology::triangles && mesh.normals.empty());
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
-  v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
+  v.multisampled =
+      look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
   v.vertexColors = !mesh.colors.empty();
   v.colorTexture = readsTexture(mesh, material.colorTexture);
   v.alphaMask = material.alphaMode == AlphaMode::mask;
