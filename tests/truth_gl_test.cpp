@@ -127,7 +127,7 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
           expectColor(shown, radiance(turnedBack(seen, turn)), tolerance, "mirror");
           // Glass: the same direction by reflection, another by refraction.
           Material glass = materialOf(0, 0, 0, 1);
-          glass.transmission = 1;
+          glass.shading.transmission = 1;
           const double r = reflectance(cosine, 1, 1.5);
           const glm::dvec3 along = (cosine * n - v) / 1.5;
           const glm::dvec3 through = along - std::sqrt(1 - glm::dot(along, along)) * n;
@@ -146,7 +146,7 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
 // every pixel, whatever its neighbours do.
 TEST_P(Truth, NeighboursInTotalReflection) {
   Scene scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
-  for (Material& m : scene.materials) m.transmission = 0.9, m.shading.ior = 1.33;
+  for (Material& m : scene.materials) m.shading.transmission = 0.9, m.shading.ior = 1.33;
   Look look;
   look.shading = Shading::environment;
   look.resolution = {128, 128};
@@ -248,17 +248,6 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
         }
 }
 
-namespace {
-
-bool sameAround(const Image& image, int x, int y, const glm::dvec3& background) {
-  for (int j = -1; j <= 1; ++j)
-    for (int i = -1; i <= 1; ++i)
-      if (color(image, x + i, y + j) == background) return false;
-  return true;
-}
-
-}  // namespace
-
 // A pixel that one triangle covers as a whole looks as without anti-aliasing: to 1e-6, and as much
 // again where the direction so interpolated is looked up in a picture.
 TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
@@ -292,46 +281,81 @@ TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
   }
 }
 
-// Against the reference at the driver's own sample positions. Inside, as tight as without (the
-// bound of docs/accuracy.md); at edges a sample may lie on either side of an edge that is nearer
-// than 1/256 of a pixel, which moves a pixel by a fourth of what both sides differ by.
+namespace {
+
+double largest(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// What pixels differ by from the reference, and at most by how much of what they may.
+struct Deviation {
+  int pixels = 0;
+  double most = 0, ofBound = 0;
+  void add(double difference, double bound) {
+    ++pixels;
+    most = std::max(most, difference);
+    ofBound = std::max(ofBound, difference / bound);
+  }
+};
+
+}  // namespace
+
+// Against the reference at the driver's own sample positions, every pixel. One that a single
+// triangle covers is within the bound without anti-aliasing, 1e-5 + 4e-6 sqrt(exponent) (reference_
+// gl_test.cpp). Where edges cross it, the driver rounds vertices to 1/256 of a pixel, by up to
+// 1/512 along either axis, and so every edge: a sample that near to an edge may fall on its other
+// side. The pictures that the reference draws with all samples moved to a corner of that square
+// tell what this changes; the sum over the four corners counts edges that move differently. The
+// rows of docs/accuracy.md.
 TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
+  constexpr int size = 128;
   const auto places = samples(4);
   ASSERT_EQ(places.size(), 4u);
-  for (const char* model : {"sphere.glb", "torus.glb"})
+  for (const char* model : {"sphere.glb", "torus.glb", "teapot.glb"})
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong,
                                   Shading::blinnPhong, Shading::environment}) {
       const Scene scene = loadGltf(std::string(GLINT_SOURCE_DIR "/models/") + model);
       Look look;
       look.shading = shading;
-      look.resolution = {160, 160};
+      look.resolution = {size, size};
       look.noBackground = true;
       const Image drawn = draw(scene, look), truth = reference(scene, look, places);
-      double inside = 0, rms = 0;
-      int count = 0, off = 0, edges = 0, edgesOff = 0;
-      for (int y = 1; y < 159; ++y)
-        for (int x = 1; x < 159; ++x) {
-          if (pixel(truth, x, y).a == 0) continue;
-          const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
-          const double most = std::max({d.x, d.y, d.z});
-          if (!sameAround(truth, x, y, glm::dvec3(0)) || pixel(truth, x, y).a < 1) {
-            ++edges;
-            edgesOff += most > 1e-4;
-            continue;
-          }
-          ++count;
-          rms += most * most;
-          off += most > 1e-4;
-          if (most < 1e-2) inside = std::max(inside, most);
+      std::vector<Image> corners;
+      for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+        auto moved = places;
+        for (glm::dvec2& place : moved) place += corner / 512.0;
+        corners.push_back(reference(scene, look, moved));
+      }
+      Look plain = look;
+      plain.antiAliasing = {AntiAliasing::Mode::none, 1};
+      const ReferenceRenderer renderer(scene, {}, boundsOf(scene), plain, 1);
+      const auto seen = renderer.attributes(0, size);
+      double alpha = 0;
+      for (const Material& m : scene.materials) alpha = std::max(alpha, lobeExponent(m, look));
+      const double smooth = 1e-5 + 4e-6 * std::sqrt(alpha);
+      Deviation single, crossed, outline;
+      for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+          const auto difference = [&](const Image& other) {
+            return std::max(largest(color(other, x, y) - color(truth, x, y)),
+                            std::abs(pixel(other, x, y).a - pixel(truth, x, y).a));
+          };
+          const reference::Attributes& a = seen[std::size_t(size * y + x)];
+          double bound = smooth;
+          for (const Image& corner : corners) bound += difference(corner);
+          Deviation& kind = pixel(truth, x, y).a < 1                ? outline
+                            : a.item >= 0 && a.edgeDistance >= 0.75 ? single
+                                                                    : crossed;
+          kind.add(difference(drawn), &kind == &single ? smooth : bound);
         }
-      std::printf(
-          "%-12s %-12s inside %6d pixels, rms %.2e, %d over 1e-4; edges %5d, %d over 1e-4\n", model,
-          std::string(shadingName(shading)).c_str(), count, std::sqrt(rms / count), off, edges,
-          edgesOff);
-      EXPECT_GT(count, 3000);
-      EXPECT_LE(off, count / 100);
-      EXPECT_LE(edgesOff, edges / 20 + 3);
-      EXPECT_LE(std::sqrt(rms / count), shading == Shading::flat ? 5e-3 : 1e-3);
+      std::printf("| %s | %s, msaa:4 | %d, %.2e, %.2f | %d, %.2e, %.2f | %d, %.2e, %.2f |\n", model,
+                  std::string(shadingName(shading)).c_str(), single.pixels, single.most,
+                  single.ofBound, crossed.pixels, crossed.most, crossed.ofBound, outline.pixels,
+                  outline.most, outline.ofBound);
+      EXPECT_GT(single.pixels + crossed.pixels, 2000);
+      EXPECT_LE(single.ofBound, 1);
+      EXPECT_LE(crossed.ofBound, 1);
+      EXPECT_LE(outline.ofBound, 1);
     }
 }
 

@@ -32,13 +32,19 @@ double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& 
 SceneDistance::SceneDistance(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-    if (mesh.topology != Topology::triangles) continue;
+    const std::size_t corners = mesh.topology == Topology::triangles ? 3
+                                : mesh.topology == Topology::lines   ? 2
+                                                                     : 1;
     std::vector<glm::dvec3> places;
     for (const glm::vec3& position : mesh.positions)
       places.emplace_back(instance.world * glm::dvec4(glm::dvec3(position) + mesh.origin, 1.0));
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      triangles_.push_back(
-          {places[mesh.indices[i]], places[mesh.indices[i + 1]], places[mesh.indices[i + 2]]});
+    // Lines and points are triangles without area.
+    for (std::size_t i = 0; i + corners <= mesh.indices.size(); i += corners) {
+      const auto corner = [&](std::size_t k) {
+        return places[mesh.indices[i + std::min(k, corners - 1)]];
+      };
+      triangles_.push_back({corner(0), corner(1), corner(2)});
+    }
   }
   for (std::size_t first = 0; first < triangles_.size(); first += runLength) {
     const std::size_t end = std::min(first + runLength, triangles_.size());

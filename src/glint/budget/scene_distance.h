@@ -8,13 +8,13 @@
 
 namespace glint {
 
-/// How near the triangles of a scene come to points of world space. Boxes around runs of triangles
+/// How near the triangles, lines and points of a scene come to a place in world space. Boxes around runs of triangles
 /// leave most of them out, so that many lamps and many triangles cost little.
 class SceneDistance {
  public:
   explicit SceneDistance(const Scene& scene);
 
-  /// Infinite without triangles.
+  /// Infinite of an empty scene.
   double to(const glm::dvec3& point) const;
 
  private:

@@ -65,27 +65,63 @@ struct FirstHarmonic {
   glm::dvec3 cosine{0.0}, sine{0.0};
 };
 
-FirstHarmonic firstHarmonic(const float* row, int count) {
-  FirstHarmonic h;
+/// Cosine (x) and sine (y) of the longitudes of a row's texels.
+std::vector<glm::dvec2> longitudes(int count) {
+  std::vector<glm::dvec2> around;
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * pi * (i + 0.5) / count;
-    const glm::dvec3 value(row[3 * i], row[3 * i + 1], row[3 * i + 2]);
-    h.cosine += 2.0 / count * std::cos(angle) * value;
-    h.sine += 2.0 / count * std::sin(angle) * value;
+    around.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return around;
+}
+
+FirstHarmonic firstHarmonic(const float* row, const std::vector<glm::dvec2>& around) {
+  FirstHarmonic h;
+  const double each = 2.0 / double(around.size());
+  for (const glm::dvec2& at : around) {
+    const glm::dvec3 value(row[0], row[1], row[2]);
+    h.cosine += each * at.x * value;
+    h.sine += each * at.y * value;
+    row += 3;
   }
   return h;
 }
 
+std::vector<FirstHarmonic> firstHarmonics(const Level& level) {
+  const auto around = longitudes(level.width);
+  std::vector<FirstHarmonic> all;
+  for (int y = 0; y < level.height; ++y)
+    all.push_back(firstHarmonic(&level.rgb[std::size_t(3) * level.width * y], around));
+  return all;
+}
+
+/// Those of the next level: means over as much of the meridian, not of the sphere. A linear
+/// radiance has the amplitude sin(distance from the pole), whose mean by area is that of a place
+/// nearer to the equator than the middle of the row is.
+std::vector<FirstHarmonic> halved(const std::vector<FirstHarmonic>& from, int rows) {
+  std::vector<FirstHarmonic> to;
+  for (const Span& span : spansOf(int(from.size()), rows, [](int) { return 1.0; })) {
+    FirstHarmonic& h = to.emplace_back();
+    for (std::size_t i = 0; i < span.weights.size(); ++i) {
+      h.cosine += span.weights[i] * from[std::size_t(span.first) + i].cosine;
+      h.sine += span.weights[i] * from[std::size_t(span.first) + i].sine;
+    }
+  }
+  return to;
+}
+
 /// Gives a row the first harmonic `wanted`, but no more of it than keeps the row from falling below
 /// 0: no light is negative.
-void keepFirstHarmonic(float* row, int count, const FirstHarmonic& wanted) {
+void keepFirstHarmonic(float* row, const std::vector<glm::dvec2>& around,
+                       const FirstHarmonic& wanted) {
+  const int count = int(around.size());
   if (count < 4) return;
-  const FirstHarmonic now = firstHarmonic(row, count);
+  const FirstHarmonic now = firstHarmonic(row, around);
   for (int c = 0; c < 3; ++c) {
     const double cosine = wanted.cosine[c] - now.cosine[c], sine = wanted.sine[c] - now.sine[c];
     const auto missing = [&](int i) {
-      const double angle = 2 * pi * (i + 0.5) / count;
-      return cosine * std::cos(angle) + sine * std::sin(angle);
+      const glm::dvec2& at = around[std::size_t(i)];
+      return cosine * at.x + sine * at.y;
     };
     double share = 1;
     for (int i = 0; i < count; ++i)
@@ -96,10 +132,9 @@ void keepFirstHarmonic(float* row, int count, const FirstHarmonic& wanted) {
   }
 }
 
-/// The mean of each texel's row over `width` texels about it, around the sphere; false if that is
-/// the row as it stands.
-bool widenRow(float* row, int count, double width) {
-  if (width <= 1) return false;
+/// The mean of each texel's row over `width` texels about it, around the sphere.
+void widenRow(float* row, int count, double width) {
+  if (width <= 1) return;
   std::vector<glm::dvec3> sums(std::size_t(count) + 1, glm::dvec3(0.0));
   for (int i = 0; i < count; ++i)
     sums[std::size_t(i) + 1] =
@@ -115,18 +150,18 @@ bool widenRow(float* row, int count, double width) {
     const glm::dvec3 mean = (before(i + 0.5 + width / 2) - before(i + 0.5 - width / 2)) / width;
     for (int c = 0; c < 3; ++c) row[3 * i + c] = float(std::max(mean[c], 0.0));
   }
-  return true;
 }
 
-void widenTowardsPoles(Level& level) {
+void widenTowardsPoles(Level& level, const std::vector<FirstHarmonic>& harmonics) {
+  const auto around = longitudes(level.width);
   for (int y = 0; y < level.height; ++y) {
     const double sine = std::sin((y + 0.5) * pi / level.height);
     // At a pole's row the height of a texel reaches around the pole.
     const bool pole = y == 0 || y == level.height - 1;
     const double width = pole ? level.width : level.width / (2 * level.height * sine);
     float* row = &level.rgb[std::size_t(3) * level.width * y];
-    const FirstHarmonic before = firstHarmonic(row, level.width);
-    if (widenRow(row, level.width, width)) keepFirstHarmonic(row, level.width, before);
+    widenRow(row, level.width, width);
+    keepFirstHarmonic(row, around, harmonics[std::size_t(y)]);
   }
 }
 
@@ -198,10 +233,12 @@ EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> 
   }
   image.levels.push_back({width, height, std::move(rgb)});
   Level level = image.levels[0];
+  std::vector<FirstHarmonic> harmonics = firstHarmonics(level);
   while (level.width > 1 || level.height > 1) {
     level = halved(level);
+    harmonics = halved(harmonics, level.height);
     image.levels.push_back(level);
-    widenTowardsPoles(image.levels.back());
+    widenTowardsPoles(image.levels.back(), harmonics);
   }
   return image;
 }

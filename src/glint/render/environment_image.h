@@ -17,9 +17,10 @@ namespace glint {
 /// A level is half as high and wide as the one before (rounded down), each texel the mean of the
 /// light from the part of the sphere it covers. From level 1 on a texel is also widened along its
 /// row until it covers as large an angle there as vertically: towards the poles, where texels
-/// crowd, rows would otherwise hold detail finer than the level stands for. Widening keeps a row's
-/// first harmonic, by which a radiance that is linear in direction goes around a pole; the row
-/// nearest to a pole is left with that and its mean, so that the pole is smooth.
+/// crowd, rows would otherwise hold detail finer than the level stands for. A row keeps its first
+/// harmonic, by which a radiance that is linear in direction goes around a pole (as the mean over
+/// the rows that it stands for); the row nearest to a pole is left with that and its mean, so that
+/// the pole is smooth.
 struct EnvironmentImage {
   struct Level {
     int width = 0, height = 0;

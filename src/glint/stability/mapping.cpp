@@ -175,7 +175,7 @@ void m5(Bench& bench, Record& record) {
           Material glass = litMaterial(0, 0, 1);
           glass.shading.color = color;
           glass.shading.ior = ior;
-          glass.transmission = 0.75;
+          glass.shading.transmission = 0.75;
           glass.doubleSided = true;
           Mesh mesh = square(behind ? -n : n);
           if (behind) mesh.indices = {0, 2, 1, 0, 3, 2};
