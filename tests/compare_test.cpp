@@ -135,7 +135,7 @@ TEST(Compare, WhatIsNotFiniteFailsUnlessEqualityIsAsked) {
   EXPECT_FALSE(one.same);
   EXPECT_EQ(one.worst[0].difference, infinity);
   options.conditions.clear();
-  options.maxPixels = 3;
+  options.maxPixels = {{3}};
   EXPECT_FALSE(compare(a, b, options).same);
   a = linear(3, 1, {0.5f, 0.5f, 0.5f, 1});
   b = a;
@@ -301,18 +301,17 @@ TEST(PixelCount, NumberAndShareAllowed) {
     return x == 0 && y < 3 ? std::vector<int>{255, 255, 255} : std::vector<int>{1, 1, 1};
   });
   CompareOptions options;
-  options.maxPixels = 3;
+  options.maxPixels = {{3}};
   EXPECT_TRUE(compare(a, b, options).same);
-  options.maxPixels = 2;
+  options.maxPixels = {{2}};
   EXPECT_THAT(compare(a, b, options).failures,
               ElementsAre("3 pixels are over the tolerance of 0.1, allowed are 2"));
-  options.maxPixelsIsShare = true;
-  options.maxPixels = 0.03;
+  options.maxPixels = {{0.03, true}};
   EXPECT_TRUE(compare(a, b, options).same);
-  options.maxPixels = 0.0299;
+  options.maxPixels = {{0.0299, true}};
   EXPECT_FALSE(compare(a, b, options).same);
   // The distance of black and white is the root of 0.5053 * 255^2 / 35215 = 0.96592.
-  options.maxPixels = 0;
+  options.maxPixels = {{0, true}};
   options.tolerance = 0.9659;
   EXPECT_FALSE(compare(a, b, options).same);
   options.tolerance = 0.966;

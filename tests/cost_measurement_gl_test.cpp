@@ -18,18 +18,19 @@ TEST(CostMeasurementOnGl, FillsATable) {
   EXPECT_GE(last, 0);
   EXPECT_GT(measured.exactNanoseconds, 0);
   const CostTable& t = measured.file.costs;
-  EXPECT_EQ(t.exact, 100);
+  EXPECT_EQ(t.lobe(Highlight::exact, 1), 100);
   // Each is what was measured, and not what ships.
   EXPECT_EQ(measured.lobes.size(), 2 + 5 + 3 * 7 + 1u);
   EXPECT_EQ(measured.reflectances.size(), 2 * 6u);
   for (const MeasuredCost& c : measured.lobes) EXPECT_GE(c.inTable, 1) << c.form;
   for (const MeasuredCost& c : measured.reflectances) EXPECT_GE(c.inTable, 0) << c.form;
-  EXPECT_EQ(t.lyon[2], measured.lobes[7 + 3 * 2].inTable);
+  EXPECT_EQ(t.lobe(Highlight::lyon, 4), measured.lobes[7 + 3 * 2].inTable);
   EXPECT_EQ(measured.lobes[7 + 3 * 2].form, "lyon:4");
-  EXPECT_EQ(measured.lobes[7 + 3 * 2].shipped, CostTable().lyon[2]);
+  EXPECT_EQ(measured.lobes[7 + 3 * 2].shipped, CostTable().lobe(Highlight::lyon, 4));
   EXPECT_EQ(t.fresnelDenser.rational, measured.reflectances.back().inTable);
   // Those that are not measured lie between.
-  EXPECT_NEAR(t.integer[1], (t.integer[0] + t.integer[2]) / 2, 1e-9);
+  const std::vector<double>& integer = t.lobes.at(Highlight::integer);
+  EXPECT_NEAR(integer[1], (integer[0] + integer[2]) / 2, 1e-9);
   EXPECT_FALSE(measured.file.gl.renderer.empty());
 }
 

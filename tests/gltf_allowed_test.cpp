@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "glint/gltf/pbr_conversion.h"
+#include "glint/shading/pbr_conversion.h"
 #include "glint/scene/camera.h"
 #include "gltf_sample.h"
 

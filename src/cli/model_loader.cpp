@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clock.h"
+#include "glint/gltf/model_hash.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"
