@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "formulas.h"
 #include "glint/gltf/scene_file.h"
@@ -54,8 +55,11 @@ glm::dvec3 quadratic(const glm::dvec3& d) {
 constexpr int pictureRows = 256;
 constexpr double texel = std::numbers::pi / pictureRows;
 
+// Written once: what was read is not written anew.
 std::string pictureOf(const std::string& name, const Radiance& radiance) {
   const std::string path = temporaryFolder() + "/" + name + ".pfm";
+  static std::set<std::string> written;
+  if (!written.insert(name).second) return path;
   Image image{2 * pictureRows, pictureRows, {}};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -197,13 +201,10 @@ Scene texturedQuad(Sampler sampler, double repeats) {
   mesh.texcoords = {{{0, r}, {r, r}, {r, 0}, {0, 0}}};
   Scene scene = sceneOf(mesh, m);
   Random random(3);
-  scene.images.push_back({"noise",
-                          png("noise.png", 64,
-                              [&](int, int) {
-                                return glm::ivec3(random.below(256), random.below(256),
-                                                  random.below(256));
-                              }),
-                          false});
+  static const std::vector<std::byte> noise = png("noise.png", 64, [&](int, int) {
+    return glm::ivec3(random.below(256), random.below(256), random.below(256));
+  });
+  scene.images.push_back({"noise", noise, false});
   return scene;
 }
 

@@ -145,10 +145,12 @@ TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name
   const auto upload = [&](GLint level, const ByteImage& from) {
     isData ? uploadData(level, from) : uploadColors(level, from);
   };
-  upload(0, image);
-  for (std::size_t i = 0; i < decoded.mipLevels.size(); ++i)
-    upload(GLint(i + 1), decoded.mipLevels[i]);
+  // From the smallest on, by which the driver guesses the whole pyramid's size: from the largest
+  // on, it would reserve that alone, and then everything again.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
+  for (std::size_t i = decoded.mipLevels.size(); i > 0; --i)
+    upload(GLint(i), decoded.mipLevels[i - 1]);
+  upload(0, image);
   return texture;
 }
 

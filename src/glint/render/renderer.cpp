@@ -284,6 +284,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
 
     target.bind();
     glViewport(0, 0, width, height);
+    glEnable(GL_MULTISAMPLE);  // others in the context, the probe among them, may have it off
     if (renderer_.clipControl_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(renderer_.clipControl_ ? GL_GREATER : GL_LESS);

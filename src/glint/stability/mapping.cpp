@@ -30,9 +30,21 @@ glm::dvec3 compass(const glm::dvec3& d) { return 0.5 + 0.25 * d; }
 /// a pole too. Directions, places and the filter in floats add 2e-6.
 constexpr double compassTolerance = 0.25 * texel * texel / 4 + 2e-6;
 
-/// The compass as a file, for as long as it lives.
+/// The compass as a file, as long as the program runs: what was read is not written anew.
 class CompassPicture {
  public:
+  static std::string path() {
+    static const CompassPicture picture;
+    return picture.path_.string();
+  }
+  CompassPicture(const CompassPicture&) = delete;
+  CompassPicture& operator=(const CompassPicture&) = delete;
+  ~CompassPicture() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+ private:
   CompassPicture()
       : path_(std::filesystem::temp_directory_path() /
               ("glint-compass-" + std::to_string(getpid()) + ".pfm")) {
@@ -48,15 +60,7 @@ class CompassPicture {
     writer->write(image);
     writer->finish();
   }
-  ~CompassPicture() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  CompassPicture(const CompassPicture&) = delete;
-  CompassPicture& operator=(const CompassPicture&) = delete;
-  std::string path() const { return path_.string(); }
 
- private:
   std::filesystem::path path_;
 };
 
@@ -105,9 +109,8 @@ glm::dvec3 before(const glm::dvec3& d, double angle) {
 }
 
 void m1(Bench& bench, Record& record) {
-  const CompassPicture picture;
   for (const glm::dvec3& d : directions) {
-    const Look look = environmentLook(bench, picture.path());
+    const Look look = environmentLook(bench, CompassPicture::path());
     const Scene scene = sceneOf(square(halfWay(d)), mirror());
     expectColor(record, "a mirror that shows " + vectorText(d), middle(bench.draw(scene, look)),
                 compass(safeNormalize(d)), compassTolerance);
@@ -117,10 +120,9 @@ void m1(Bench& bench, Record& record) {
 }
 
 void m2(Bench& bench, Record& record) {
-  const CompassPicture picture;
   for (const double angle : {90.0, -35.0, 180.0})
     for (const glm::dvec3& d : directions) {
-      Look look = environmentLook(bench, picture.path());
+      Look look = environmentLook(bench, CompassPicture::path());
       look.environmentRotation = angle;
       const Scene scene = sceneOf(square(halfWay(d)), mirror());
       const glm::dvec3 expected = compass(before(safeNormalize(d), angle));
@@ -133,11 +135,10 @@ void m2(Bench& bench, Record& record) {
 
 // A ball's middle shows what is behind the viewer.
 void m3(Bench& bench, Record& record) {
-  const CompassPicture picture;
   for (const glm::dvec3& d :
        {glm::dvec3(1, 0.3, 0.2), {-1, 0.5, 2}, {0.2, -1, -0.3}, {-1, 1, -1}}) {
     Look look = parallel(bench.look(Shading::environment), d, 65);
-    look.hdriFile = picture.path();
+    look.hdriFile = CompassPicture::path();
     // A ball of 96 x 48: its normals between vertices of 3.75 degrees are off by (0.065)^2 / 8 at
     // most, a row of the picture above its middle turns the reflection by 2 * 2 / 65 / 2.
     expectColor(record, "a ball seen from " + vectorText(d),
@@ -166,7 +167,6 @@ void m4(Bench& bench, Record& record) {
 }
 
 void m5(Bench& bench, Record& record) {
-  const CompassPicture picture;
   for (const bool behind : {false, true})
     for (const double medium : {1.0, 1.33})
       for (const double ior : {1.5, 1.2})
@@ -179,7 +179,7 @@ void m5(Bench& bench, Record& record) {
           glass.doubleSided = true;
           Mesh mesh = square(behind ? -n : n);
           if (behind) mesh.indices = {0, 2, 1, 0, 3, 2};
-          Look look = environmentLook(bench, picture.path());
+          Look look = environmentLook(bench, CompassPicture::path());
           look.mediumIor = medium;
           const double n1 = behind ? ior : medium, n2 = behind ? medium : ior;
           const double cosine = glm::dot(n, v), ratio = n1 / n2;
@@ -339,10 +339,9 @@ void m11(Bench& bench, Record& record) {
 }
 
 void m12(Bench& bench, Record& record) {
-  const CompassPicture picture;
   for (const glm::dvec3& eye : {glm::dvec3(0, 0, 3), {2, 1, -2}, {-1, -2, 0.5}}) {
     Look look = bench.look(Shading::phong);
-    look.hdriFile = picture.path();
+    look.hdriFile = CompassPicture::path();
     look.environmentBackground = true;
     look.environmentRotation = 25;
     look.resolution = {33, 17};
