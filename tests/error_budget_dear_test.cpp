@@ -115,7 +115,9 @@ Points pointsOf(const Draw& d, Random& r) {
       a.item = 0;
       a.position = toEye * (n - camera.eye) / camera.unit;
       a.normal = a.faceNormal = toEye * n;
-      a.base = glm::dvec4(d.scene.materials[0].shading.color, 1);
+      const ShadingParameters& m = d.scene.materials[0].shading;
+      a.numbers = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, m.transmission};
+      a.base = glm::dvec4(m.color, 1);
       points.push_back(a);
     };
     // Rings around the view, ever finer towards the rim, where reflectances differ most; from the

@@ -239,11 +239,11 @@ TEST(Usage, APictureIsNotItsOwnReference) {
 TEST(Usage, WhatWasGivenWithLineBreaksIsToldInOneLine) {
   Folder folder("line_breaks");
   const std::string picture = folder / "a.png";
-  expectRefusal(runGlint({"render", sphere, "-o", picture, "--shading", "a\nb"}), "'a?b'");
+  expectRefusal(runGlint({"render", sphere, "-o", picture, "--shading", "a\nb"}), R"('a\nb')");
   expectRefusal(runGlint(quick({"render", sphere, "-o", picture, "--material", "a\nb:ior=1"})),
-                "'a?b'");
-  expectRefusal(runGlint({"render", sphere, "-o", picture, "--fro\nb"}), "'--fro?b'");
-  expectRefusal(runGlint({"fro\nb"}), "'fro?b'");
+                R"('a\nb')");
+  expectRefusal(runGlint({"render", sphere, "-o", picture, "--fro\nb"}), R"('--fro\nb')");
+  expectRefusal(runGlint({"fro\nb"}), R"('fro\nb')");
 }
 
 // A report that did not arrive is no success.
@@ -391,9 +391,8 @@ TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
   EXPECT_EQ(list.status, 3);
   EXPECT_EQ(automatic.status, 3);
   const auto lines = automatic.errorLines();
-  ASSERT_EQ(lines.size(), 3u) << automatic.err;  // a heading and one line for each backend
-  EXPECT_THAT(lines[1], HasSubstr("egl: "));
-  EXPECT_THAT(lines[2], HasSubstr("osmesa: "));
+  ASSERT_EQ(lines.size(), 1u) << automatic.err;
+  EXPECT_THAT(lines[0], AllOf(HasSubstr("egl: "), HasSubstr("; osmesa: ")));
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 

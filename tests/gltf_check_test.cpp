@@ -161,7 +161,11 @@ TEST(GltfCheck, VersionsAreChecked) {
 TEST(GltfCheck, Extensions) {
   Sample sample;
   sample.triangle();
+  Sample::Json& sheen = sample.json["materials"][0]["extensions"]["KHR_materials_sheen"];
+  sheen["sheenColorFactor"] = {0, 0, 0};  // shows nothing
   sample.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen", "KHR_x", "KHR_x"};
+  EXPECT_THAT(sample.load().warnings, ElementsAre(HasSubstr("KHR_x")));
+  sheen["sheenColorFactor"] = {0, 0, 1};
   EXPECT_THAT(sample.load().warnings,
               ElementsAre(HasSubstr("KHR_materials_sheen"), HasSubstr("KHR_x")));
   sample.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_sheen"};

@@ -71,7 +71,7 @@ TEST(Exr, LayersAndTextSurvive) {
   }
   EXPECT_THAT(messageOf([] { glint::readImage(in("layers.exr"), "specular"); }),
               HasSubstr("layers.exr: no layer 'specular' in the EXR: name one of its layers: "
-                        "depth, diffuse"));
+                        "depth.Z, diffuse"));
 }
 
 TEST(Exr, WrittenInPiecesWithAndWithoutAlpha) {

@@ -228,8 +228,8 @@ TEST(Texture, FlippedBytesAreSurvived) {
 TEST(Texture, GiantsAreRefusedAtOnce) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string row(100, '\0');
-  EXPECT_THAT(messageOf([&] { glint::decodeTexture(makePng(16385, 1, 8, 6, row), "a"); }),
-              HasSubstr("16385 x 1 pixels are too many: at most 16384 a side"));
+  EXPECT_THAT(messageOf([&] { glint::decodeTexture(makePng(1048577, 1, 8, 6, row), "a"); }),
+              HasSubstr("1048577 x 1 pixels are too many: at most 1048576 a side"));
   EXPECT_THAT(
       messageOf([&] { glint::decodeTexture(makePng(0x7fffffff, 0x7fffffff, 8, 6, row), "a"); }),
       HasSubstr("PNG is damaged (arithmetic overflow)"));
@@ -301,8 +301,6 @@ TEST(Image, DamagedPfmIsRefused) {
   EXPECT_THAT(message("PF\n2 1\n-1\n"), HasSubstr("cut short"));
   EXPECT_THAT(message("PF\n16384 16384\n-1\n"), HasSubstr("cut short"));
   EXPECT_THAT(message("PF\n4000000000 4000000000\n-1\n"), HasSubstr("too many"));
-  EXPECT_THAT(messageOf([] { glint::decodeImage(bytesOf("P6 1 1 255 abc"), "a.ppm"); }),
-              HasSubstr("a.ppm: neither PNG, JPEG, EXR, HDR nor PFM"));
 }
 
 }  // namespace

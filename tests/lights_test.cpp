@@ -41,7 +41,7 @@ TEST(FileLights, AreReadWithTheirNodesPlace) {
   addLight(sample,
            {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}}}});
   const Scene scene = sample.load();
-  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("the light nodes[3] reaches no surface")));
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].type, FileLight::Type::directional);
   EXPECT_NEAR(scene.lights[0].direction.y, -1, 1e-15);

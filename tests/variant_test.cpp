@@ -59,7 +59,11 @@ const Case cases[] = {
        v = Variant{};
        v.unlit = true;
      }},
-    {"points", [](VariantInputs& in) { in.mesh.topology = Topology::points; },
+    {"points without normals",
+     [](VariantInputs& in) {
+       in.mesh.topology = Topology::points;
+       in.mesh.normals.clear();
+     },
      [](Variant& v, Shading) {
        v = Variant{};
        v.unlit = true;
@@ -67,6 +71,7 @@ const Case cases[] = {
     {"lines with colours and emission",
      [](VariantInputs& in) {
        in.mesh.topology = Topology::lines;
+       in.mesh.normals.clear();
        in.mesh.colors.resize(4);
        in.material.emission = glm::dvec3(1);
        in.material.doubleSided = true;

@@ -82,7 +82,7 @@ Json infoJson(const Scene& scene, const Look& look) {
             {"radius", bounds.radius},
             {"box", boxJson(scene)}};
   json["scenes"] = scene.scenes;
-  json["variants"] = scene.variants;
+  json["materialVariants"] = scene.variants;
   json["materials"] = Json::array();
   std::set<int> used;
   for (const Instance& i : scene.instances) used.insert(scene.meshes[std::size_t(i.mesh)].material);
@@ -174,9 +174,10 @@ void print(const Json& json) {
     std::cout << "box from " << json["box"]["min"].dump() << " to " << json["box"]["max"].dump()
               << "\n";
   }
-  for (const char* list : {"scenes", "variants"}) {
+  for (const auto& [list, words] :
+       {std::pair("scenes", "scenes"), std::pair("materialVariants", "variants of materials")}) {
     if (json[list].empty()) continue;
-    std::cout << list << ":";
+    std::cout << words << ":";
     for (std::size_t i = 0; i < json[list].size(); ++i)
       std::cout << (i ? ", " : " ") << i << " " << oneLine(json[list][i]);
     std::cout << "\n";

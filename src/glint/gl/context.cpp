@@ -75,19 +75,17 @@ std::string text(GLenum name) {
 }  // namespace
 
 std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers) {
-  std::string reasons, remark;
+  std::string reasons;
   for (const Opener& opener : openers) {
     try {
       std::unique_ptr<Context> context = opener.open();
-      context->addRemark(remark);
+      context->addRemark(reasons);
       return context;
     } catch (const ContextError& error) {
-      const std::string reason = std::string(opener.name) + ": " + error.what();
-      reasons += (reasons.empty() ? "" : "\n  ") + reason;
-      remark += (remark.empty() ? "" : "; ") + reason;
+      reasons += (reasons.empty() ? "" : "; ") + std::string(opener.name) + ": " + error.what();
     }
   }
-  throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context:\n  " + reasons);
+  throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context: " + reasons);
 }
 
 const char* backendName(Backend backend) {

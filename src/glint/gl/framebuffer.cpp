@@ -39,11 +39,14 @@ int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height
 int makeStorage(const TextureHandle& texture, GLenum format, int width, int height, int samples) {
   if (samples == 0) {
     const bool depth = format == GL_DEPTH_COMPONENT32F;
+    GLint before = 0;  // what the caller draws with stays bound
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
     glBindTexture(GL_TEXTURE_2D, texture.id());
     glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), width, height, 0,
                  depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glBindTexture(GL_TEXTURE_2D, GLuint(before));
     return 0;
   }
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.id());

@@ -60,7 +60,7 @@ PoseRequest poseOf(const Look& look) {
 struct SceneFile::State {
   explicit State(const std::filesystem::path& path)
       : messages(path), document(readDocument(path, messages)) {
-    start.name = path.stem().string();
+    name = start.name = path.stem().string();
     TextureReader textures(document, messages);
     start.materials = readMaterials(document, textures, messages);
     start.images = textures.takeImages();
@@ -92,7 +92,7 @@ struct SceneFile::State {
 
   void applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget);
   void play(std::size_t animation, double time, Budget& budget);
-  void applyVariant(const std::string& name);
+  void applyVariant(const std::string& wanted);
   int findScene(const std::string& text) const;
   void place(std::size_t node, const NodeGraph& graph, Scene& scene, Budget& budget);
   const std::vector<Part>& shape(const Key& key, Pose pose, const NodeGraph& graph, Scene& scene,
@@ -100,6 +100,7 @@ struct SceneFile::State {
   void build(const PoseRequest& request, Scene& scene);
   void placeLights(const NodeGraph& graph, Scene& scene);
 
+  std::string name;  ///< of the model, in messages
   Messages messages;
   Document document;
   Scene start;
@@ -160,12 +161,11 @@ void SceneFile::State::play(std::size_t index, double time, Budget& budget) {
 
 /// Gives the primitives the materials of a variant; the meshes are then made anew, since a material
 /// says which of a primitive's data are read.
-void SceneFile::State::applyVariant(const std::string& name) {
-  if (name == variant) return;
+void SceneFile::State::applyVariant(const std::string& wanted) {
+  if (wanted == variant) return;
   int number = -1;
-  if (!name.empty()) {
-    number =
-        static_cast<int>(findNamed(document.variants, name, "--variant", "variant", start.name));
+  if (!wanted.empty()) {
+    number = static_cast<int>(findNamed(document.variants, wanted, "--variant", "variant", name));
   }
   for (const auto& [place, materials] : document.pieces.variantMaterials) {
     int& material = document.model.meshes[place.first].primitives[place.second].material;
@@ -173,7 +173,7 @@ void SceneFile::State::applyVariant(const std::string& name) {
     const auto found = materials.find(number);
     material = found == materials.end() ? standard : found->second;
   }
-  variant = name;
+  variant = wanted;
   for (auto& [key, shape] : shapes) shape.stale = true;
 }
 
@@ -181,7 +181,7 @@ int SceneFile::State::findScene(const std::string& text) const {
   if (text.empty()) return -1;
   std::vector<std::string> names;
   for (const tinygltf::Scene& each : document.model.scenes) names.push_back(each.name);
-  return static_cast<int>(findNamed(names, text, "--scene", "scene", start.name));
+  return static_cast<int>(findNamed(names, text, "--scene", "scene", name));
 }
 
 /// Makes a mesh once for each shape in which it stands.
@@ -272,12 +272,6 @@ void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
                   " reaches no surface from its front and lights nothing");
   }
   lightsOn.emplace(nodes.begin(), nodes.end());
-  for (std::size_t i = 0; i < scene.lights.size() && !scene.instances.empty(); ++i) {
-    const std::string& name = scene.lights[i].name;
-    if (meter.shares[i] > 0 || scene.lights[i].intensity == glm::dvec3(0.0)) continue;
-    messages.warn("light " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'") +
-                  " lights nothing that can be seen: every surface that it reaches turns away");
-  }
   if (nodes.size() <= maxLights) return;
   messages.warn("has " + std::to_string(nodes.size()) + " lights: the " +
                 std::to_string(maxLights) + " that light it most are used");

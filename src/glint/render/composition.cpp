@@ -162,7 +162,7 @@ std::vector<std::string> lobeDefines(const Variant& v) {
 
 // The reflectance in the variant's form, for environment.glsl.
 std::string reflectanceFunction(const Variant& v) {
-  if (!v.dielectric) return {};
+  if (v.program != Shading::environment || !v.dielectric) return {};
   const std::string form(v.schlickFifth
                              ? "fresnelSchlickFifth(cosine, boundary, material.surface.z)"
                              : row(v.fresnel).glsl);
