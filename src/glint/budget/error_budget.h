@@ -36,9 +36,8 @@ struct ResolvedLook {
   std::string programReason;        ///< of --shading auto; otherwise empty
 };
 
-/// The look's max-error in linear radiance before exposure; nothing without one. N codes are N /
-/// (255
-/// * 12.92) after exposure: the steps between 8-bit codes are that wide at black and wider
+/// The look's max-error in linear radiance before exposure; nothing without one. N codes are
+/// N / (255 * 12.92) after exposure: the steps between 8-bit codes are that wide at black and wider
 /// elsewhere, so that a smaller error leaves every code within N of the exact one.
 std::optional<double> errorBudget(const Look&);
 

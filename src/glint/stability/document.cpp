@@ -92,7 +92,8 @@ Scene Document::load() {
     file += number(body.size()) + std::string("BIN\0", 4);
     file.append(body.begin(), body.end());
   }
-  const std::string path = (folder_ / "case.glb").string();
+  // A name of its own each time: what was read is not written anew.
+  const std::string path = (folder_ / ("case-" + std::to_string(++files_) + ".glb")).string();
   OutputFile output(path);
   output.write(std::as_bytes(std::span(file)));
   output.commit();
