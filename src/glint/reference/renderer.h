@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "glint/image/image.h"
-#include "glint/reference/raster.h"
 #include "glint/reference/scene.h"
 #include "glint/render/picture_terms.h"
+
+namespace glint::reference {
+struct Primitive;
+}
 
 namespace glint {
 
