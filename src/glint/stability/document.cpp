@@ -8,6 +8,7 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 
 namespace glint::stability {
 
@@ -92,8 +93,8 @@ Scene Document::load() {
     file += number(body.size()) + std::string("BIN\0", 4);
     file.append(body.begin(), body.end());
   }
-  // A name of its own each time: what was read is not written anew.
-  const std::string path = (folder_ / ("case-" + std::to_string(++files_) + ".glb")).string();
+  const std::string path = (folder_ / "case.glb").string();
+  forgetReadFile(path);  // the case before this one is read no more
   OutputFile output(path);
   output.write(std::as_bytes(std::span(file)));
   output.commit();

@@ -40,7 +40,6 @@ class Document {
   int view(const void* data, std::size_t bytes);
 
   std::filesystem::path folder_;
-  int files_ = 0;
   std::vector<unsigned char> binary_;
 };
 
