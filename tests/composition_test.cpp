@@ -211,9 +211,9 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
     EXPECT_EQ(holds("vPosition"), v.pixelPosition) << program.name;
     const bool image =
         v.program == Shading::environment && !v.unlit && v.environment == glint::Environment::image;
-    EXPECT_EQ(holds("dFdx"),
-              v.vanishingNormal || v.colorTexture || v.emissionTexture || v.normalTexture || image)
-        << program.name;
+    const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture ||
+                          (v.textured != 0 && (v.unlit || isPerPixel(v.program)));
+    EXPECT_EQ(holds("dFdx"), v.vanishingNormal || textures || image) << program.name;
     EXPECT_EQ(holds("gl_FrontFacing"), v.twoSided || v.vanishingNormal) << program.name;
   }
 }

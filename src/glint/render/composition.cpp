@@ -82,7 +82,8 @@ std::string parameterDefines(const Variant& v) {
 std::string defines(const Variant& v) {
   std::string text;
   for (const Feature& feature : features()) text += define(feature.define, feature.value(v));
-  const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture || v.textured != 0;
+  const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture ||
+                        (v.textured != 0 && !isPerVertex(v));
   const bool image =
       !v.unlit && v.program == Shading::environment && v.environment == Environment::image;
   text += define("TEXTURES", textures);
