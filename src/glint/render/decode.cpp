@@ -13,6 +13,7 @@
 #include "glint/image/mipmaps.h"
 #include "glint/image/task.h"
 #include "glint/render/decode_plan.h"
+#include "glint/render/environment_image.h"
 #include "glint/render/opacity.h"
 #include "glint/scene/material_parameters.h"
 
@@ -119,11 +120,27 @@ void drawWithout(Scene& scene, int image, const InputError& error) {
       if (*texture && (*texture)->image == image) texture->reset();
 }
 
+// Of a picture of the environment that cannot be read, drawing tells.
+void tellOfEnvironment(Scene& scene, const Look& look) {
+  std::shared_ptr<const EnvironmentImage> image;
+  try {
+    image = environmentImageFor(look);
+  } catch (const InputError&) {
+    return;
+  }
+  if (image && image->corrected > 0)
+    scene.warnings.push_back("--hdri-file: " + image->name + ": " +
+                             std::to_string(image->corrected) +
+                             " texels are negative, infinite or not numbers: NaN and negative "
+                             "values count as 0, values above 1e30 as 1e30");
+}
+
 }  // namespace
 
 void limitDecoding(std::uint64_t bytes) { givenLimit = bytes; }
 
 DecodedImages decodeImages(Scene& scene, const Look& look) {
+  tellOfEnvironment(scene, look);
   return decodeImages(scene, look, [](int) { return false; });
 }
 

@@ -35,7 +35,8 @@ void limitDecoding(std::uint64_t bytes);
 /// What they will take is told by their headers before anything is decoded. Where that is more than
 /// the limit, textures that are larger than the look's picture can show (twice its longer side, and
 /// 1024 at least) are halved while they are read, the largest first, with a warning; where that is
-/// not enough, an InputError names the largest.
+/// not enough, an InputError names the largest. Warns of texels of
+/// the look's environment that are no light.
 DecodedImages decodeImages(Scene&, const Look&);
 
 /// The same of those that `present` says are not there yet, for a look that has changed.
