@@ -8,6 +8,7 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/read_files.h"
 
 namespace glint::stability {
 
@@ -93,6 +94,7 @@ Scene Document::load() {
     file.append(body.begin(), body.end());
   }
   const std::string path = (folder_ / "case.glb").string();
+  forgetReadFile(path);  // the case before this one is read no more
   OutputFile output(path);
   output.write(std::as_bytes(std::span(file)));
   output.commit();
