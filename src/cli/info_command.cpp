@@ -260,6 +260,7 @@ Command addInfo(CLI::App& app) {
     const Look look = makeLook();
     Scene scene = readModelFile(
         *model, [&](const std::string& path) { return loadGltf(path, poseOf(look)); });
+    if (isStdin(*model)) scene.name = "stdin";
     checkMaterialNames(scene, look);
     // Whether what may blend does is told by its texels.
     const auto blends = [](const Material& m) { return m.alphaMode == AlphaMode::blend; };
