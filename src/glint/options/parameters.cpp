@@ -252,6 +252,26 @@ Parameter costTable() {
   return resetting(std::move(p), &Look::costTable);
 }
 
+Parameter maxError() {
+  Parameter p = number("max-error", "E", 0, 1e6, &Look::maxError,
+                       "use the cheapest forms of lobe and reflectance whose proven error for "
+                       "this scene is at most E, in linear light, or Ncode: N codes of the 8-bit "
+                       "picture after exposure; the exact ones where there is none");
+  p.value = "E|Ncode";
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
+    const bool codes = at != std::string::npos && text.compare(at, 4, "code") == 0;
+    read(look, codes ? text.substr(0, at) : text);
+    look.maxErrorInCodes = codes;
+  };
+  p.save = [save = p.save](const Look& look) {
+    if (!look.maxErrorInCodes || !look.maxError) return save(look);
+    return Json(save(look).dump() + "code");
+  };
+  p.reset = [](Look& look) { look.maxError.reset(), look.maxErrorInCodes = false; };
+  return slider(std::move(p), 1e-5, 1, true);
+}
+
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
 
 std::vector<Parameter> makeTable() {
@@ -273,13 +293,7 @@ std::vector<Parameter> makeTable() {
               "how the program environment computes reflectance: exact (without cancellation), the "
               "textbook's equations, Schlick's approximation, the same with its power by exp2, or "
               "a rational function fitted to the index"),
-       slider(
-           number(
-               "max-error", "E", 0, 1e6, &Look::maxError,
-               "use the cheapest forms of lobe and reflectance whose proven error for this scene "
-               "is at most E, in linear light; the exact ones where there is none"),
-           1e-5, 1, true),
-       costTable(),
+       maxError(), costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),

@@ -7,6 +7,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/mipmaps.h"
+#include "glint/render/environment_image.h"
 #include "glint/render/opacity.h"
 #include "glint/scene/material_parameters.h"
 
@@ -23,9 +24,25 @@ bool readsMipLevels(const Scene& scene, int image) {
   });
 }
 
+// Of a picture of the environment that cannot be read, drawing tells.
+void tellOfEnvironment(Scene& scene, const Look& look) {
+  std::shared_ptr<const EnvironmentImage> image;
+  try {
+    image = environmentImageFor(look);
+  } catch (const InputError&) {
+    return;
+  }
+  if (image && image->corrected > 0)
+    scene.warnings.push_back("--hdri-file: " + image->name + ": " +
+                             std::to_string(image->corrected) +
+                             " texels are negative, infinite or not numbers: NaN and negative "
+                             "values count as 0, values above 1e30 as 1e30");
+}
+
 }  // namespace
 
 DecodedImages decodeImages(Scene& scene, const Look& look) {
+  tellOfEnvironment(scene, look);
   return decodeImages(scene, look, [](int) { return false; });
 }
 

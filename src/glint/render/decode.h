@@ -21,7 +21,7 @@ using DecodedImages = std::map<int, DecodedImage>;
 
 /// Decodes the images that the look reads, in parallel. A broken one becomes a warning of the scene
 /// and its materials lose the texture; of meshes whose materials blend it finds out whether all
-/// texels that they show are opaque.
+/// texels that they show are opaque. Warns of texels of the look's environment that are no light.
 DecodedImages decodeImages(Scene&, const Look&);
 
 /// The same of those that `present` says are not there yet, for a look that has changed.
