@@ -221,9 +221,9 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
   return c;
 }
 
-/// What is known of blended layers, whose attributes nobody tells apart, from the same surfaces drawn
-/// opaque, the near and the far ones: where an edge of theirs is close to a pixel's middle, and what
-/// interpolation may add, since the weights of the layers at a pixel add up to at most 1.
+/// What is known of blended layers, whose attributes nobody tells apart, from the same surfaces
+/// drawn opaque, the near and the far ones: where an edge of theirs is close to a pixel's middle,
+/// and what interpolation may add, since the weights of the layers at a pixel add up to at most 1.
 struct Layers {
   Places nearEdge;
   double interpolation = 0;

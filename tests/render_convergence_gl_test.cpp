@@ -68,7 +68,8 @@ class Convergence : public OnStage {
                 Region region, glint::Highlight form = glint::Highlight::exact,
                 const GlslSources* sources = nullptr) {
     Look look = sphereLook(shading, light);
-    look.material[""] = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, 1.5, 0.0, m.color};
+    look.material[""] = {m.ambient,   m.diffuse, m.specular, m.exponent,
+                         m.metalness, 1.5,       0.0,        m.color};
     look.noBackground = true;
     look.highlight = form;
     const Image image =

@@ -9,12 +9,12 @@
 namespace glint {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
-  command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb");
+  command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb; - is stdin");
   command
       .add_option("-o,--output", options.output,
                   "the picture: .png (8 or 16 bits, sRGB), .exr or .pfm (linear float), - (PNG to "
-                  "stdout); {model} is replaced by the model's name, {n} by its number, {frame} by "
-                  "the picture's number")
+                  "stdout); {model} is replaced by the model's name, {folder} by that of its "
+                  "folder, {n} by its number, {frame} by the picture's number")
       ->type_name("OUT")
       ->required()
       ->take_last();

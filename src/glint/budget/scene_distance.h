@@ -8,8 +8,8 @@
 
 namespace glint {
 
-/// How near the triangles, lines and points of a scene come to a place in world space. Boxes around runs of triangles
-/// leave most of them out, so that many lamps and many triangles cost little.
+/// How near the triangles, lines and points of a scene come to a place in world space. Boxes around
+/// runs of triangles leave most of them out, so that many lamps and many triangles cost little.
 class SceneDistance {
  public:
   explicit SceneDistance(const Scene& scene);
