@@ -377,7 +377,8 @@ TEST(Memory, OfJsonKeepsToAMultipleOfTheFile) {
   const long base = peakOf("nodes", 1, "{}");
   constexpr long size = 2 << 20;
   // Nothing, and the least that says anything.
-  for (const char* item : {"{}", R"({"abc":123})", R"({"a":1})", "[]", "0", R"({"name":""})", R"({"mesh":0})"})
+  for (const char* item :
+       {"{}", R"({"abc":123})", R"({"a":1})", "[]", "0", R"({"name":""})", R"({"mesh":0})"})
     for (const char* list : {"nodes", "materials", "textures", "meshes", "accessors", "animations",
                              "extras", "scenes"}) {
       // As docs/safety.md says.
