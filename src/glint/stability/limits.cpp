@@ -1,4 +1,4 @@
-// Group L: what is more than a driver has is drawn in parts or refused by name.
+// Group L: what is more than a driver has is drawn in parts or smaller, or refused by name.
 
 #include <glad/gl.h>
 
