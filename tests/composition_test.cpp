@@ -219,15 +219,16 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
 }
 
 TEST(Composition, EveryFileIsUsedSomewhere) {
-  std::set<std::string> used{"background.glsl"};
-  for (const Variant& v : glint::test::sampledVariants()) {
-    const ComposedProgram program = compose(v, GlslSources(), true);
+  std::set<std::string> used;
+  const auto add = [&](const ComposedProgram& program) {
     const std::regex line("#line 1 \"([a-z_]+\\.glsl)\"");
     const std::string text = program.vertex + program.fragment;
     for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i)
       used.insert((*i)[1]);
-  }
-  used.insert("layer.glsl");  // of composeLayer()
+  };
+  for (const Variant& v : glint::test::sampledVariants()) add(compose(v, GlslSources(), true));
+  add(glint::composeBackground(glint::Environment::studio, GlslSources(), true));
+  add(glint::composeLayer(false, false, GlslSources(), true));
   for (const auto& [name, text] : glint::builtinGlsl()) EXPECT_TRUE(used.contains(name)) << name;
 }
 
