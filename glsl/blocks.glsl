@@ -23,10 +23,19 @@ layout(std140) uniform LightBlock {
 };
 #endif
 
-layout(std140) uniform DrawBlock {
+struct Draw {
   mat4 eyeFromModel;
   mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz; 4th: scale of the normal map, 0, 0, -1 if mirrored
-} draw;
+};
+
+layout(std140) uniform DrawBlock {
+  Draw draws[INSTANCES];  // of what one call draws; their 4th columns are the same
+};
+#if VERTEX_STAGE && INSTANCES > 1
+#define draw draws[gl_InstanceID]
+#else
+#define draw draws[0]
+#endif
 
 layout(std140) uniform MaterialBlock {
   vec4 color;            // rgb: C, a: alpha
