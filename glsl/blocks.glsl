@@ -23,18 +23,24 @@ layout(std140) uniform LightBlock {
 };
 #endif
 
+#if INSTANCES > 1
 struct Draw {
   mat4 eyeFromModel;
-  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz; 4th: scale of the normal map, 0, 0, -1 if mirrored
+  mat4 normalMatrix;     // as below; the 4th columns of all are the same
 };
-
 layout(std140) uniform DrawBlock {
-  Draw draws[INSTANCES];  // of what one call draws; their 4th columns are the same
+  Draw draws[INSTANCES];  // the places of one call
 };
-#if VERTEX_STAGE && INSTANCES > 1
+#if VERTEX_STAGE
 #define draw draws[gl_InstanceID]
 #else
 #define draw draws[0]
+#endif
+#else
+layout(std140) uniform DrawBlock {
+  mat4 eyeFromModel;
+  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz; 4th: scale of the normal map, 0, 0, -1 if mirrored
+} draw;
 #endif
 
 layout(std140) uniform MaterialBlock {

@@ -166,13 +166,12 @@ TEST(Usage, OutputsThatCannotBeWritten) {
     return runGlint(quick({"render", sphere, "-o", name}));
   };
   expectRefusal(to(folder / "a.bmp"), "a.bmp: BMP is not written: use .png");
-  expectRefusal(to(folder / "a"), "ending");
   expectRefusal(to("/proc/none/a.png"), "/proc/none");
   expectRefusal(to("/proc/a.png"), "/proc/a.png");
   std::filesystem::create_directory(folder / "folder.png");
   expectRefusal(to(folder / "folder.png"), "folder.png");
   expectRefusal(to(folder / "{name}.png"), "unknown {name}");
-  expectRefusal(to(""), "ending");
+  expectRefusal(to(""), "-o: '' is empty");
   EXPECT_THAT(folder.names(), ElementsAre("folder.png"));
   EXPECT_THAT(std::filesystem::directory_iterator(folder / "folder.png"),
               std::filesystem::directory_iterator());

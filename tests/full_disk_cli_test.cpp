@@ -34,7 +34,7 @@ std::vector<Arguments> commands() {
       render({"out/a.png", "--bit-depth", "16"}),
       render({"out/a.exr"}),
       render({"out/a.jpg"}),
-      render({"out/a.webp"}),
+      render({"out/a.webp", "--quality", "100"}),
       render({"out/a", "--output-format", "raw"}),
       render({"out/a.pfm"}),
       render({"out/a.exr", "--terms"}),

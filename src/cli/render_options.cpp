@@ -131,6 +131,7 @@ PictureOptions pictureOptions(const RenderOptions& options, const std::string& o
 }
 
 void checkRenderOptions(const RenderOptions& options) {
+  if (options.output.empty()) throw InputError("-o: '' is empty: give the name of a picture");
   using Id = PictureFormat::Id;
   const PictureFormat* const named = pictureFormatNamed(options.formatName);
   if (!options.formatName.empty() && (!named || !named->isWritten))
