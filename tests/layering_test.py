@@ -1,12 +1,14 @@
 """Which library may include which: the arrows of the house, read from the includes.
 
 Run as `layering_test.py FOLDER` on the project's folder: prints every include that points the wrong
-way, or that names a header by another path than its own, and fails if there is one.
+way, or that names a header by another path than its own, and fails if there is one. Before that it
+plants one of each kind in a folder of its own, which must be found.
 """
 
 import pathlib
 import re
 import sys
+import tempfile
 
 # Each library with those it may include; what those may include follows.
 ARROWS = {
@@ -81,7 +83,43 @@ def faults(root):
                 yield f"{where}: the reference may not include what draws with GL"
 
 
+# A small house: of each file its text and, of what must be found in it, the words.
+PLANTED = {
+    "src/glint/image/image.h": ("", None),
+    "src/glint/scene/scene.h": ('#include "glint/image/image.h"', None),
+    "src/glint/image/upward.h": ('#include "glint/scene/scene.h"', "image may not include scene"),
+    "src/glint/gltf/file.cpp": ('#include "glint/scene/scene.h"\n#include "file.h"', None),
+    "src/glint/gltf/file.h": ('#include "../image/image.h"', None),
+    "src/glint/gl/aside.cpp": ('#  include  "glint/gltf/file.h"', "gl may not include gltf"),
+    "src/glint/render/variant.h": ("", None),
+    "src/glint/render/renderer.h": ('#include "glint/render/variant.h"', None),
+    "src/glint/reference/a.cpp": ('#include "glint/render/variant.h"', None),
+    "src/glint/reference/b.cpp": ('#include "glint/render/renderer.h"', "what draws with GL"),
+    "src/glint/study/a.cpp": ("#include <imgui.h>", "only the viewer may include <imgui.h>"),
+    "src/glint/attic/a.cpp": ("", "no library"),
+    "src/cli/main.cpp": ('#include "image/image.h"', "there is no src/cli/image/image.h"),
+    "src/cli/window.cpp": ('#include "viewer/panel.h"', "cli may not include viewer"),
+    "viewer/panel.h": ('#include <GLFW/glfw3.h>\n#include "glint/render/renderer.h"', None),
+    "models/mesh.h": ("", None),
+    "models/upward.h": ('#include "glint/image/image.h"', "models may not include image"),
+}
+
+
+def check_planted():
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder).resolve()
+        for name, (text, _) in PLANTED.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text + "\n")
+        found = list(faults(root))
+    for name, (_, words) in PLANTED.items():
+        of_file = [each for each in found if name in each]
+        if len(of_file) != (words is not None) or any(words not in each for each in of_file):
+            sys.exit(f"planted in {name}: {words}; found: {of_file}")
+
+
 def main():
+    check_planted()
     root = pathlib.Path(sys.argv[1]).resolve()
     found = list(faults(root))
     print("\n".join(found))

@@ -121,8 +121,8 @@ TEST(PicturesOfPrograms, DifferVisibly) {
       Folder folder("programs");
       drawAll(models, folder / "{model}.pfm",
               {"--shading", program, "--anti-aliasing", "none", "--rendering-backend", "osmesa",
-               "--material", "specular=0.6,exponent=3", "--light", "camera", "--camera-view-angle",
-               "90", "--camera-elevation-angle", elevation});
+               "--material", "specular=0.6,exponent=3,metalness=0", "--light", "camera",
+               "--camera-view-angle", "90", "--camera-elevation-angle", elevation});
       for (const std::string& model : models)
         images[model].push_back(
             glint::readImage(folder / (fs::path(model).stem().string() + ".pfm")));

@@ -4,6 +4,7 @@ of which some are planted to fail: run.py BUILD_FOLDER SCRATCH_FOLDER"""
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -31,9 +32,15 @@ def check(holds, what):
 
 run("cmake", "--install", build, "--prefix", prefix, "--component", "glint")
 check(not list(prefix.rglob("glint-viewer")), "the viewer is a part of its own")
-check((prefix / "include/glint/scene/scene.h").is_file(), "headers are installed")
+include = prefix / "include"
+check((include / "glint/scene/scene.h").is_file(), "headers are installed")
+for header in include.rglob("*.h"):
+    for name in re.findall(r'#\s*include\s*[<"]((?:glint|nlohmann|CLI)/.*|tiny_gltf.*)[>"]',
+                           header.read_text()):
+        check((include / name).is_file(), "what %s includes is installed: %s" % (header, name))
 run("cmake", "-S", HERE, "-B", outside, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=%s" % prefix,
-    "-DMODELS=%s" % (HERE.parent.parent / "models"))
+    "-DMODELS=%s" % (HERE.parent.parent / "models"), "-DHEADERS=%s" % include,
+    "-DEXAMPLES=%s" % (HERE.parent.parent / "examples"))
 run("cmake", "--build", outside)
 tests = {t["name"]: t["command"] for t in
          json.loads(run("ctest", "--test-dir", outside, "--show-only=json-v1"))["tests"]}
@@ -83,7 +90,9 @@ check("ended with status 2" in said, said)
 
 # All by ctest, and one page of them.
 said = run("ctest", "--test-dir", outside, status=8)
-check("3 tests failed out of 10" in said, said)
+check("3 tests failed out of 14" in said, said)
+check((outside / "examples/turn-2.png").stat().st_size > 1000 and
+      (outside / "examples/wave.png").stat().st_size > 1000, "pictures of the examples")
 run(prefix / "bin/glint", "diff", pictures / "baseline", pictures / "actual", "--html",
     scratch / "report.html", status=1)
 check((scratch / "report.html").stat().st_size > 10000, "a report")
