@@ -13,16 +13,37 @@
 #     [DIFF_OPTIONS words...]        # more of glint diff: --ignore, --mask, --tolerance ...
 #     [LABELS labels...])            # beside the label "image"
 #
-# Relative paths are of the current source folder. The test leaves its files in the folder
-# GLINT_IMAGE_TEST_OUTPUT (image-tests in the current build folder): actual/NAME, baseline/NAME,
-# difference/NAME.png and result/NAME.json. `glint diff baseline actual --html report.html` there
-# makes one page of all tests.
+# Relative paths, that of --mask among them, are of the current source folder. The test leaves its
+# files in the folder GLINT_IMAGE_TEST_OUTPUT (image-tests in the current build folder): actual/FILE,
+# baseline/FILE, difference/FILE.png, result/FILE.json, what the program said in log/FILE.txt, and how
+# far the test came in status/FILE.txt. FILE is NAME with what is neither a letter, a digit, ".", "_"
+# nor "-" as %XX, so that no two tests share one. `glint diff --run FOLDER --html report.html` makes
+# one page of all tests, those that crashed or wrote nothing too.
 #
-# Its exit status is that of glint diff: 4 for a missing baseline, whose candidate is the actual
-# picture. With GLINT_UPDATE_BASELINES=1 in the environment the test makes the baseline instead, or
-# replaces it where the comparison fails, and says so.
+# Beside BASELINE there may be more, for other machines: NAME_1.png, NAME_2.png ...; the nearest
+# counts. The exit status is that of glint diff: 4 for a missing baseline, whose candidate is the
+# actual picture. With GLINT_UPDATE_BASELINES=1 in the environment the test makes the baseline
+# instead, or replaces it where the comparison fails, and says so.
 
 set(_glint_image_test_script ${CMAKE_CURRENT_LIST_DIR}/glintImageTest.sh)
+
+# A name as a file's, one to one.
+function(_glint_image_test_file name result)
+  string(HEX "${name}" bytes)
+  string(REGEX MATCHALL ".." bytes "${bytes}")
+  set(file "")
+  foreach(byte ${bytes})
+    math(EXPR code "0x${byte}")
+    string(ASCII ${code} letter)
+    if(letter MATCHES "^[A-Za-z0-9_-]$" OR (byte STREQUAL "2e" AND file))
+      string(APPEND file "${letter}")
+    else()
+      string(TOUPPER "${byte}" byte)
+      string(APPEND file "%${byte}")
+    endif()
+  endforeach()
+  set(${result} "${file}" PARENT_SCOPE)
+endfunction()
 
 function(glint_add_image_test)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;MODEL;BASELINE;LOOK;MAX_PIXELS"
@@ -59,7 +80,7 @@ function(glint_add_image_test)
   if(NOT folder)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/image-tests)
   endif()
-  string(REGEX REPLACE "[^A-Za-z0-9._-]" "_" file "${arg_NAME}")
+  _glint_image_test_file("${arg_NAME}" file)
   get_filename_component(ending "${arg_BASELINE}" LAST_EXT)
   set(output "${folder}/actual/${file}${ending}")
 
@@ -78,7 +99,15 @@ function(glint_add_image_test)
     string(REPLACE "{output}" "${output}" command "${command}")
   endif()
 
-  set(options ${arg_DIFF_OPTIONS})
+  set(options "")
+  set(before "")
+  foreach(word ${arg_DIFF_OPTIONS})
+    if(before STREQUAL "--mask")
+      get_filename_component(word "${word}" ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    endif()
+    list(APPEND options "${word}")
+    set(before "${word}")
+  endforeach()
   foreach(metric threshold IN ZIP_LISTS arg_METRIC arg_THRESHOLD)
     list(APPEND options --metric ${metric} --threshold ${threshold})
   endforeach()
@@ -86,10 +115,20 @@ function(glint_add_image_test)
     list(APPEND options --max-pixels ${arg_MAX_PIXELS})
   endif()
 
+  # What `glint diff --run` reads: of the tests that there are now.
+  get_property(begun GLOBAL PROPERTY "_glint_image_tests_of_${folder}")
+  if(NOT begun)
+    file(REMOVE_RECURSE "${folder}/tests")
+    set_property(GLOBAL PROPERTY "_glint_image_tests_of_${folder}" TRUE)
+  endif()
+  list(JOIN options "\n" lines)
+  file(GENERATE OUTPUT "${folder}/tests/${file}.txt"
+       CONTENT "${arg_NAME}\n${arg_BASELINE}\n${ending}\n${lines}\n")
+
   list(LENGTH command words)
   add_test(NAME ${arg_NAME}
            COMMAND sh ${_glint_image_test_script} $<TARGET_FILE:glint::program> ${arg_BASELINE}
-                   ${folder} ${file} ${ending} ${words} ${command} ${options})
+                   ${folder} ${file} ${ending} ${arg_NAME} ${words} ${command} ${options})
   set_tests_properties(${arg_NAME} PROPERTIES
     LABELS "image;${arg_LABELS}"
     ATTACHED_FILES_ON_FAIL "${output};${folder}/difference/${file}.png;${folder}/result/${file}.json")

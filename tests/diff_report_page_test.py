@@ -7,6 +7,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import time
 import zlib
 
 from browser import run_tests
@@ -197,6 +198,82 @@ def test_texts(browser):
     browser.screenshot(scratch / "planted.png")
 
 
+def test_regions(browser):
+    page = planted()
+    browser.open(page.as_uri() + "?once#small.png")
+    browser.wait_for("document.querySelector('#view canvas')")
+    # The address names the pair; that of another one follows it.
+    assert title(browser) == "small.png: differs"
+    show(browser, "large.png")
+    assert browser.evaluate("location.hash") == "#large.png"
+    assert browser.evaluate("regions.caption.textContent") == "regions that differ: 1"
+    browser.key("n")
+    box = browser.evaluate("(e => [e.style.left, e.style.width].map(parseFloat).map(v => v / zoom))"
+                           "(document.querySelector('.region.on'))")
+    assert [round(v) for v in box] == [30, 10], box
+    browser.key("b")
+    assert browser.evaluate("document.querySelector('.region')") is None
+    browser.key("b")
+    # The line that accepts it, and its error as a number.
+    commands = browser.evaluate("[...document.querySelectorAll('code')].map(c => c.textContent)")
+    assert commands[-1].endswith("planted/b --update large.png"), commands
+    browser.key("4")
+    browser.hover("#stage", *browser.evaluate("[35.5 * zoom, 20.5 * zoom]"))
+    assert 0.3 < float(browser.evaluate("pixel.textContent").split("FLIP ")[1].split()[0]) <= 1
+    assert browser.evaluate("document.querySelector('#scale i').style.display") == "block"
+    labels = "[...document.querySelectorAll('.label')].map(l => l.textContent)"
+    browser.key("1")
+    assert browser.evaluate(labels) == ["A, baseline", "B"]
+    browser.key("f")
+    browser.key("3")
+    assert browser.evaluate(labels) == ["A, baseline", "B", "difference (FLIP)"]
+    browser.key("1")
+
+
+def write_pfm(path, value):
+    """8 x 6 pixels of `value`, but of 20 in the upper left corner."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    rows = [[value] * 24 for _ in range(6)]
+    rows[5][:3] = [20.0] * 3
+    path.write_bytes(b"PF\n8 6\n-1.0\n" + b"".join(struct.pack("<24f", *row) for row in rows))
+
+
+def test_floats(browser):
+    write_pfm(scratch / "floats/a/one.pfm", 0.25)
+    write_pfm(scratch / "floats/b/one.pfm", 2.5)
+    opened(browser, report("floats", 1))
+    browser.key("0")
+    browser.hover("#stage", 1.5, 1.5)
+    assert browser.evaluate("pixel.textContent").startswith(
+        "1, 1   A 0.25 0.25 0.25   B 2.5 2.5 2.5"), browser.evaluate("pixel.textContent")
+    # Two stops down: 2.5 / 4 and 0.25 / 4 in linear light.
+    code = lambda v: round(255 * (1.055 * v ** (1 / 2.4) - 0.055))
+    assert browser.evaluate("codes(stage.b, 1, 1, 1, 1)[0]") == 255
+    browser.evaluate("(e => { e.value = -2; e.oninput(); })(document.querySelector('#exposure'))")
+    seen = browser.evaluate("[codes(stage.a, 1, 1, 1, 1)[0], codes(stage.b, 1, 1, 1, 1)[0]]")
+    assert seen == [code(0.25 / 4), code(2.5 / 4)], seen
+    browser.evaluate("[...document.querySelectorAll('#develop button')][0].click()")
+    seen = browser.evaluate("[low, high, codes(stage.a, 1, 1, 1, 1)[0], "
+                            "codes(stage.b, 0, 0, 1, 1)[0]]")
+    assert seen == [0.25, 20, 0, 255], seen
+
+
+def test_beside_and_unreadable(browser):
+    a, b = scratch / "beside/a", scratch / "beside/b"
+    write_png(a / "<one> & 'two'.png", 60, 40, gradient)
+    write_png(b / "<one> & 'two'.png", 60, 40, lambda x, y: (9, 9, 9))
+    write_png(a / "cut.png", 60, 40, gradient)
+    (b / "cut.png").write_bytes((a / "cut.png").read_bytes()[:60])
+    opened(browser, report("beside", 2, "--pictures-beside"))
+    assert title(browser) == "<one> & 'two'.png: differs"
+    assert browser.evaluate("[stage.a.width, codes(stage.b, 3, 3, 1, 1)[0]]") == [60, 9]
+    # Of what cannot be read, the other is there.
+    show(browser, "cut.png")
+    assert title(browser) == "cut.png: error"
+    assert browser.evaluate("[stage.a.width, stage.b]") == [60, None]
+    assert "cut.png: the PNG is" in browser.evaluate("detail.textContent")
+
+
 def test_thousand_pairs(browser):
     first = scratch / "thousand/a/0000.png"
     write_png(first, 24, 16, gradient)
@@ -205,8 +282,11 @@ def test_thousand_pairs(browser):
     for n in range(1, 1000):
         os.link(first, first.with_name("%04d.png" % n))
         os.link(other if n % 10 == 0 else first, other.with_name("%04d.png" % n))
-    opened(browser, report("thousand", 1))
+    page = report("thousand", 1)
+    begin = time.monotonic()
+    opened(browser, page)
     assert len(names(browser)) == 1000
+    print("1000 pairs open in %.1f s" % (time.monotonic() - begin))
     # Only what is looked at is decoded.
     assert browser.evaluate("document.querySelectorAll('canvas').length") <= 4
     for n in range(5):

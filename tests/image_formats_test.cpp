@@ -12,10 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <functional>
-#include <random>
 
+#include "damaged_pictures.h"
 #include "glint/image/error.h"
 #include "glint/image/exr_writer.h"
 #include "glint/image/file.h"
@@ -258,37 +257,9 @@ TEST(PngText, SurvivesWithItsLetters) {
   EXPECT_EQ(image.text.at("look"), "caf\u00e9");
 }
 
-/// Cut and damaged copies give a picture or one line, soon.
-void expectSurvived(const Bytes& bytes, unsigned seed, int rounds) {
-  std::mt19937 random(seed);
-  int refused = 0;
-  for (int round = 0; round < rounds; ++round) {
-    Bytes damaged = bytes;
-    if (round % 3 == 0) damaged.resize(random() % bytes.size());
-    for (std::size_t flips = random() % 6; flips > 0 && !damaged.empty(); --flips) {
-      const std::size_t near =
-          random() % 2 == 0 ? std::min<std::size_t>(400, damaged.size()) : damaged.size();
-      damaged[random() % near] = std::byte(random() % 3 == 0 ? 255 : random() % 256);
-    }
-    try {
-      const auto image = glint::decodeImage(damaged, "test");
-      ASSERT_EQ(image.values.size(), std::size_t(4) * image.width * image.height);
-    } catch (const glint::InputError& error) {
-      ++refused;
-      ASSERT_THAT(error.what(), Not(HasSubstr("\n")));
-    }
-  }
-  EXPECT_GT(refused, rounds / 10);
-}
-
 TEST(Formats, DamagedFilesAreSurvived) {
-  const glint::Image image = numbered(20, 20, 0);
-  const glint::ExrLayer layers[] = {{"", &image, "RGBA"}, {"z", &image, "Z"}};
-  writeExr(in("fuzz.exr"), layers, {{"look", "x"}});
-  expectSurvived(glint::readFile(in("fuzz.exr")), 1, 600);
-  std::string row("\2\2\0\12", 4);
-  for (int channel = 0; channel < 4; ++channel) row += "\x88\x80\2\x80\x80";
-  expectSurvived(hdr("-Y 3 +X 10", row + row + row), 2, 2000);
+  glint::test::expectExrSurvived(200, false);
+  glint::test::expectHdrSurvived(200);
 }
 
 }  // namespace

@@ -69,14 +69,16 @@ void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bo
         std::pair{'v', &pictures.valuesA}, std::pair{'w', &pictures.valuesB}}) {
     if (bytes->empty()) continue;
     const std::string name = kind + std::to_string(index);
+    kinds_[index] += kind;
     if (folder_.empty()) {
       keep(base64Element(name, *bytes));
       continue;
     }
-    OutputFile file(folder_ + "/" + name);
-    file.write(*bytes);
+    // A page that is a file may read no other file, but it may run its script.
+    const std::string text = "picture('" + name + "','" + base64(*bytes) + "')\n";
+    OutputFile file(folder_ + "/" + name + ".js");
+    file.write(std::as_bytes(std::span(text)));
     file.commit();
-    beside_[index] += kind;
   }
 }
 
@@ -84,7 +86,7 @@ void DiffHtml::finish(const nlohmann::ordered_json& json) {
   nlohmann::ordered_json whole = json;
   whole["magma"] = magmaText();
   if (!folder_.empty()) whole["pictures"] = fs::path(folder_).filename().string();
-  for (const auto& [index, kinds] : beside_) whole["pairs"][index]["pictures"] = kinds;
+  for (const auto& [index, kinds] : kinds_) whole["pairs"][index]["pictures"] = kinds;
   for (const auto& [index, bytes] : thumbnails_)
     if (!bytes.empty()) whole["pairs"][index]["thumbnail"] = base64(bytes);
   const auto write = [&](std::string_view text) { file_.write(std::as_bytes(std::span(text))); };

@@ -49,7 +49,7 @@ class DiffHtml {
   std::size_t next_ = 0;                                  ///< pair
   std::map<std::size_t, Waiting> later_;                  ///< pairs whose turn has not come
   std::map<std::size_t, std::vector<std::byte>> thumbnails_;
-  std::map<std::size_t, std::string> beside_;  ///< kinds of pictures in the folder
+  std::map<std::size_t, std::string> kinds_;  ///< of the pictures that a pair has: "abm"
 };
 
 }  // namespace glint

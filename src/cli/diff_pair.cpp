@@ -159,8 +159,8 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
     if (anyDifference) {
       pictures->b = browserPicture(both.bytesB, *shown.b, shown.range());
       if (flipWanted) pictures->map = readFile(flipOutput ? settings.output : map->path, Noted::no);
-      pictures->valuesA = trueValues(shown.a->image);
-      pictures->valuesB = trueValues(shown.b->image);
+      pictures->valuesA = trueValues(*shown.a);
+      pictures->valuesB = trueValues(*shown.b);
     }
     pictures->thumbnail = thumbnailOf(anyDifference ? shown.b->image : shown.a->image);
   }

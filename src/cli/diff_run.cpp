@@ -267,8 +267,7 @@ int diffTestRun(const DiffRequest& request) {
   const std::unique_ptr<DiffHtml> page = openedPage(request);
   for (std::size_t i = 0; i < run.entries.size(); ++i) {
     DiffEntry& entry = run.entries[i];
-    if (page)
-      page->add(i, run.pairs[i].value("status", 0) != done, picturesOf(run.records[i], entry));
+    if (page) page->add(i, entry.status != done, picturesOf(run.records[i], entry, run.pairs[i]));
     if (!request.updating) continue;
     update(request.named, entry, run.records[i].baseline);
     if (!entry.updated) continue;

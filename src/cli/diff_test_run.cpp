@@ -1,12 +1,14 @@
 #include "diff_test_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
 #include "commands.h"
 #include "diff_baselines.h"
+#include "diff_layers.h"
 #include "diff_pair.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
@@ -38,6 +40,11 @@ std::vector<std::string> linesIn(const std::string& path) {
   return lines;
 }
 
+std::string textAt(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 /// The result of a test from how far it came.
 Json pairOf(const std::string& folder, const std::string& file, const TestRecord& record,
             const std::vector<std::string>& options) {
@@ -65,7 +72,6 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
     error = "the comparison has left no result";
   }
   if (!error.empty()) pair = Json{{"status", int(unusable)}, {"error", error}};
-  if (stage == "updated") pair["updated"] = true;
   pair["name"] = record.name;
   pair["a"] = isFile(record.baseline) ? record.baseline : "";
   pair["b"] = record.actual;
@@ -139,25 +145,40 @@ TestRun readTestRun(const std::string& folder) {
   return run;
 }
 
-PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry) {
+PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry, const Json& pair) {
   PairPictures pictures;
-  const auto load = [&](const std::string& path, std::vector<std::byte>& picture,
-                        std::vector<std::byte>& values) {
-    if (path.empty()) return;
-    try {
-      const std::vector<std::byte> bytes = readFile(path);
-      const PictureLayers read = decodePictureLayers(bytes, path, "main");
-      const PictureLayer& layer = read.layers[0];
-      picture = browserPicture(bytes, layer, {0.0f, 1.0f});
-      if (entry.status != done) values = trueValues(layer.image);
-      pictures.thumbnail = thumbnailOf(layer.image);
-    } catch (const InputError&) {
-      return;  // what can be read is shown
-    }
+  std::string wanted = textAt(pair, "shown");
+  if (wanted.empty()) wanted = textAt(pair, "layer");
+  struct Side {
+    std::string path;
+    std::vector<std::byte>*picture, *values;
+    std::vector<std::byte> bytes;
+    PictureLayers read;
   };
-  load(record.kept.empty() ? entry.a : record.kept, pictures.a, pictures.valuesA);
-  load(record.actual, pictures.b, pictures.valuesB);
-  if (!record.difference.empty() && entry.status != done)
+  Side sides[] = {
+      {record.kept.empty() ? entry.a : record.kept, &pictures.a, &pictures.valuesA, {}, {}},
+      {record.actual, &pictures.b, &pictures.valuesB, {}, {}}};
+  std::pair<float, float> range{INFINITY, -INFINITY};
+  for (Side& side : sides) {
+    if (side.path.empty()) continue;
+    try {
+      side.bytes = readFile(side.path);
+      side.read = decodePictureLayers(side.bytes, side.path, wanted.empty() ? "main" : wanted);
+    } catch (const InputError&) {
+      side.read.layers.clear();
+      continue;  // what can be read is shown
+    }
+    const auto [low, high] = rangeOf(side.read.layers[0].image);
+    range = {std::min(range.first, low), std::max(range.second, high)};
+  }
+  for (const Side& side : sides) {
+    if (side.read.layers.empty()) continue;
+    const PictureLayer& layer = side.read.layers[0];
+    *side.picture = browserPicture(side.bytes, layer, range);
+    if (entry.status != done) *side.values = trueValues(layer);
+    pictures.thumbnail = thumbnailOf(layer.image);
+  }
+  if (!record.difference.empty() && entry.status != done && entry.status != unusable)
     pictures.map = readFile(record.difference);
   return pictures;
 }

@@ -25,8 +25,7 @@ struct TestRun {
 /// Reads a folder of image tests (GLINT_IMAGE_TEST_OUTPUT, or image-tests in a build folder):
 ///
 ///     tests/FILE.txt          CMake's: the test's name, the baseline, the picture's ending, and
-///     the
-///                             options of glint diff, a line each
+///                             the options of glint diff, a line each
 ///     status/FILE.txt         how far the test came: "started", "command N", "nothing",
 ///                             "compared N", "updated"
 ///     log/FILE.txt            what its program said
@@ -36,7 +35,8 @@ struct TestRun {
 /// Throws InputError if there are no tests.
 TestRun readTestRun(const std::string& folder);
 
-/// The pictures of a record.
-PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry);
+/// The pictures of a record, of the layer that its result shows.
+PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry,
+                        const nlohmann::ordered_json& pair);
 
 }  // namespace glint

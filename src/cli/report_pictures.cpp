@@ -50,7 +50,8 @@ std::vector<std::byte> browserPicture(std::span<const std::byte> file, const Pic
                : pngOfRgb(codes, image.width, image.height);
 }
 
-std::vector<std::byte> trueValues(const StoredImage& image) {
+std::vector<std::byte> trueValues(const PictureLayer& layer) {
+  const StoredImage& image = layer.image;
   if (image.values.index() == 0 ||
       std::uint64_t(image.width) * std::uint64_t(image.height) > std::uint64_t(1) << 22)
     return {};
@@ -65,7 +66,8 @@ std::vector<std::byte> trueValues(const StoredImage& image) {
   const nlohmann::ordered_json head{{"width", image.width},
                                     {"height", image.height},
                                     {"channels", image.channels},
-                                    {"linear", !codes}};
+                                    {"linear", !codes},
+                                    {"colour", layer.colour}};
   const std::string text = head.dump() + "\n";
   const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> deflater(
       libdeflate_alloc_compressor(4), libdeflate_free_compressor);

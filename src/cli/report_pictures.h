@@ -16,9 +16,9 @@ std::vector<std::byte> browserPicture(std::span<const std::byte> file, const Pic
                                       std::pair<float, float> range);
 
 /// The values of a picture of 16 bits or floats, for the page to show: a line of JSON (width,
-/// height, channels, kind, largest code), a line feed, and the values as 32-bit floats, little-
+/// height, channels, linear, colour), a line feed, and the values as 32-bit floats, little-
 /// endian, deflated (zlib). Empty for 8 bits and for more than 2^22 pixels.
-std::vector<std::byte> trueValues(const StoredImage& image);
+std::vector<std::byte> trueValues(const PictureLayer& layer);
 
 /// A small PNG.
 std::vector<std::byte> thumbnailOf(const StoredImage& image);

@@ -4,7 +4,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <exception>
+#include <limits>
 #include <numbers>
 #include <thread>
 #include <utility>
@@ -18,52 +20,126 @@ namespace {
 
 using Counts = std::function<void(int y, unsigned char* row)>;
 
-/// The filtered rows of one picture around the current one.
+/// The rows of one picture around the current one: converted, and filtered along x where that is
+/// asked for.
 class Ring {
  public:
   Ring(const PixelRows& picture, const detail::FlipFilters& filters)
       : picture_(picture),
         filters_(filters),
-        row_(picture.width, filters.radius),
-        // Whole blocks of the comparison may be read beyond the width.
-        stride_(std::size_t(picture.width + 63) / 64 * 64),
         rgba_(std::size_t(4) * picture.width),
+        blocks_(blocksOf(picture.width)),
+        // Whole blocks of the comparison may be read beyond the width.
+        stride_(blocks_ * detail::flipBlock),
+        rows_(std::size_t(size()), detail::FlipRow(picture.width, filters.radius)),
         planes_(std::size_t(size()) * detail::flipPlanes * stride_),
+        filtered_(std::size_t(size()) * blocks_),
         around_(std::size_t(size())) {}
 
+  static std::size_t blocksOf(int width) {
+    return std::size_t(width + detail::flipBlock - 1) / detail::flipBlock;
+  }
   std::size_t stride() const { return stride_; }
+  const std::vector<float>& rgba() const { return rgba_; }
 
-  /// The rows around y, those beyond the edges being the edges.
-  const float* const* around(int y) {
-    const int last = std::min(picture_.height - 1, y + filters_.radius);
-    next_ = std::max(next_, std::max(0, y - filters_.radius));
-    for (; next_ <= last; ++next_) {
-      picture_.read(next_, 1, rgba_.data());
-      detail::flipConvertRow(rgba_.data(), picture_.width, filters_.radius, row_);
-      detail::flipFilterRow(filters_, row_, picture_.width, planesOf(next_), stride_);
-    }
+  void read(int y) {
+    picture_.read(y, 1, rgba_.data());
+    const std::size_t at = std::size_t(y % size());
+    detail::flipConvertRow(rgba_.data(), picture_.width, filters_.radius, rows_[at]);
+    std::fill_n(filtered_.begin() + std::ptrdiff_t(at * blocks_), blocks_, 0);
+  }
+
+  /// The rows around y, those beyond the edges being the edges, filtered in the blocks
+  /// [first, last).
+  const float* const* around(int y, std::size_t first, std::size_t last) {
     for (int k = 0; k < size(); ++k) {
       const int row = std::clamp(y + k - filters_.radius, 0, picture_.height - 1);
-      around_[std::size_t(k)] = planesOf(row);
+      const std::size_t at = std::size_t(row % size());
+      float* const planes = planes_.data() + at * detail::flipPlanes * stride_;
+      for (std::size_t block = first; block < last; ++block) {
+        if (std::exchange(filtered_[at * blocks_ + block], 1)) continue;
+        const int begin = int(block) * detail::flipBlock;
+        detail::flipFilterRow(filters_, rows_[at], begin,
+                              std::min(begin + detail::flipBlock, picture_.width), planes, stride_);
+      }
+      around_[std::size_t(k)] = planes;
     }
     return around_.data();
   }
 
-  void jump(int y) { next_ = std::max(0, y - filters_.radius); }
-
  private:
   int size() const { return 2 * filters_.radius + 1; }
-  float* planesOf(int row) {
-    return planes_.data() + std::size_t(row % size()) * detail::flipPlanes * stride_;
-  }
 
   const PixelRows& picture_;
   const detail::FlipFilters& filters_;
-  detail::FlipRow row_;
-  std::size_t stride_;
-  std::vector<float> rgba_, planes_;
+  std::vector<float> rgba_;
+  std::size_t blocks_, stride_;
+  std::vector<detail::FlipRow> rows_;
+  std::vector<float> planes_;
+  std::vector<unsigned char> filtered_;  ///< rows by blocks
   std::vector<const float*> around_;
-  int next_ = 0;
+};
+
+/// The errors of rows that follow each other. Where both pictures are equal as far as the filters
+/// reach, the error is 0 without any filtering: most of most pairs.
+class RowErrors {
+ public:
+  RowErrors(const PixelRows& reference, const PixelRows& test, const detail::FlipFilters& filters,
+            int first)
+      : filters_(filters),
+        width_(reference.width),
+        height_(reference.height),
+        a_(reference, filters),
+        b_(test, filters),
+        next_(std::max(0, first - filters.radius)),
+        lastDifferent_(Ring::blocksOf(width_), std::numeric_limits<int>::min()) {}
+
+  void compute(int y, float* errors) {
+    for (; next_ <= std::min(height_ - 1, y + filters_.radius); ++next_) read();
+    const std::size_t blocks = lastDifferent_.size();
+    for (std::size_t first = 0, last = 0; first < blocks; first = last) {
+      const bool equal = isEqual(first, y);
+      for (last = first + 1; last < blocks && isEqual(last, y) == equal;) ++last;
+      const int begin = int(first) * detail::flipBlock;
+      const int end = std::min(int(last) * detail::flipBlock, width_);
+      if (equal) {
+        std::fill(errors + begin, errors + end, 0.0f);
+        continue;
+      }
+      const float* const* rows = a_.around(y, first, last);
+      detail::flipCompareRow(filters_, rows, b_.around(y, first, last), begin, end, a_.stride(),
+                             errors);
+    }
+  }
+
+ private:
+  void read() {
+    a_.read(next_);
+    b_.read(next_);
+    constexpr std::size_t values = std::size_t(4) * detail::flipBlock;
+    for (std::size_t block = 0; block < lastDifferent_.size(); ++block) {
+      const std::size_t at = block * values, count = std::min(values, a_.rgba().size() - at);
+      if (std::memcmp(&a_.rgba()[at], &b_.rgba()[at], count * sizeof(float)) != 0)
+        lastDifferent_[block] = next_;
+    }
+  }
+
+  /// Whether no pixel differs that a filter over this block of row y sees.
+  bool isEqual(std::size_t block, int y) const {
+    const auto reach =
+        std::size_t(filters_.radius + detail::flipBlock - 1) / std::size_t(detail::flipBlock);
+    const std::size_t begin = block > reach ? block - reach : 0,
+                      end = std::min(block + reach + 1, lastDifferent_.size());
+    return std::all_of(lastDifferent_.begin() + std::ptrdiff_t(begin),
+                       lastDifferent_.begin() + std::ptrdiff_t(end),
+                       [&](int row) { return row < y - filters_.radius; });
+  }
+
+  const detail::FlipFilters& filters_;
+  int width_, height_;
+  Ring a_, b_;
+  int next_;                        ///< row to be read
+  std::vector<int> lastDifferent_;  ///< of the rows read, by block; the least int: none
 };
 
 int threadsOf(const FlipOptions& options) {
@@ -96,13 +172,8 @@ void forErrors(const PixelRows& reference, const PixelRows& test, const FlipOpti
   std::atomic_flag failed;
   const auto work = [&](int begin, int end, float* out) {
     try {
-      Ring a(reference, filters), b(test, filters);
-      a.jump(begin);
-      b.jump(begin);
-      for (int y = begin; y < end; ++y, out += width) {
-        const float* const* rows = a.around(y);
-        detail::flipCompareRow(filters, rows, b.around(y), width, a.stride(), out);
-      }
+      RowErrors errorsOf(reference, test, filters, begin);
+      for (int y = begin; y < end; ++y, out += width) errorsOf.compute(y, out);
     } catch (...) {
       if (!failed.test_and_set()) failure = std::current_exception();
     }

@@ -7,11 +7,11 @@
 #include <cstring>
 #include <numbers>
 
-// Distribution builds know SSE2 only: the loops are compiled for AVX2 as well and chosen at load.
-// Neither contracts, so that both give the same bits.
+// Distribution builds know SSE2 only: the loops are compiled for AVX2 and AVX-512 as well and
+// chosen at load. None contracts, so that all give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
-#define GLINT_CLONES __attribute__((target_clones("avx2", "default")))
+#define GLINT_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define GLINT_CLONES
 #endif
@@ -20,7 +20,7 @@ namespace glint::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int lanes = 16;  ///< two vectors of AVX
+constexpr int lanes = 16;  ///< two vectors of AVX, one of AVX-512
 using Vector = float __attribute__((vector_size(4 * lanes), aligned(4), may_alias));
 
 // Linear sRGB to XYZ (D65), and the white of that light.
@@ -206,12 +206,12 @@ inline __attribute__((always_inline)) void addSecondDifference(const float* left
 }  // namespace
 
 GLINT_CLONES
-void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int width, float* planes,
-                   std::size_t stride) {
+void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int begin, int end,
+                   float* planes, std::size_t stride) {
   const float* luminance = row.values.data() + filters.radius;
   const float* redGreen = luminance + row.stride;
   const float* blueYellow = redGreen + row.stride;
-  for (int x = 0; x < width; x += lanes) {
+  for (int x = begin; x < end; x += lanes) {
     float* out = planes + x;
     filterAt(luminance + x, filters.luminance, out + luminancePlane * stride);
     filterAt(redGreen + x, filters.redGreen, out + redGreenPlane * stride);
@@ -233,12 +233,10 @@ void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int width, fl
 
 namespace {
 
-constexpr int blockSize = 64;  ///< pixels whose sums lie in the nearest cache
-
 /// Of one picture: what is left of a block after filtering along y.
 struct Block {
-  float luminance[blockSize], redGreen[blockSize], blueYellow[blockSize];
-  float edgeX[blockSize], edgeY[blockSize], pointX[blockSize], pointY[blockSize];
+  float luminance[flipBlock], redGreen[flipBlock], blueYellow[flipBlock];
+  float edgeX[flipBlock], edgeY[flipBlock], pointX[flipBlock], pointY[flipBlock];
 };
 
 inline __attribute__((always_inline)) void filterColumn(const float* const* rows, int radius,
@@ -382,15 +380,16 @@ inline __attribute__((always_inline)) void compareBlock(const Block& r, const Bl
 
 GLINT_CLONES
 void flipCompareRow(const FlipFilters& filters, const float* const* reference,
-                    const float* const* test, int width, std::size_t stride, float* errors) {
+                    const float* const* test, int begin, int end, std::size_t stride,
+                    float* errors) {
   static const auto largest = static_cast<float>(largestDifference());
   const Matrices& m = matrices();
   Block a, b;
-  for (int begin = 0; begin < width; begin += blockSize) {
-    const int count = std::min(blockSize, width - begin);
-    filterBlock(filters, reference, stride, begin, count, a);
-    filterBlock(filters, test, stride, begin, count, b);
-    compareBlock(a, b, count, m, largest, errors + begin);
+  for (int x = begin; x < end; x += flipBlock) {
+    const int count = std::min(flipBlock, end - x);
+    filterBlock(filters, reference, stride, x, count, a);
+    filterBlock(filters, test, stride, x, count, b);
+    compareBlock(a, b, count, m, largest, errors + x);
   }
 }
 

@@ -42,14 +42,18 @@ struct FlipRow {
 /// Clamps a row of linear RGBA to [0, 1] and converts it.
 void flipConvertRow(const float* rgba, int width, int radius, FlipRow& row);
 
-/// Filters a converted row along x into `flipPlanes` planes of `stride` floats, of which whole
-/// vectors of 16 are written.
-void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int width, float* planes,
-                   std::size_t stride);
+constexpr int flipBlock = 64;  ///< pixels that are filtered and compared together
 
-/// Filters along y and compares. `reference` and `test` hold 2 * radius + 1 pointers to the planes
-/// of the rows around the wanted one. Writes `width` errors.
+/// Filters the columns [begin, end) of a converted row along x into `flipPlanes` planes of `stride`
+/// floats, of which whole vectors of 16 are written. `begin` is a multiple of flipBlock.
+void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int begin, int end,
+                   float* planes, std::size_t stride);
+
+/// Filters the columns [begin, end) along y and compares. `reference` and `test` hold
+/// 2 * radius + 1 pointers to the planes of the rows around the wanted one. Writes
+/// errors[begin] to errors[end - 1].
 void flipCompareRow(const FlipFilters& filters, const float* const* reference,
-                    const float* const* test, int width, std::size_t stride, float* errors);
+                    const float* const* test, int begin, int end, std::size_t stride,
+                    float* errors);
 
 }  // namespace glint::detail

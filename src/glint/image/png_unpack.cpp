@@ -102,25 +102,28 @@ bool unpackPng(std::span<const std::byte> png, int width, int height, int channe
   std::span<const std::byte> pixels;
   if (!gather(png, joined, pixels)) return false;
   const std::size_t rowSize = std::size_t(channels) * width, size = (rowSize + 1) * height;
-  const std::unique_ptr<std::uint8_t, void (*)(void*)> packed(
-      static_cast<std::uint8_t*>(std::malloc(size)), std::free);
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> inflater(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  if (!packed || !inflater ||
-      libdeflate_zlib_decompress(inflater.get(), pixels.data(), pixels.size(), packed.get(), size,
-                                 nullptr) != LIBDEFLATE_SUCCESS)
+  // Fresh memory costs more than what is done in it: the rows are unfiltered where they lie, each
+  // by way of a copy.
+  codes.resize(size);
+  if (!inflater || libdeflate_zlib_decompress(inflater.get(), pixels.data(), pixels.size(),
+                                              codes.data(), size, nullptr) != LIBDEFLATE_SUCCESS)
     return false;
-  codes.resize(rowSize * height);
+  std::vector<std::uint8_t> row(rowSize);
   const std::vector<std::uint8_t> zeros(rowSize);
   const std::uint8_t* above = zeros.data();
   for (int y = 0; y < height; ++y) {
-    const std::uint8_t* in = packed.get() + (rowSize + 1) * y;
+    const std::uint8_t* in = codes.data() + (rowSize + 1) * y;
     std::uint8_t* out = codes.data() + rowSize * y;
-    if (!(channels == 3 ? unfilter<3>(in[0], in + 1, above, out, rowSize)
-                        : unfilter<4>(in[0], in + 1, above, out, rowSize)))
+    const int filter = in[0];
+    std::memcpy(row.data(), in + 1, rowSize);
+    if (!(channels == 3 ? unfilter<3>(filter, row.data(), above, out, rowSize)
+                        : unfilter<4>(filter, row.data(), above, out, rowSize)))
       return false;
     above = out;
   }
+  codes.resize(rowSize * height);
   return true;
 }
 
