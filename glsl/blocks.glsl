@@ -5,8 +5,9 @@ layout(std140) uniform FrameBlock {
   mat4 projection;       // eye to clip space of this tile
   mat4 worldFromEye;     // rotation to the environment's space (its own rotation included)
   vec4 view;             // xyz: to the viewer, where that is one direction; w: Schlick's exponent
-  vec4 ambientLight;     // rgb: A
+  vec4 ambientLight;     // rgb: A; a: samples of a pixel
   vec4 rays;             // tile's x, y in [-1, 1] to the ray's x, y at distance 1: scale, offset
+  vec4 samples[32];      // xy: where in a pixel they lie, from its middle
 } frame;
 
 struct Light {

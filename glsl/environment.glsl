@@ -5,8 +5,24 @@ vec3 environmentToward(vec3 eyeDirection, float spread) {
   return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection, spread);
 }
 
+vec3 mirroredAt(Pixel p) { return 2.0 * dot(p.normal, p.view) * p.normal - p.view; }
+
+#if REFRACTION
+// Along the surface and against the normal. In total reflection, where nothing is refracted, along the
+// surface, which is where the direction tends to.
+vec3 refractedAt(Pixel p, Boundary boundary) {
+  vec3 along = (dot(p.normal, p.view) * p.normal - p.view) / sqrt(boundary.square);
+  return along - sqrt(max(1.0 - dot(along, along), 0.0)) * p.normal;
+}
+#endif
+
 vec3 shade(vec4 base) {
   Pixel at = shadedPixel();
+#if SHADES_AT_OFFSET && ENVIRONMENT_MAP == ENVIRONMENT_IMAGE
+  Pixel middle = shadedPixel(inputsInMiddle());
+#else
+  Pixel middle = at;
+#endif
   Parameters p = parametersHere();
   vec3 n = at.normal, v = at.view;
   vec3 sum = surfaceColor(sumLights(at.position, n, v, p), base.rgb, p.metalness);
@@ -27,17 +43,14 @@ vec3 shade(vec4 base) {
 #if OUTPUT == OUTPUT_SUM || OUTPUT == OUTPUT_REFRACTION
   vec3 radiance = sum;
 #else
-  vec3 mirrored = 2.0 * cosine * n - v;
-  vec3 radiance = sum + f * environmentToward(mirrored, spreadOf(mirrored));
+  vec3 radiance = sum + f * environmentToward(mirroredAt(at), spreadOf(mirroredAt(middle)));
 #endif
 #if REFRACTION
   float t = p.transmission;
   radiance -= t * sum;
 #if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
-  // Along the surface and against the normal.
-  vec3 along = (cosine * n - v) / sqrt(boundary.square);
-  vec3 refracted = along - sqrt(max(1.0 - dot(along, along), 0.0)) * n;
-  float spread = spreadOf(refracted);
+  vec3 refracted = refractedAt(at, boundary);
+  float spread = spreadOf(refractedAt(middle, boundary));
   // Total reflection leaves nothing to refract, also where
   // a share of metal reflects less than all.
   if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {

@@ -26,19 +26,36 @@ float turnsOf(float y, float x) {
   return y < 0.0 ? -turns : turns;
 }
 
+// One level at a place, from 0 to 1 across and down. Beyond the rows next to a pole lie those of the
+// other side of it.
+vec3 environmentLevel(vec2 place, float level) {
+  float rows = float(textureSize(environmentImage, int(level)).y);
+  float beyond = 0.5 - min(place.y, 1.0 - place.y) * rows;
+  vec3 here = textureLod(environmentImage, place, level).rgb;
+  if (!(beyond > 0.0)) return here;
+  vec2 across = vec2(place.x + 0.5, place.y);
+  return mix(here, textureLod(environmentImage, across, level).rgb, beyond);
+}
+
 // The mean over about `spread` radians around the direction.
 vec3 environmentRadiance(vec3 direction, float spread) {
   vec3 d = safeUnit(direction);
   vec2 place = vec2(0.5 + turnsOf(d.x, -d.z), 2.0 * turnsOf(sqrt(d.x * d.x + d.z * d.z), d.y));
-  float height = float(textureSize(environmentImage, 0).y);
-  return textureLod(environmentImage, place, max(log2(spread * height * 0.19098593), 0.0)).rgb;
+  vec2 size = vec2(textureSize(environmentImage, 0));
+  float last = floor(log2(max(size.x, size.y)) + 1e-5);  // its number: levels are halved down to 1 x 1
+  float level = clamp(log2(spread * size.y * 0.18377630), 0.0, last);
+  float fine = floor(level), share = level - fine;
+  vec3 radiance = environmentLevel(place, fine);
+  if (!(share > 0.0)) return radiance;
+  return mix(radiance, environmentLevel(place, fine + 1.0), share);
 }
 
 #if !VERTEX_STAGE
-// How far a direction turns from this pixel to the next. To be called by all pixels of a square.
+// How far a direction turns from a pixel to the next, the most of its square. To be called by all
+// pixels of a square.
 float spreadOf(vec3 direction) {
   vec3 d = safeUnit(direction), x = dFdx(d), y = dFdy(d);
-  return sqrt(max(dot(x, x), dot(y, y)));
+  return sqrt(mostOfSquare(max(dot(x, x), dot(y, y))));
 }
 #endif
 #else

@@ -17,12 +17,15 @@ VARYING in vec2 vParameterTexcoords[PARAMETER_PLACES];
 out vec4 fragment;  // linear; straight alpha
 
 void main() {
+#if SHADES_AT_OFFSET
+  findShadingPlace();
+#endif
   vec4 base = material.color;
 #if VERTEX_COLORS
-  base *= arrived(vColor);
+  base *= arrived(AT_PLACE(vColor));
 #endif
 #if COLOR_TEXTURE
-  base *= texture(colorTexture, vColorTexcoord);
+  base *= TEXTURE_AT(colorTexture, vColorTexcoord);
 #endif
 #if ALPHA_MASK
   if (base.a < material.emission.a) discard;
@@ -31,7 +34,7 @@ void main() {
 #if !UNLIT && EMISSION
   emission = material.emission.rgb;
 #if EMISSION_TEXTURE
-  emission *= texture(emissionTexture, vEmissionTexcoord).rgb;
+  emission *= TEXTURE_AT(emissionTexture, vEmissionTexcoord).rgb;
 #endif
 #endif
 #if OUTPUT == OUTPUT_COLOR
@@ -44,14 +47,14 @@ void main() {
   fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL
 #if NORMAL_TEXTURE
-  fragment = vec4(surfaceNormal(), gl_FrontFacing ? 1.0 : -1.0);
+  fragment = vec4(surfaceNormal(inputsAtPlace()), gl_FrontFacing ? 1.0 : -1.0);
 #else
-  fragment = vec4(vNormal, gl_FrontFacing ? 1.0 : -1.0);
+  fragment = vec4(AT_PLACE(vNormal), gl_FrontFacing ? 1.0 : -1.0);
 #endif
 #elif OUTPUT == OUTPUT_SHADING_NORMAL
   fragment = vec4(shadedPixel().normal, 1.0);
 #elif OUTPUT == OUTPUT_POSITION
-  fragment = vec4(vPosition, 1.0);
+  fragment = vec4(AT_PLACE(vPosition), 1.0);
 #else
 #if UNLIT
   vec3 radiance = base.rgb;

@@ -17,7 +17,7 @@ uniform sampler2D transmissionTexture;
 #if VERTEX_STAGE
 #define TEXEL(image, place) textureLod(image, place, 0.0)
 #else
-#define TEXEL(image, place) texture(image, place)
+#define TEXEL(image, place) TEXTURE_AT(image, place)
 #endif
 
 Parameters parametersHere() {

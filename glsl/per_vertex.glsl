@@ -37,20 +37,20 @@ void carryLight(vec3 point, vec3 n) {
 }
 #else
 vec3 shade(vec4 base) {
-  LightSum sum = LightSum(vDiffuse, vec3(0.0));
+  LightSum sum = LightSum(CARRIED_AT(vDiffuse), vec3(0.0));
 #if SPECULAR
-  sum.specular = vSpecular;
+  sum.specular = CARRIED_AT(vSpecular);
 #endif
 #if TWO_SIDED
   if (!gl_FrontFacing) {
-    sum.diffuse = vBackDiffuse;
+    sum.diffuse = CARRIED_AT(vBackDiffuse);
 #if SPECULAR
-    sum.specular = vBackSpecular;
+    sum.specular = CARRIED_AT(vBackSpecular);
 #endif
   }
 #endif
 #if TEXTURED_METALNESS
-  float metalness = clamp(vMetalness, 0.0, 1.0);
+  float metalness = clamp(CARRIED_AT(vMetalness), 0.0, 1.0);
 #else
   float metalness = material.surface.x;
 #endif

@@ -27,6 +27,10 @@ layout(location = 6) in vec4 tangent;
 layout(location = 7) in vec2 normalTexcoord;
 #endif
 
+#if SHADES_AT_OFFSET
+out float vDistance;  // w of clip space
+#endif
+
 #if !UNLIT
 // Cofactors keep normals perpendicular under any transform; where the transform is a rotation with
 // one scale they stay unit and need no division.
@@ -46,6 +50,9 @@ invariant gl_Position;  // of the same depth as in layer.glsl
 void main() {
   vec4 eye = draw.eyeFromModel * vec4(position, 1.0);
   gl_Position = frame.projection * eye;
+#if SHADES_AT_OFFSET
+  vDistance = gl_Position.w;
+#endif
 #if VERTEX_COLORS
   vColor = vertexColor;
 #endif

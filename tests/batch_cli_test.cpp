@@ -129,6 +129,48 @@ class Running {
 
 }  // namespace
 
+// A model from a pipe is the picture of its file, and its faults are told as stdin's.
+TEST(Stdin, IsAModel) {
+  Folder folder("stdin");
+  ASSERT_EQ(runGlint(tiny({"render", sphere, "-o", folder / "file.png"})).status, 0);
+  for (const std::string name : {"-", "/dev/stdin"}) {
+    Running piped(tiny({"render", name, "-o", folder / "{model}.png"}));
+    piped.write(contents(sphere));
+    piped.closeIn();
+    EXPECT_EQ(piped.wait(), 0);
+    EXPECT_EQ(glint::readImage(folder / "stdin.png").values,
+              glint::readImage(folder / "file.png").values);
+    std::filesystem::remove(folder / "stdin.png");
+  }
+  Running info({"info", "-"});
+  info.write(contents(sphere));
+  info.closeIn();
+  EXPECT_THAT(info.line(), testing::StartsWith("stdin: "));
+  EXPECT_EQ(info.wait(), 0);
+
+  for (const std::string command : {"render", "info"}) {
+    std::vector<std::string> arguments{command, "-"};
+    if (command == "render") arguments = tiny({"render", "-", "-o", folder / "none.png"});
+    const Ran empty = runGlint(arguments);
+    EXPECT_EQ(empty.status, 2);
+    EXPECT_THAT(empty.err, HasSubstr("stdin: is empty: give a .gltf or .glb file"));
+  }
+  const Ran list = runGlint(
+      tiny({"render", "--from-list", listOf(folder, {sphere}), "-o", folder / "{folder}.png"}));
+  EXPECT_EQ(list.status, 0) << list.err;
+  EXPECT_THAT(folder.names(), ElementsAre("file.png", "list", "models.png"));
+}
+
+TEST(Stdin, IsNotTheListAndAModelOfIt) {
+  Folder folder("stdin-list");
+  Running both(tiny({"render", "--from-list", "-", "-o", folder / "{n}.png"}));
+  both.write("-\n" + sphere + "\n");
+  both.closeIn();
+  EXPECT_EQ(Json::parse(both.line())["status"], 2);
+  EXPECT_EQ(Json::parse(both.line())["status"], 0);
+  EXPECT_EQ(both.wait(), 2);
+}
+
 TEST(List, EachLineIsAPictureAndALineOfJson) {
   Folder folder("list");
   const std::string list = listOf(

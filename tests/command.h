@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +28,7 @@ struct Ran {
   int status = -1;  ///< exit status; -1 if it did not exit by itself
   int signal = 0;   ///< that ended it
   bool timedOut = false;
+  long peakKib = 0;  ///< the most memory that it held
   std::string out, err;
 
   std::vector<std::string> errorLines() const {
@@ -50,6 +52,7 @@ struct CommandOptions {
   std::string folder{};    ///< to run in
   bool closedOut = false;  ///< stdout is a pipe that nobody reads
   bool fullOut = false;    ///< stdout is a full disk
+  long fileLimit = 0;      ///< bytes that it may write into one file; 0: no limit
 };
 
 /// Runs the binary and waits for it.
@@ -79,6 +82,10 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
       else
         setenv(name.c_str(), value.c_str(), 1);
     }
+    if (options.fileLimit > 0) {
+      const rlimit limit{rlim_t(options.fileLimit), rlim_t(options.fileLimit)};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
     std::vector<char*> argv{const_cast<char*>(GLINT_EXECUTABLE)};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
@@ -91,13 +98,15 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
   const auto deadline =
       std::chrono::steady_clock::now() + std::chrono::seconds(options.timeoutSeconds);
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  rusage usage{};
+  while (wait4(child, &status, WNOHANG, &usage) == 0) {
     if (std::chrono::steady_clock::now() > deadline && !ran.timedOut) {
       ran.timedOut = true;
       kill(child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  ran.peakKib = usage.ru_maxrss;
   if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) ran.signal = WTERMSIG(status);
   ran.out = contents(outPath);

@@ -74,11 +74,78 @@ TEST(EnvironmentImage, LevelsKeepTheLightAndAUniformPicture) {
   }
 }
 
-TEST(EnvironmentImage, APoleIsOneColourFromTheFirstSmallerLevelOn) {
+// A radiance that is linear or quadratic in direction, at most 1.
+double linearIn(const glm::dvec3& d) { return 0.5 + 0.3 * d.x + 0.35 * d.y - 0.2 * d.z; }
+double quadraticIn(const glm::dvec3& d) { return 0.5 + 0.4 * (d.x * d.y + d.z * d.z - d.x * d.z); }
+
+// A mean over a footprint with the variance v along each axis is E + v (E_xx + E_yy) / 2. The
+// square of s has v = s^2 / 12; what the levels give has at most 1.27 s^2 / 9 (h^2 / 3 between
+// texels of the height h = s / sqrt(3), which the blend of two levels makes 1.27 times that): so
+// far is it from the value in the middle. E_xx is at most 0.5 of the linear radiance and 4 times
+// 0.7 of the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8 of both
+// second derivatives; towards a pole, the widening of a row, of what is quadratic, 0.35 h^2.
+TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
+  constexpr int height = 128;
+  constexpr double h = pi / height;
+  for (const bool isLinear : {true, false}) {
+    const auto truth = isLinear ? linearIn : quadraticIn;
+    const double bend = isLinear ? 0.5 : 2.8;
+    const EnvironmentImage image = imageOf(2 * height, height, [&](int x, int y, int) {
+      const double down = pi * (y + 0.5) / height, turn = pi * ((x + 0.5) / height - 1);
+      return truth(
+          {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
+    });
+    double worst = 0;
+    for (const double spread : {0.0, 0.01, 0.05, 0.07, 0.1, 0.2, 0.4})
+      for (int i = 0; i <= 400; ++i)
+        for (const double turn : {0.0, 0.3, 1.0, 1.6, 2.9, pi, -3.1, -2.0, -0.7}) {
+          // Through both poles and closely around them; at `turn` pi runs the seam.
+          const double down = i < 200 ? pi * i / 199 : (i % 2 ? 0.0 : pi) + 0.002 * (i - 300);
+          const glm::dvec3 d(std::sin(down) * std::sin(turn), std::cos(down),
+                             -std::sin(down) * std::cos(turn));
+          const double got = image.radiance(d, spread).x;
+          const double bound = bend * (1.27 * spread * spread / 9 + h * h / 4) +
+                               (isLinear ? 0.0 : 0.35 * 4 * spread * spread / 3) + 1e-6;
+          worst = std::max(worst, std::abs(got - truth(d)) / bound);
+          ASSERT_LE(std::abs(got - truth(d)), bound)
+              << "spread " << spread << " down " << down << " turn " << turn;
+        }
+    EXPECT_GT(worst, 0.1);
+  }
+}
+
+// The level rule: over all directions the mean of a square is met to a quarter of what it differs
+// from the value in its middle. 1 - s^2 / 12 of a linear radiance about its mean, 1 - s^2 / 4 of
+// the quadratic part.
+TEST(EnvironmentImage, LevelsHaveTheVarianceOfThePixel) {
+  constexpr int height = 256;
+  const EnvironmentImage image = imageOf(2 * height, height, [&](int x, int y, int) {
+    const double down = pi * (y + 0.5) / height, turn = pi * ((x + 0.5) / height - 1);
+    return linearIn(
+        {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
+  });
+  for (const double level : {2.0, 3.0, 4.0}) {  // whole, where one level is looked up
+    const double s = std::sqrt(3) * pi / height * std::exp2(level);
+    double got = 0, wanted = 0;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int i = 0; i < 20000;) {
+      const glm::dvec3 v(number(random), number(random), number(random));
+      if (!(glm::length(v) < 1) || glm::length(v) < 0.1) continue;
+      ++i;
+      const double e = linearIn(glm::normalize(v)) - 0.5;
+      got += e * (image.radiance(v, s).x - 0.5 - e);
+      wanted += e * (-s * s / 12 * e);
+    }
+    EXPECT_NEAR(got / wanted, 1, 0.25) << level;
+  }
+}
+
+TEST(EnvironmentImage, APoleIsSmoothFromTheFirstSmallerLevelOn) {
   std::mt19937 random(2);
   const EnvironmentImage image =
       imageOf(128, 64, [&](int, int, int) { return double(random() % 2); });
-  const double spread = 2 * pi / (0.6 * 64);  // level 1
+  const double spread = 2 * std::numbers::sqrt3 * pi / 64;  // level 1
   EXPECT_NEAR(image.levelFor(spread), 1, 1e-12);
   const double there = image.radiance({1e-9, 1, 0}, spread).x;
   for (int i = 1; i < 16; ++i)
@@ -97,6 +164,7 @@ TEST(EnvironmentImage, WhatIsNoRadianceCountsAsNone) {
   const float values[] = {-1, std::nanf(""), INFINITY, 2, 3, 4};
   const EnvironmentImage image = makeEnvironmentImage(2, 1, {std::begin(values), std::end(values)});
   EXPECT_EQ(image.levels[0].rgb, (std::vector<float>{0, 0, 1e30f, 2, 3, 4}));
+  EXPECT_EQ(image.corrected, 1u);  // texels, not values
 }
 
 TEST(EnvironmentImage, IsReadOnceAndOnlyWhereItShows) {

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "glint/shading/pbr_conversion.h"
 #include "glint/scene/camera.h"
+#include "glint/shading/pbr_conversion.h"
 #include "gltf_sample.h"
 
 namespace {

@@ -82,6 +82,11 @@ const std::vector<Good>& goodTexts() {
       {"shading", "auto", [](Look& l) { l.shading = Shading::automatic; }},
       {"max-error", "0", [](Look& l) { l.maxError = 0; }},
       {"max-error", "1e-3", [](Look& l) { l.maxError = 1e-3; }},
+      {"max-error", "1.5code",
+       [](Look& l) {
+         l.maxError = 1.5;
+         l.maxErrorInCodes = true;
+       }},
       {"highlight", "exact", [](Look&) {}},
       {"highlight", "pow", [](Look& l) { l.highlight = Highlight::pow; }},
       {"highlight", "integer", [](Look& l) { l.highlight = Highlight::integer; }},
@@ -301,11 +306,13 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
         "exact/2/3,pow",
         "exact/1,pow/1,exact/1,pow/1,exact"}},
       {"fresnel", {"", "Rational", "schlick-exp", "rational:2"}},
-      {"max-error", {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 "}},
+      {"max-error",
+       {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 ", "code", "1codes", "1 code"}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
       {"schlick-exponent", {"", "-0.1", "1e9", "nan"}},
       {"material",
-       {"",
+       {"a:,ior=2",
+        "",
         "=1",
         "exponent",
         "exponent=",

@@ -314,15 +314,18 @@ TEST(ReferenceSphere, IsASphereUpToItsFacets) {
   EXPECT_GT(worst, 1e-9);
 }
 
-TEST(ReferenceUsage, RefusesMultisamplingByName) {
+TEST(ReferenceUsage, RefusesNumbersOfSamplesWithoutAPattern) {
   Scene scene = sceneOf({{rectangle({0, 0}, {1, 1}), Material{}}});
   try {
-    draw(scene, Look{});
+    Look look;
+    look.antiAliasing = {glint::AntiAliasing::Mode::msaa, 6};
+    draw(scene, look);
     FAIL();
   } catch (const glint::InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "--anti-aliasing msaa:4: the reference draws none or ssaa:N: give --anti-aliasing "
-              "ssaa:4");
+    EXPECT_EQ(
+        std::string(error.what()),
+        "--anti-aliasing msaa:6: the reference draws msaa of 2, 4, 8 and 16 samples: give one "
+        "of these, or ssaa:N");
   }
 }
 

@@ -106,9 +106,9 @@ TEST(ReferenceTexture, LevelsOfDetail) {
   // The longer axis of the footprint decides, in texels: 3 across, 8 along.
   const TextureSampler trilinear(base, smaller,
                                  sampler(Filter::linear, Wrap::repeat, MipFilter::linear));
-  EXPECT_NEAR(trilinear.sample({0.3, 0.7}, {0.5, 0}, {0, 0.75}).r,
+  EXPECT_NEAR(trilinear.sample({0.3, 0.7}, {{0.5, 0}, {0, 0.75}}).r,
               (1 - std::log2(1.5)) * l1 + std::log2(1.5) * l2, decoding);
-  EXPECT_NEAR(trilinear.sample({0.3, 0.7}, {0.3, 0.4}, {0, 0}).r, l1, decoding);
+  EXPECT_NEAR(trilinear.sample({0.3, 0.7}, {{0.3, 0.4}, {0, 0}}).r, l1, decoding);
 }
 
 // Each texel of the next level is the mean over the area it covers, also of an odd size: of three
@@ -122,8 +122,8 @@ TEST(ReferenceTexture, OddSizesAreMeansOverArea) {
   EXPECT_TRUE(low < mean && mean < high);
 }
 
-// A plane that recedes: the texture's footprint is the analytic derivative of the perspective
-// coordinates, here of a floor: u = right * distance, v = distance.
+// A plane that recedes: the texture's footprint is the largest step of the perspective coordinates,
+// here of a floor: u = right * distance, v = distance, within the square of 2 x 2 pixels.
 TEST(ReferenceTexture, FootprintsInPerspective) {
   glint::Material floor;
   floor.unlit = floor.doubleSided = true;
@@ -150,10 +150,16 @@ TEST(ReferenceTexture, FootprintsInPerspective) {
     for (int x = 0; x < size; ++x) {
       if (pixel(image, x, y).a == 0) continue;
       const double right = 2 * (x + 0.5) / size - 1, up = 1 - 2 * (y + 0.5) / size;
-      const double step = 2.0 / size, distance = -1 / up;
-      const double alongX = distance * step * 16;
-      const double alongY = step / (up * up) * 16 * std::sqrt(1 + right * right);
-      const double lod = std::clamp(std::log2(std::max(alongX, alongY)), 0.0, 4.0);
+      const double step = 2.0 / size;
+      const double otherRight = x % 2 ? right - step : right + step;
+      const double otherUp = y % 2 ? up + step : up - step;  // the rows are even in number
+      const auto place = [](double r, double u) { return glm::dvec2(-r / u, -1 / u); };
+      double most = 0;
+      for (const double u : {up, otherUp})
+        most = std::max(most, glm::length(place(otherRight, u) - place(right, u)));
+      for (const double r : {right, otherRight})
+        most = std::max(most, glm::length(place(r, otherUp) - place(r, up)));
+      const double lod = std::clamp(std::log2(16 * most), 0.0, 4.0);
       const int level = std::min(int(lod), 3);
       const double t = lod - level;
       ++compared;

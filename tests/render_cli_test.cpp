@@ -371,7 +371,7 @@ TEST(Render, ReportsInJson) {
     EXPECT_TRUE(v["reasons"].is_object());
     EXPECT_EQ(v["materials"].size(), 1u);
     for (const char* key :
-         {"load", "decode", "context", "compile", "draw", "read", "encode", "total"}) {
+         {"load", "decode", "context", "choose", "compile", "draw", "read", "encode", "total"}) {
       ASSERT_TRUE(p["ms"].contains(key)) << key;
       EXPECT_GE(p["ms"][key].get<double>(), 0) << key;
     }

@@ -68,7 +68,8 @@ class Convergence : public OnStage {
                 Region region, glint::Highlight form = glint::Highlight::exact,
                 const GlslSources* sources = nullptr) {
     Look look = sphereLook(shading, light);
-    look.material[""] = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, 1.5, 0.0, m.color};
+    look.material[""] = {m.ambient,   m.diffuse, m.specular, m.exponent,
+                         m.metalness, 1.5,       0.0,        m.color};
     look.noBackground = true;
     look.highlight = form;
     const Image image =
@@ -216,10 +217,10 @@ std::string foldWithoutRenormalisation() {
   const std::string folder = temporaryFolder() + "/unnormalised";
   std::filesystem::create_directories(folder);
   std::string text = GlslSources().text("per_pixel.glsl");
-  const std::string call = "unit(surfaceNormal())";
+  const std::string call = "unit(surfaceNormal(at))";
   int replaced = 0;
   for (std::size_t at = text.find(call); at != std::string::npos; at = text.find(call)) {
-    text.replace(at, call.size(), "surfaceNormal()");
+    text.replace(at, call.size(), "surfaceNormal(at)");
     ++replaced;
   }
   EXPECT_GT(replaced, 0);

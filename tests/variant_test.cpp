@@ -20,7 +20,7 @@ using glint::test::VariantInputs;
 
 namespace glint {
 void PrintTo(const Variant& v, std::ostream* out) {
-  *out << shadingName(v.program) << (v.centroid ? " centroid" : "");
+  *out << shadingName(v.program) << (v.multisampled ? " multisampled" : "");
   for (const std::string& name : featureNames(v)) *out << " " << name;
 }
 }  // namespace glint
@@ -394,7 +394,7 @@ const Case cases[] = {
      [](VariantInputs& in) {
        in.look.antiAliasing = {AntiAliasing::Mode::msaa, 4};
      },
-     [](Variant& v, Shading) { v.centroid = true; }},
+     [](Variant& v, Shading) { v.multisampled = true; }},
     {"msaa:1",
      [](VariantInputs& in) {
        in.look.antiAliasing = {AntiAliasing::Mode::msaa, 1};

@@ -48,6 +48,39 @@ TEST(History, AnEditAfterUndoDropsWhatWasUndone) {
   EXPECT_EQ(now, withExponent({}, 1));
 }
 
+TEST(History, EachEditWhileAnAnimationPlaysIsAStepAndTimeIsNone) {
+  Document now;
+  History history(now);
+  double time = 0;
+  const auto frames = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      now.a.animationTime = time += 0.01;
+      history.settle(now, false, true);
+    }
+  };
+  frames(10);
+  EXPECT_EQ(history.undoSteps(), 0u);
+  for (int edit = 1; edit <= 3; ++edit) {
+    now = withExponent(now, edit);
+    frames(10);
+    EXPECT_EQ(history.undoSteps(), std::size_t(edit));
+  }
+  // It plays on while edits are taken back.
+  ASSERT_TRUE(history.undo(now, true));
+  EXPECT_EQ(now.a.material["paint"].exponent, 2);
+  EXPECT_EQ(now.a.animationTime, time);
+  frames(3);
+  ASSERT_TRUE(history.redo(now, true));
+  EXPECT_EQ(now.a.material["paint"].exponent, 3);
+  EXPECT_EQ(now.a.animationTime, time);
+  // That it has played is one step, when it stops.
+  history.settle(now, false);
+  EXPECT_EQ(history.undoSteps(), 4u);
+  ASSERT_TRUE(history.undo(now));
+  EXPECT_EQ(now.a.animationTime, std::nullopt);
+  EXPECT_EQ(now.a.material["paint"].exponent, 3);
+}
+
 TEST(History, HasNoLimit) {
   Document now;
   History history(now);

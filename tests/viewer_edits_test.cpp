@@ -1,9 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
+#include "glint/image/error.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
@@ -137,6 +142,49 @@ TEST(Session, WhatTheModelDoesNotHaveIsTold) {
   ASSERT_EQ(s.log.size(), 1u);
   EXPECT_THAT(s.log[0], HasSubstr("has no material 'Ruber', camera 7"));
   EXPECT_EQ(s.document.a, Look());
+}
+
+// Somebody saves the look while it is being edited here: theirs comes, ours stays and is not saved.
+TEST(Session, EditsStayWhenTheLookChangesOnDisk) {
+  const std::string path = testing::TempDir() + "glint-look-" + std::to_string(getpid()) + ".json";
+  const auto write = [&](const Look& look) { std::ofstream(path) << saveLook(look); };
+  Look disk;
+  disk.exposure = 1;
+  write(disk);
+  Session s = session();
+  readLookFile(s.document.a, path);
+  s.saved = s.lookOnDisk = s.document.a;
+  s.lookPath = path;
+  s.document.a.ambientLight = glm::dvec3(0.5);
+  ASSERT_TRUE(s.unsaved());
+
+  disk.exposure = 2;
+  disk.twoSided = true;
+  write(disk);
+  s.reloadLook();
+  EXPECT_EQ(s.document.a.ambientLight, glm::dvec3(0.5));
+  EXPECT_EQ(s.document.a.exposure, 2);
+  EXPECT_TRUE(s.document.a.twoSided);
+  EXPECT_TRUE(s.unsaved());
+  EXPECT_THAT(s.status, HasSubstr("your edits stay"));
+
+  // What was changed in both places stays as it is here; without edits all of it is theirs.
+  disk.ambientLight = glm::dvec3(0.25);
+  write(disk);
+  s.reloadLook();
+  EXPECT_EQ(s.document.a.ambientLight, glm::dvec3(0.5));
+  s.document.a = s.saved;
+  disk.exposure = 3;
+  write(disk);
+  s.reloadLook();
+  EXPECT_FALSE(s.unsaved());
+  EXPECT_EQ(s.document.a, disk);
+
+  // A file that is being written, or broken, changes nothing.
+  std::ofstream(path) << "{";
+  EXPECT_THROW(s.reloadLook(), InputError);
+  EXPECT_EQ(s.document.a, disk);
+  std::filesystem::remove(path);
 }
 
 TEST(Edits, TimeStaysWithinTheAnimation) {

@@ -10,6 +10,7 @@
 
 #include "edits.h"
 #include "glint/image/error.h"
+#include "glint/options/parameters.h"
 #include "imgui_versions.h"
 #include "interface.h"
 #include "materials.h"
@@ -35,6 +36,8 @@ App::App(Window& window, Look look, AppOptions options)
   session_.saved = session_.document.a;
   session_.history = History(session_.document);
   session_.lookPath = options_.look;
+  if (!options_.look.empty())
+    attempt([&] { readLookFile(session_.lookOnDisk, options_.look.string()); });
   lookState_ = stateOf(options_.look);
   if (!options_.model.empty()) load(options_.model);
 }
@@ -55,11 +58,11 @@ void App::advance(double passed) {
   double& time = session_.document.a.animationTime.emplace(
       session_.document.a.animationTime.value_or(0) + std::min(passed, 0.25));
   time = std::round(std::fmod(time, duration) * 1000) / 1000;
-  lastScroll_ = Clock::now();  // moves, as under a hand
+  lastPlayed_ = Clock::now();  // moves, as under a hand
 }
 
 bool App::gestureActive() const {
-  return session_.playing || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() ||
+  return ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() ||
          seconds(Clock::now() - lastScroll_) < 0.3;
 }
 
@@ -141,7 +144,7 @@ void App::run() {
     buildInterface();
     if (draw) present();
     interface.end(draw);
-    session_.history.settle(session_.document, gestureActive());
+    session_.history.settle(session_.document, gestureActive(), session_.playing);
   };
   while (!quitting_) {
     const double patience = session_.playing               ? 0.01

@@ -127,7 +127,7 @@ class App {
   ErrorNumbers errors_;
   CompareNumbers difference_;
   double uiMilliseconds_ = 0;
-  Clock::time_point lastChange_{}, lastScroll_{};
+  Clock::time_point lastChange_{}, lastScroll_{}, lastPlayed_{};
 
   glm::ivec2 framebuffer_{1}, resolution_{1};  ///< pixels
   double ratio_ = 1;                           ///< pixels per window coordinate

@@ -130,10 +130,10 @@ void App::execute(Action command) {
                           });
       break;
     case Action::undo:
-      if (!session_.history.undo(d)) session_.say("nothing to undo");
+      if (!session_.history.undo(d, session_.playing)) session_.say("nothing to undo");
       break;
     case Action::redo:
-      if (!session_.history.redo(d)) session_.say("nothing to redo");
+      if (!session_.history.redo(d, session_.playing)) session_.say("nothing to redo");
       break;
     case Action::copyMaterial:
       if (session_.model) {

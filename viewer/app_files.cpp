@@ -5,6 +5,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
+#include "glint/image/read_files.h"
 #include "glint/options/parameters.h"
 #include "materials.h"
 
@@ -111,13 +112,7 @@ bool App::watch() {
     if (now != lookState_ && now != FileState{}) {
       lookState_ = now;
       tried = true;
-      attempt([&] {
-        Look look;
-        readLookFile(look, session_.lookPath.string());
-        session_.document.a = look;
-        session_.saved = look;
-        session_.say("read " + session_.lookPath.string() + " again");
-      });
+      attempt([&] { session_.reloadLook(); });
     }
   }
   if (!options_.glsl.empty()) {
@@ -147,8 +142,9 @@ void App::open(const std::string& path) {
       Look look;
       readLookFile(look, path);
       if (session_.model) checkMaterialNames(session_.model->scene, look);
+      if (session_.lookPath != file) forgetReadFile(session_.lookPath.string());
       session_.document.a = look;
-      session_.saved = look;
+      session_.saved = session_.lookOnDisk = look;
       session_.lookPath = file;
       lookState_ = stateOf(file);
       session_.say("read the look " + path);

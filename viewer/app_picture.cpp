@@ -34,8 +34,9 @@ PaintRequest App::wanted(bool& moving) {
     lastFull_ = want.a;
     lastChange_ = now;
   }
-  moving = (ImGui::IsAnyMouseDown() || seconds(now - lastScroll_) < restAfter) &&
-           seconds(now - lastChange_) < restAfter;
+  moving =
+      (ImGui::IsAnyMouseDown() || seconds(now - std::max(lastScroll_, lastPlayed_)) < restAfter) &&
+      seconds(now - lastChange_) < restAfter;
   const bool isWhole =
       shownResult_.a && !shownResult_.request.preview && shownResult_.request.a == want.a;
   if (moving && !isWhole && pace_.tooSlow()) {

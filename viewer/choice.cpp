@@ -26,20 +26,6 @@ bool leavesOpen(const Look& look) {
   return look.maxError.has_value() || look.shading == Shading::automatic;
 }
 
-Look withChoice(Look look, const ResolvedLook& chosen) {
-  look.shading = chosen.look.shading;
-  if (!std::exchange(look.maxError, std::nullopt)) return look;
-  look.costTable.clear();
-  look.highlight = chosen.look.highlight;
-  look.fresnel = chosen.look.fresnel;
-  for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
-  for (const auto& [name, edit] : chosen.look.material) {
-    if (edit.highlight) look.material[name].highlight = edit.highlight;
-    if (edit.fresnel) look.material[name].fresnel = edit.fresnel;
-  }
-  return look;
-}
-
 std::shared_ptr<const ResolvedLook> Chooser::choose(const Scene& scene, const Bounds& bounds,
                                                     Look look, glm::ivec2 size, bool moves) {
   look.resolution = size;

@@ -10,10 +10,6 @@ namespace glint::viewer {
 /// Whether forms or the program of a look are still to be chosen: by --max-error or --shading auto.
 bool leavesOpen(const Look&);
 
-/// The look with what was chosen for it. `chosen` may be of an earlier state of the look: its
-/// forms are taken, its parameters are not.
-Look withChoice(Look, const ResolvedLook& chosen);
-
 /// What resolveLook() chooses for looks at a scene, kept for as long as what it depends on stays.
 class Chooser {
  public:

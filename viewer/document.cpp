@@ -10,30 +10,35 @@ bool comparesLooks(const Document& d) {
 
 bool comparesExact(const Document& d) { return d.compare != CompareMode::off && d.exact; }
 
-void History::settle(const Document& now, bool gesture) {
-  if (gesture || now == settled_) return;
-  undo_.push_back(std::exchange(settled_, now));
+void History::settle(const Document& now, bool gesture, bool playing) {
+  if (gesture) return;
+  Document next = now;
+  if (playing) next.a.animationTime = settled_.a.animationTime;
+  if (next == settled_) return;
+  undo_.push_back(std::exchange(settled_, std::move(next)));
   redo_.clear();
 }
 
-bool History::undo(Document& now) {
-  settle(now, false);
-  if (undo_.empty()) return false;
-  redo_.push_back(std::move(settled_));
-  settled_ = std::move(undo_.back());
-  undo_.pop_back();
+bool History::step(Document& now, bool playing, std::vector<Document>& from,
+                   std::vector<Document>& to) {
+  if (from.empty()) return false;
+  to.push_back(std::move(settled_));
+  settled_ = std::move(from.back());
+  from.pop_back();
+  const auto time = now.a.animationTime;
   now = settled_;
+  if (playing) now.a.animationTime = time;
   return true;
 }
 
-bool History::redo(Document& now) {
-  settle(now, false);
-  if (redo_.empty()) return false;
-  undo_.push_back(std::move(settled_));
-  settled_ = std::move(redo_.back());
-  redo_.pop_back();
-  now = settled_;
-  return true;
+bool History::undo(Document& now, bool playing) {
+  settle(now, false, playing);
+  return step(now, playing, undo_, redo_);
+}
+
+bool History::redo(Document& now, bool playing) {
+  settle(now, false, playing);
+  return step(now, playing, redo_, undo_);
 }
 
 Look withoutCamera(const Look& look) {

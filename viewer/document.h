@@ -27,23 +27,25 @@ bool comparesExact(const Document&);
 
 /// Undo and redo without limit. It is not told of edits: it sees them by comparison, so that none
 /// can be forgotten, and takes all that happens in one gesture (a drag, a typed number) as one
-/// step.
+/// step. While an animation plays, its time is no edit and stays as it is.
 class History {
  public:
   explicit History(Document start = {}) : settled_(std::move(start)) {}
 
   /// To be called after every frame. While `gesture` is true nothing becomes a step yet.
-  void settle(const Document& now, bool gesture);
+  void settle(const Document& now, bool gesture, bool playing = false);
 
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   std::size_t undoSteps() const { return undo_.size(); }
 
   /// Takes back the last step; an edit that is not settled yet is one. False if there is none.
-  bool undo(Document& now);
-  bool redo(Document& now);
+  bool undo(Document& now, bool playing = false);
+  bool redo(Document& now, bool playing = false);
 
  private:
+  bool step(Document& now, bool playing, std::vector<Document>& from, std::vector<Document>& to);
+
   Document settled_;
   std::vector<Document> undo_, redo_;
 };

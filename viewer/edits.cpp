@@ -185,6 +185,7 @@ bool edit(Session& session, Action command, const glm::dmat3& axes) {
       return true;
     case Action::maxError:
       look.maxError = look.maxError ? std::nullopt : std::optional(0.01);
+      look.maxErrorInCodes = false;
       session.say(look.maxError ? "the cheapest forms within 0.01" : "max error: off");
       return true;
     case Action::viewer:

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "choice.h"
+#include "glint/budget/error_budget.h"
 #include "glint/scene/look_text.h"
 #include "panel.h"
 #include "widgets.h"
@@ -78,7 +79,7 @@ void drawChoice(PanelContext& context) {
   if (picture->asked.maxError) {
     widgets::label("  bound");
     const std::string text = number(resolved.bound);
-    if (resolved.bound > *picture->asked.maxError)
+    if (resolved.bound > *errorBudget(picture->asked))
       ImGui::TextColored(overColor, "%s", text.c_str());
     else
       ImGui::TextUnformatted(text.c_str());

@@ -71,7 +71,7 @@ int itemOf(const DrawList& list, int instance, bool back) {
 bool covers(const reference::Primitive& primitive, const glm::ivec2& grid, glm::ivec2 pixel) {
   if (primitive.topology == Topology::triangles) return true;
   bool found = false;
-  reference::forEachSample(primitive, grid, pixel.y, pixel.y + 1,
+  reference::forEachSample(primitive, grid, pixel.y, pixel.y + 1, glm::dvec2(0.0),
                            [&](int column, int) { found = found || column == pixel.x; });
   return found;
 }

@@ -10,6 +10,7 @@
 #include "glint/image/read_files.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/material_key.h"
+#include "look_merge.h"
 #include "materials.h"
 
 namespace glint::viewer {
@@ -95,7 +96,18 @@ void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution)
   file.commit();
   lookPath = path;
   saved = document.a;
+  lookOnDisk = look;
   say("saved the look as " + path.string());
+}
+
+void Session::reloadLook() {
+  Look now;
+  readLookFile(now, lookPath.string());
+  const bool edited = unsaved();
+  document.a = mergedLook(document.a, lookOnDisk, now);
+  saved = mergedLook(saved, lookOnDisk, now);
+  lookOnDisk = now;
+  say("read " + lookPath.string() + " again" + (edited ? "; your edits stay" : ""));
 }
 
 void Session::take(std::shared_ptr<const Model> loaded) {

@@ -70,6 +70,7 @@ struct Session {
 
   std::filesystem::path lookPath;  ///< where saveLook writes without asking; empty: asks
   Look saved;                      ///< as it was opened or last saved
+  Look lookOnDisk;                 ///< what lookPath held when it was last read or written
   /// Materials that stand edited in the model's file since it was opened, by their places in it.
   std::set<std::size_t> writtenMaterials;
 
@@ -84,6 +85,10 @@ struct Session {
   void saveModel(const std::filesystem::path& path);
   /// Throws InputError. `resolution` is that of the window's picture.
   void saveLook(const std::filesystem::path& path, glm::ivec2 resolution);
+
+  /// Reads lookPath, which has changed, again: what it says now stands, but for what has been
+  /// edited here, which stays and stays unsaved. Throws InputError and changes nothing.
+  void reloadLook();
 
   /// Puts a newly loaded model in place of the old one. Edits and camera stay if it is the same
   /// file; otherwise edits of materials that it does not have go.

@@ -12,6 +12,7 @@
 #include "glint/image/read_files.h"
 #include "glint/options/help.h"
 #include "glint/options/parameters.h"
+#include "glint/options/read_options.h"
 #include "glint/scene/material_key.h"
 
 namespace glint {
@@ -65,6 +66,35 @@ void checkKind(const ConvertOptions& options, bool glb) {
                    " file and stays one: give a name that ends in " + (glb ? ".glb" : ".gltf"));
 }
 
+constexpr std::uint64_t mostCopied = std::uint64_t(8) << 30;
+
+// Hands over a file in parts until `use` gives false; false then.
+template <typename Use>
+bool forEachPart(const gltf::ByteSource& source, const Use& use) {
+  std::vector<std::byte> part(std::size_t(1) << 20);
+  for (std::uint64_t at = 0; at < source.size(); at += part.size()) {
+    part.resize(std::size_t(std::min<std::uint64_t>(part.size(), source.size() - at)));
+    if (!source.read(part.data(), at, part.size()))
+      throw InputError("convert: a file beside the model cannot be read: check the disk");
+    if (!use(part)) return false;
+  }
+  return true;
+}
+
+bool sameBytes(const fs::path& path, const gltf::ByteSource& source) {
+  std::string error;
+  const gltf::RegularFile file(path, {}, error);
+  if (!error.empty() || file.size() != source.size()) return false;
+  std::uint64_t at = 0;
+  std::vector<std::byte> there;
+  return forEachPart(source, [&](std::span<const std::byte> part) {
+    there.resize(part.size());
+    const bool read = file.read(there.data(), at, there.size());
+    at += part.size();
+    return read && std::ranges::equal(there, part);
+  });
+}
+
 // Files beside IN that OUT needs beside it too, where it lies in another folder. All is looked at
 // before anything is written.
 void copyReferred(const ConvertOptions& options, std::span<const std::byte> bytes) {
@@ -72,27 +102,38 @@ void copyReferred(const ConvertOptions& options, std::span<const std::byte> byte
                  to = fs::path(options.out).parent_path();
   const auto folder = [](const fs::path& p) { return fs::weakly_canonical(p.empty() ? "." : p); };
   if (options.out == "-" || folder(from) == folder(to)) return;
-  std::vector<std::pair<std::string, std::vector<std::byte>>> copies;
+  std::vector<std::pair<std::string, gltf::ByteSource>> copies;
   for (const std::string& uri : referredFiles(bytes, options.in)) {
     const fs::path name = fs::path(gltf::percentDecoded(uri)).lexically_normal();
     if (name.is_absolute() || name.empty() || *name.begin() == "..")
       throw InputError(options.in + ": refers to " + gltf::printableUri(uri) +
                        ", outside of its folder: write " + options.out + " beside it");
-    std::vector<std::byte> content = readFile((from / name).string());
+    std::string error;
+    gltf::ByteSource content = gltf::openUri(uri, options.in, error);
+    if (!error.empty())
+      throw InputError(options.in + ": " + gltf::printableUri(uri) + ", which it refers to, " +
+                       error + ": write " + options.out + " beside it");
     const fs::path target = to / name;
     if (fs::weakly_canonical(target) == fs::weakly_canonical(options.out))
       throw InputError(options.out + ": " + options.in +
                        " refers to a file of this name: " + "give another name");
-    if (fs::exists(target) && readFile(target.string(), Noted::no) != content)
+    const bool there = fs::exists(target);
+    if (there && !sameBytes(target, content))
       throw InputError(target.string() + ": is another file than the one of " + options.in +
                        ": write to another folder");
-    if (!fs::exists(target)) copies.emplace_back(target.string(), std::move(content));
+    if (content.size() > mostCopied)
+      throw InputError(target.string() + ": has more than 8 GiB: write " + options.out +
+                       " beside " + options.in);
+    if (!there) copies.emplace_back(target.string(), std::move(content));
   }
   for (const auto& [target, content] : copies) {
     std::error_code ignored;  // what is wrong with the folder shows when the file is written
     fs::create_directories(fs::path(target).parent_path(), ignored);
     OutputFile file(target);
-    file.write(content);
+    forEachPart(content, [&](std::span<const std::byte> part) {
+      file.write(part);
+      return true;
+    });
     file.commit();
   }
 }
@@ -149,6 +190,7 @@ Command addConvert(CLI::App& app) {
       ->add_option("--look", options->look,
                    "take the materials of this look (JSON), or of a picture that glint has drawn")
       ->type_name("FILE");
+  addConfineOption(*command);
   command->add_flag("--in-place", options->inPlace, "allow OUT to be IN");
   return [options] { return convert(*options); };
 }

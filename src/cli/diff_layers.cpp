@@ -5,13 +5,14 @@
 #include <cstdio>
 
 #include "glint/image/file.h"
+#include "glint/image/metrics.h"
 
 namespace glint {
 namespace {
 
 bool isOfValues(const std::string& metric) {
-  for (const char* name : {"max", "mean", "rmse", "relative-rmse", "psnr"})
-    if (metric == name) return true;
+  for (const detail::MetricRow& row : detail::metricRows())
+    if (row.name == metric) return row.ofValues != nullptr;
   return false;
 }
 

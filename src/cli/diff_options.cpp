@@ -75,19 +75,22 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
     return command.add_option(name, value, help)->type_name(type)->take_last();
   };
-  given.metric =
-      command
-          .add_option("--metric", given.metricNames,
-                      "max, mean, rmse, relative-rmse, psnr, pixels, ssim, flip or hdr-flip; "
-                      "repeatable; without a threshold it is only reported")
-          ->type_name("NAME")
-          ->allow_extra_args(false);
+  std::string names, similarities;
+  for (const std::string& name : metricNames()) {
+    names += name + (name == metricNames().back() ? "" : ", ");
+    if (isSimilarity(name)) similarities += (similarities.empty() ? "" : ", ") + name;
+  }
+  given.metric = command
+                     .add_option("--metric", given.metricNames,
+                                 names + "; repeatable; without a threshold it is only reported")
+                     ->type_name("NAME")
+                     ->allow_extra_args(false);
   given.threshold =
       command
-          .add_option(
-              "--threshold", given.thresholds,
-              "limit of the metric before it: the largest value that passes (psnr, ssim: the "
-              "smallest); without any limit the pictures must be identical")
+          .add_option("--threshold", given.thresholds,
+                      "limit of the metric before it: the largest value that passes (" +
+                          similarities +
+                          ": the smallest); without any limit the pictures must be identical")
           ->type_name("T")
           ->allow_extra_args(false);
   command

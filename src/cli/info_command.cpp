@@ -12,11 +12,13 @@
 #include "glint/image/printable.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
+#include "glint/options/read_options.h"
 #include "glint/render/decode.h"
 #include "glint/render/draw_list.h"
 #include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
 #include "report.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
@@ -250,14 +252,18 @@ Command addInfo(CLI::App& app) {
   command->footer(examples({"info helmet.glb", "info helmet.glb --max-error 0.01",
                             "info helmet.glb --shading environment --json -"}));
   auto model = std::make_shared<std::string>(), jsonFile = std::make_shared<std::string>();
-  command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb")->required();
+  command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb; - is stdin")->required();
   command->add_option("--json", *jsonFile, "write the list as JSON; - is stdout")
       ->type_name("FILE");
+  addConfineOption(*command);
+  addDecodeLimitOption(*command);
   auto makeLook = addLookOptions(*command);
   return [=] {
     checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});
     const Look look = makeLook();
-    Scene scene = loadGltf(*model, poseOf(look));
+    Scene scene = readModelFile(
+        *model, [&](const std::string& path) { return loadGltf(path, poseOf(look)); });
+    if (isStdin(*model)) scene.name = "stdin";
     checkMaterialNames(scene, look);
     // Whether what may blend does is told by its texels.
     const auto blends = [](const Material& m) { return m.alphaMode == AlphaMode::blend; };

@@ -13,6 +13,7 @@
 #include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
 #include "interrupt.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
@@ -101,7 +102,10 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
   if (!model.error.empty()) return model;
   try {
     const auto start = Clock::now();
-    model.hash = modelHash(entry.model);
+    if (options_.list == "-" && isStdin(entry.model))
+      throw InputError("--from-list -: " + entry.model + " in it: stdin is the list: give a file");
+    const std::string path = modelFile(entry.model);
+    model.hash = modelHash(path);
     if (options_.resume) {
       PictureOrigin origin{model.hash, {}, options_.bitDepth, {}};
       if (!options_.usesReference()) origin.gl.emplace();
@@ -112,8 +116,9 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
       if (std::find(model.present.begin(), model.present.end(), false) == model.present.end())
         return model;
     }
-    model.file.emplace(entry.model);
+    model.file.emplace(path);
     model.scene = model.file->take(poseOf(look_));
+    if (isStdin(entry.model)) model.scene.name = "stdin";
     model.bounds = model.allBounds = boundsOf(model.scene);
     if (options_.frames > 0)
       lookThroughFrames(model);
@@ -128,6 +133,7 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     model.decodeTime = since(decode);
   } catch (const std::exception& failure) {
     model.error = failureOf(failure, entry.model);
+    if (isStdin(entry.model) && options_.list != "-") model.error = withoutModelFile(model.error);
   }
   return model;
 }

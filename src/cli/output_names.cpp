@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "glint/image/error.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
@@ -14,10 +15,17 @@ std::string padded(std::size_t number, std::size_t count) {
   return text;
 }
 
+// The name of the folder that a model stands in; empty at the root.
+std::string folderOf(const std::string& model) {
+  if (isStdin(model)) return "stdin";
+  return std::filesystem::absolute(model).lexically_normal().parent_path().filename().string();
+}
+
 }  // namespace
 
 OutputPattern::OutputPattern(const std::string& pattern, bool frames) {
-  const std::string keys = frames ? "use {model}, {n} or {frame}" : "use {model} or {n}";
+  const std::string keys =
+      frames ? "use {model}, {folder}, {n} or {frame}" : "use {model}, {folder} or {n}";
   std::string text;
   const auto endText = [&] {
     if (!text.empty()) pieces_.push_back({Piece::Kind::text, text});
@@ -34,6 +42,8 @@ OutputPattern::OutputPattern(const std::string& pattern, bool frames) {
     endText();
     if (key == "model")
       pieces_.push_back({Piece::Kind::model, {}});
+    else if (key == "folder")
+      pieces_.push_back({Piece::Kind::folder, {}});
     else if (key == "n")
       pieces_.push_back({Piece::Kind::number, {}});
     else if (key == "frame" && frames)
@@ -55,7 +65,10 @@ std::string OutputPattern::name(const std::string& model, std::size_t number, st
         name += piece.text;
         break;
       case Piece::Kind::model:
-        name += std::filesystem::path(model).stem().string();
+        name += isStdin(model) ? "stdin" : std::filesystem::path(model).stem().string();
+        break;
+      case Piece::Kind::folder:
+        name += folderOf(model);
         break;
       case Piece::Kind::number:
         name += padded(number, models);

@@ -9,7 +9,8 @@
 namespace glint {
 
 /// A template for the names of pictures: {model} stands for the model file's name without folder
-/// and ending, {n} for its number from 0, {frame} for the picture's number from 0.
+/// and ending, {folder} for the name of the folder it stands in ("stdin" both, of standard input),
+/// {n} for its number from 0, {frame} for the picture's number from 0.
 class OutputPattern {
  public:
   /// Throws InputError for an unknown {key} and for an unfinished one, and for {frame} without
@@ -23,7 +24,7 @@ class OutputPattern {
 
  private:
   struct Piece {
-    enum class Kind { text, model, number, frame } kind;
+    enum class Kind { text, model, folder, number, frame } kind;
     std::string text;
   };
   std::vector<Piece> pieces_;

@@ -55,7 +55,10 @@ class ReferenceSource : public PictureSource {
   }
   const DrawList& list() const override { return renderer_->list(); }
   RenderTimes times() const override { return times_; }
-  int samples() const override { return samplesOf(look_.antiAliasing, 1); }
+  int samples() const override {
+    const bool msaa = look_.antiAliasing.mode == AntiAliasing::Mode::msaa;
+    return samplesOf(look_.antiAliasing, msaa ? look_.antiAliasing.count : 1);
+  }
 
  private:
   const Look look_;

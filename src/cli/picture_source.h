@@ -29,6 +29,10 @@ class Stage {
   Stage(Renderer* renderer, LoadedModel& model);
   std::unique_ptr<PictureSource> picture(const Look& look);
   Image term(const Look& look, const PictureTerm& term);
+  /// Of textures that the driver could not take as they are.
+  std::vector<std::string> takeWarnings() {
+    return scene_ ? scene_->takeWarnings() : std::vector<std::string>();
+  }
   const LoadedModel& model() const { return model_; }
 
  private:

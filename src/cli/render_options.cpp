@@ -4,16 +4,17 @@
 
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/options/read_options.h"
 
 namespace glint {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
-  command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb");
+  command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb; - is stdin");
   command
       .add_option("-o,--output", options.output,
                   "the picture: .png (8 or 16 bits, sRGB), .exr or .pfm (linear float), - (PNG to "
-                  "stdout); {model} is replaced by the model's name, {n} by its number, {frame} by "
-                  "the picture's number")
+                  "stdout); {model} is replaced by the model's name, {folder} by that of its "
+                  "folder, {n} by its number, {frame} by the picture's number")
       ->type_name("OUT")
       ->required()
       ->take_last();
@@ -61,6 +62,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       "also write the terms whose sum the picture is (ambient, diffuse and specular of "
       "each light, reflection, refraction, emission, background), normal and depth: as "
       "layers of an EXR, or one file each (OUT.ambient.png)");
+  addConfineOption(command);
+  addDecodeLimitOption(command);
   const char* batch = "Batches";
   command
       .add_option(

@@ -104,8 +104,10 @@ class ModelDrawing {
     pose(planned);
     const Look asked = lookOf(planned, run_.options, run_.look, model_);
     checkMaterialNames(model_.scene, asked);
-    const ResolvedLook resolved = resolveLook(model_.scene, model_.bounds, asked);
-    const Look& look = resolved.look;
+    const auto choosing = Clock::now();
+    const ResolvedLook& resolved = choiceFor(planned, asked);
+    const double chooseTime = since(choosing);
+    const Look look = withChoice(asked, resolved);
     if (run_.saveResolved) run_.saveResolved(look);
     const auto source = run_.sweeps.empty()
                             ? stage_->picture(look)
@@ -123,6 +125,10 @@ class ModelDrawing {
     else
       drawRows(planned, *source, file, out);
     if (Interrupt::signal() != 0) return;
+    for (std::string& warning : stage_->takeWarnings()) {
+      result.news.push_back(model_.entry.model + ": " + warning);
+      result.warnings.push_back(std::move(warning));
+    }
     const RenderTimes times = source->times();
     result.entry["triangles"] = triangleCount(model_.scene, source->list());
     result.entry["draws"] = source->list().items.size();
@@ -136,6 +142,7 @@ class ModelDrawing {
     Json& ms = result.entry["ms"] = {{"load", fresh ? model_.loadTime : 0.0},
                                      {"decode", fresh ? model_.decodeTime : 0.0},
                                      {"context", first ? run_.contextTime : 0.0},
+                                     {"choose", chooseTime},
                                      {"compile", times.compile},
                                      {"draw", times.draw},
                                      {"read", times.read},
@@ -150,13 +157,35 @@ class ModelDrawing {
     });
   }
 
+  // One choice for all pictures of a sequence: neither forms nor program change between them. Other
+  // shards of it come to the same.
+  const ResolvedLook& choiceFor(const PlannedPicture& planned, const Look& asked) {
+    if (choice_) return *choice_;
+    const std::size_t count = run_.options.hasFrames() ? run_.options.frameCount() : 1;
+    if (count == 1 || !(asked.maxError || asked.shading == Shading::automatic))
+      return choice_.emplace(resolveLook(model_.scene, model_.bounds, asked));
+    choice_ = resolveSequence(count, [&](std::size_t frame) -> LookAtScene {
+      PlannedPicture each = planned;
+      each.frame = frame;
+      if (model_.file) poseScene(each);
+      return {model_.scene, model_.bounds, lookOf(each, run_.options, run_.look, model_)};
+    });
+    if (model_.file) pose(planned);
+    return *choice_;
+  }
+
+  void poseScene(const PlannedPicture& planned) {
+    PoseRequest request = poseOf(run_.look);
+    request.time = model_.duration * double(planned.frame) / run_.options.frames;
+    model_.file->pose(model_.scene, request);
+    model_.bounds = boundsOf(model_.scene);
+  }
+
   // What moves goes to the driver anew with each picture of a sequence.
   void pose(const PlannedPicture& planned) {
     if (model_.file) {
       stage_.reset();
-      const double time = model_.duration * double(planned.frame) / run_.options.frames;
-      model_.file->pose(model_.scene, {time, run_.look.animation});
-      model_.bounds = boundsOf(model_.scene);
+      poseScene(planned);
     }
     if (!stage_) stage_.emplace(run_.renderer, model_);
   }
@@ -238,6 +267,7 @@ class ModelDrawing {
   LoadedModel model_;
   std::optional<Stage> stage_;
   std::string lastError_;
+  std::optional<ResolvedLook> choice_;
   bool told_ = false;  ///< the model's warnings and times, with its first picture
 };
 

@@ -41,7 +41,8 @@ Json variantsJson(const Scene& scene, const DrawList& list, const Look& given) {
 Json choiceJson(const ResolvedLook& resolved, const Look& asked) {
   Json json = Json::object();
   if (asked.maxError) {
-    json["max-error"] = *asked.maxError;
+    json["max-error"] = *errorBudget(asked);
+    if (asked.maxErrorInCodes) json["codes"] = *asked.maxError;
     json["costs"] = asked.costTable.empty() ? "shipped" : asked.costTable;
   }
   json["bound"] = resolved.bound;

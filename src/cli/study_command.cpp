@@ -13,6 +13,7 @@
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
+#include "glint/options/read_options.h"
 #include "glint/study/cost_measurement.h"
 #include "glint/study/page.h"
 #include "glint/study/results.h"
@@ -232,6 +233,7 @@ Command addStudy(CLI::App& app) {
       ->add_option("--markdown", given->markdown,
                    "write the study's questions and answers, with figures, to this file")
       ->type_name("FILE");
+  addDecodeLimitOption(*command);
   command->add_option("--json", given->json, "write the whole result; - is stdout")
       ->type_name("FILE");
   command

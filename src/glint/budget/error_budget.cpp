@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "glint/budget/cost_file.h"
 #include "glint/budget/form_choice.h"
 #include "glint/budget/interpolation_bound.h"
+#include "glint/budget/scene_distance.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
@@ -53,41 +55,6 @@ Surroundings surroundingsOf(const Look& look) {
   return {largestRadiance(map), steepestRadiance(map)};
 }
 
-double distanceToEdge(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 way = b - a;
-  const double square = glm::dot(way, way);
-  const double t = square > 0 ? std::clamp(glm::dot(p - a, way) / square, 0.0, 1.0) : 0.0;
-  return glm::length(p - a - t * way);
-}
-
-double distanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
-                          const glm::dvec3& c) {
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const double size = glm::length(n);
-  const bool above = size > 0 && glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
-                     glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
-                     glm::dot(glm::cross(a - c, p - c), n) >= 0;
-  return above ? std::abs(glm::dot(p - a, n)) / size
-               : std::min(
-                     {distanceToEdge(p, a, b), distanceToEdge(p, b, c), distanceToEdge(p, c, a)});
-}
-
-// How near the lit surfaces of the scene come to a point.
-double distanceToScene(const Scene& scene, const glm::dvec3& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-    if (mesh.topology != Topology::triangles) continue;
-    const auto at = [&](std::size_t i) {
-      const glm::dvec3 x = glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.origin;
-      return glm::dvec3(instance.world * glm::dvec4(x, 1.0));
-    };
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      least = std::min(least, distanceToTriangle(point, at(i), at(i + 1), at(i + 2)));
-  }
-  return least;
-}
-
 // What all surfaces have in common.
 struct Setting {
   Look given;
@@ -95,6 +62,10 @@ struct Setting {
   Camera camera;
   std::vector<glint::Light> lights;
   LightReach reach;
+  // How far rounding turns the direction to each light, and to the viewer; radians.
+  std::vector<double> turns;
+  double viewTurn = 0;
+  double spotTurn = 0;        // the same, each times the turn of its light
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
@@ -112,6 +83,18 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
   const std::vector<glint::Light> given = lightsOf(s.look);
   for (const std::size_t i : shiningLights(given)) s.lights.push_back(given[i]);
+  // Positions are floats in eye space, whose rounding is that of the largest coordinates on the way
+  // to them: of the vertices (three products, three sums, the model's own coordinates) and of the
+  // interpolation between them, 16 roundings in all. A lamp or an eye at the distance d sees
+  // them turned by that over d.
+  const double reach = glm::length(s.camera.eye - bounds.center) + 3 * bounds.radius;
+  const double placeError = 16 * u * reach;
+  const auto turnAt = [&](double distance) {
+    return std::min(placeError / std::max(distance, 1e-300) + 2 * u, 2.0);
+  };
+  const SceneDistance distance(scene);
+  if (!s.camera.orthographic && look.viewer == Viewer::local)
+    s.viewTurn = turnAt(std::max(distance.to(s.camera.eye), s.camera.near));
   std::vector<glm::dvec3> directions, intensities;
   for (const glint::Light& light : s.lights) {
     const bool camera = light.type == glint::Light::Type::camera;
@@ -120,12 +103,14 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       directions.push_back(camera ? s.camera.axes * direction : direction);
       intensities.push_back(light.intensity);
       s.reach.most.push_back(light.intensity);
+      s.turns.push_back(0);
       continue;
     }
+    const double way = distance.to(light.position);
+    s.turns.push_back(turnAt(way));
     // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
     double most = 1;
     if (light.fallsOff) {
-      const double way = distanceToScene(scene, light.position);
       most = 1 / std::pow(std::max(way, 1e-6), 2);
     }
     s.reach.most.push_back(most * light.intensity);
@@ -134,6 +119,7 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
       constexpr double radians = 0.017453292519943295;
       const double range =
           std::cos(light.innerAngle * radians) - std::cos(light.outerAngle * radians);
+      s.spotTurn += s.turns.back() * most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
       s.spotSteepness += most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);
     }
   }
@@ -183,6 +169,30 @@ std::vector<double> exponentsOf(const Material& material, const Variant& v, cons
   return exponents;
 }
 
+// What the turn of the directions to lamps and viewer adds to the sum: N.L moves by the turn, a
+// lobe by the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by
+// its slope.
+double turnError(const Setting& setting, const ShadingParameters& m,
+                 const std::vector<double>& exponents, const glm::dvec3& C, const glm::dvec3& S,
+                 const Variant& v) {
+  const double matte = v.diffuse ? m.diffuse * largest(C) : 0.0;
+  const double shine = v.specular ? m.specular * largest(S) : 0.0;
+  const auto lobeMoves = [&](double turn) {
+    double most = 0;
+    for (const double alpha : exponents)
+      most = std::max(most, lobeTurnBound(alpha, setting.blinn, turn));
+    return std::min(most, 1.0);
+  };
+  double error = setting.spotTurn * (matte + shine);
+  for (std::size_t i = 0; i < setting.lights.size(); ++i) {
+    const double turn = setting.turns[i], most = largest(setting.reach.most[i]);
+    error += most * (matte * std::min(turn, 1.0) + shine * lobeMoves(turn));
+    if (setting.lights[i].fallsOff && turn > 0)
+      error += most * (matte + shine) * (turn < 0.25 ? 3 * turn : 1e6);
+  }
+  return error + largest(setting.reach.together) * shine * lobeMoves(setting.viewTurn);
+}
+
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
                 const Variant& v) {
   const ShadingParameters m = brightestNumbers(material, v);
@@ -197,14 +207,16 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
   const glm::dvec3 S = mixed ? glm::max(C, 1.0) : m.metalness * C + (1.0 - m.metalness);
   const double dielectric = mixed ? 1.0 : 1.0 - m.metalness;
   const glm::dvec3& light = setting.reach.together;
+  std::vector<double> exponents;
   if (v.specular) {
+    exponents = exponentsOf(material, v, setting.look);
     needs.specular = true;
     // What lets light through shows that much less of the sum.
     const bool veiled =
         v.program == Shading::environment && (v.textured & textured::transmission) == 0;
     const double shown = veiled ? 1 - m.transmission : 1.0;
     needs.shine = glm::max(needs.shine, shown * m.specular * S);
-    for (const double exponent : exponentsOf(material, v, setting.look))
+    for (const double exponent : exponents)
       if (std::ranges::find(needs.exponents, exponent) == needs.exponents.end())
         needs.exponents.push_back(exponent);
   }
@@ -222,6 +234,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
   // An exponent of the relative error e changes a lobe by at most e / exp(1); the fourth power, two
   // products and a difference give 8 u, where the exponent is above 1, and at most 8 u of it below.
   if (v.textured & textured::exponent) rounding += 8.0 * u * shine;
+  rounding += turnError(setting, m, exponents, C, S, v);
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
     const auto [radiance, steep] = setting.surroundings;
@@ -236,7 +249,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
     // cosines.
     rounding +=
-        1e-5 + 2e-6 * steep +
+        1e-5 + (2e-6 + 2 * setting.viewTurn) * steep +
         (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
     if (v.refraction)
       rounding += largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided));
@@ -298,8 +311,9 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
 
 using Groups = std::map<std::string, Group>;
 
-Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
-  Groups groups;
+// Of one picture. Gives how many triangles of it are blended.
+std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setting,
+                        Shading program) {
   std::size_t blended = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -317,8 +331,7 @@ Groups groupsOf(const Scene& scene, const Setting& setting, Shading program) {
                                                  setting.look, setting.camera, setting.lights, v},
                                                 program));
   }
-  if (blended > 0) addBlending(groups, blended, setting.look);
-  return groups;
+  return blended;
 }
 
 // A form that all have in common stands in the look, several with their materials.
@@ -356,11 +369,18 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
          &MaterialEdit::fresnel);
 }
 
-ResolvedLook chosenFor(const Scene& scene, const Setting& setting, Shading program, double budget) {
+// Of two pictures: a bound of what lights bring to either.
+void include(LightReach& reach, const LightReach& other) {
+  for (std::size_t i = 0; i < reach.most.size() && i < other.most.size(); ++i)
+    reach.most[i] = glm::max(reach.most[i], other.most[i]);
+  reach.together = glm::max(reach.together, other.together);
+}
+
+ResolvedLook chosenFor(Groups groups, const Setting& setting, Shading program, double budget) {
   ResolvedLook resolved;
   resolved.look = setting.given;
   resolved.look.shading = program;
-  for (auto& [name, group] : groupsOf(scene, setting, program)) {
+  for (auto& [name, group] : groups) {
     resolved.choices.push_back(choiceFor(name, group, setting, budget));
     resolved.bound = std::max(resolved.bound, resolved.choices.back().bound);
   }
@@ -417,39 +437,85 @@ glm::dvec3 activeIntensity(const std::vector<glm::dvec3>& directions,
   return glm::min(most, all);
 }
 
+std::optional<double> errorBudget(const Look& look) {
+  if (!look.maxError || !look.maxErrorInCodes) return look.maxError;
+  return *look.maxError / (255 * 12.92) / std::exp2(look.exposure);
+}
+
+Look withChoice(Look look, const ResolvedLook& chosen) {
+  look.shading = chosen.look.shading;
+  if (!std::exchange(look.maxError, std::nullopt)) return look;
+  look.maxErrorInCodes = false;
+  look.costTable.clear();
+  look.highlight = chosen.look.highlight;
+  look.fresnel = chosen.look.fresnel;
+  for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
+  for (const auto& [name, edit] : chosen.look.material) {
+    if (edit.highlight) look.material[name].highlight = edit.highlight;
+    if (edit.fresnel) look.material[name].fresnel = edit.fresnel;
+  }
+  return look;
+}
+
 ResolvedLook resolveLook(const Scene& scene, const Bounds& bounds, const Look& look) {
+  return resolveSequence(1, [&](std::size_t) { return LookAtScene{scene, bounds, look}; });
+}
+
+ResolvedLook resolveSequence(std::size_t count,
+                             const std::function<LookAtScene(std::size_t)>& picture) {
   ResolvedLook resolved;
-  resolved.look = look;
-  const bool automatic = look.shading == Shading::automatic;
-  resolved.look.shading = programOf(look);
+  resolved.look = picture(0).look;
+  const bool automatic = resolved.look.shading == Shading::automatic;
+  const std::optional<double> budget = errorBudget(resolved.look);
+  resolved.look.shading = programOf(resolved.look);
   if (automatic) resolved.programReason = "phong: no --max-error to keep within";
-  if (!look.maxError) return resolved;
-  const double budget = *look.maxError;
-  Look plain = resolved.look;
-  plain.maxError.reset();
-  clearForms(plain);
-  const Setting setting = settingFor(scene, bounds, plain);
-  const ResolvedLook perPixel = chosenFor(scene, setting, plain.shading, budget);
-  resolved = perPixel;
-  if (!automatic) return resolved;
-  resolved.programReason = "phong: neither flat nor gouraud is within " + number(budget);
-  // Per face or vertex pays while there are fewer of them than pixels.
+  if (!budget) return resolved;
+
+  std::vector<Setting> settings;
   std::size_t vertices = 0;
-  for (const Instance& i : scene.instances)
-    vertices += scene.meshes[std::size_t(i.mesh)].positions.size();
-  const double pixels = 0.5 * look.resolution.x * look.resolution.y;
-  if (double(vertices) > pixels) {
+  // By one program, within the budget in every picture.
+  const auto chosenBy = [&](Shading program) {
+    Groups groups;
+    Setting all;
+    std::size_t blended = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const LookAtScene p = picture(i);
+      if (settings.size() == i) {
+        Look plain = p.look;
+        plain.shading = programOf(plain);
+        plain.maxError.reset();
+        plain.maxErrorInCodes = false;
+        clearForms(plain);
+        settings.push_back(settingFor(p.scene, p.bounds, plain));
+        for (const Instance& each : p.scene.instances)
+          vertices += i > 0 ? 0 : p.scene.meshes[std::size_t(each.mesh)].positions.size();
+      }
+      blended = std::max(blended, addSurfaces(groups, p.scene, settings[i], program));
+      if (i == 0)
+        all = settings[0];
+      else
+        include(all.reach, settings[i].reach);
+    }
+    if (blended > 0) addBlending(groups, blended, all.look);
+    return chosenFor(std::move(groups), all, program, *budget);
+  };
+  const Look asked = resolved.look;
+  resolved = chosenBy(asked.shading);
+  if (!automatic) return resolved;
+  resolved.programReason = "phong: neither flat nor gouraud is within " + number(*budget);
+  // Per face or vertex pays while there are fewer of them than pixels.
+  if (double(vertices) > 0.5 * asked.resolution.x * asked.resolution.y) {
     resolved.programReason = "phong: the model has more vertices than the picture pixels";
     return resolved;
   }
   for (const Shading program : {Shading::flat, Shading::gouraud}) {
-    ResolvedLook other = chosenFor(scene, setting, program, budget);
-    if (!(other.bound <= budget) || other.choices.empty()) continue;
+    ResolvedLook other = chosenBy(program);
+    if (!(other.bound <= *budget) || other.choices.empty()) continue;
     other.programReason =
         program == Shading::flat
-            ? "flat: every face has one normal, and the light on it is within " + number(budget) +
+            ? "flat: every face has one normal, and the light on it is within " + number(*budget) +
                   " of phong's"
-            : "gouraud: between vertices the light is within " + number(budget) + " of phong's";
+            : "gouraud: between vertices the light is within " + number(*budget) + " of phong's";
     return other;
   }
   return resolved;

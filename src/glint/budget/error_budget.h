@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,11 @@ struct ResolvedLook {
   std::string programReason;        ///< of --shading auto; otherwise empty
 };
 
+/// The look's max-error in linear radiance before exposure; nothing without one. N codes are
+/// N / (255 * 12.92) after exposure: the steps between 8-bit codes are that wide at black and wider
+/// elsewhere, so that a smaller error leaves every code within N of the exact one.
+std::optional<double> errorBudget(const Look&);
+
 /// Replaces the look's budget by the cheapest forms whose proven bounds keep within it, for each
 /// material and, of the lobe, for brighter and dimmer lights (HighlightForms), and
 /// --shading auto by the cheapest program that does: phong, or gouraud or flat where they come near
@@ -43,10 +50,30 @@ struct ResolvedLook {
 /// millisecond, and with `auto` a look at every triangle.
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
-/// exposure, at each sample. Not in it: filtering of textures, interpolation by the driver, the
-/// outline; and points at which the model itself jumps, where N.L rounds to the other side of 0, or
-/// what is left to refract does or nearly does (criticalRing of glint/shading/bounds.h).
+/// exposure, at each sample, and of positions in single precision, which turn the directions to
+/// near lamps and to a near eye. Not in it: filtering of textures, the driver's interpolation of
+/// normals, the outline; and points at which the model itself jumps, where N.L rounds to the other
+/// side of 0, or what is left to refract does or nearly does (criticalRing of
+/// glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
+
+/// A scene as one picture of a sequence shows it.
+struct LookAtScene {
+  const Scene& scene;
+  Bounds bounds;
+  Look look;
+};
+
+/// One choice for pictures that follow each other, within the budget in each of them, so that
+/// nothing jumps from one to the next. They differ in camera and pose, not in materials, lights and
+/// budget. `picture(i)` is asked for in turn, up to three times around; what it gave need not
+/// outlive the next call. `look` of the result is that of the first.
+ResolvedLook resolveSequence(std::size_t count,
+                             const std::function<LookAtScene(std::size_t)>& picture);
+
+/// The look with what was chosen for it. `chosen` may be of another picture of a sequence, or of an
+/// earlier state of the look: its forms are taken, its parameters are not.
+Look withChoice(Look, const ResolvedLook& chosen);
 
 /// The largest sum of intensities of lights that can light one point at once, per channel:
 /// directional ones only if some normal sees them all.

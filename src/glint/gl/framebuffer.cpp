@@ -195,6 +195,15 @@ void RenderTarget::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+std::vector<glm::vec2> RenderTarget::samplePositions() const {
+  if (samples_ <= 1) return {};
+  bind();
+  std::vector<glm::vec2> positions(static_cast<std::size_t>(samples_));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(i), &positions[i].x);
+  return positions;
+}
+
 void RenderTarget::resolve() const {
   if (samples_ <= 1) return;
   glBindFramebuffer(GL_FRAMEBUFFER, single_.id());

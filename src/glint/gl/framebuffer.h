@@ -1,5 +1,8 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <vector>
+
 #include "glint/gl/handles.h"
 #include "glint/gl/program.h"
 
@@ -26,6 +29,10 @@ class RenderTarget {
   int height() const { return height_; }
   /// The samples a pixel that the driver gave, 1 without multisampling.
   int samples() const { return samples_; }
+
+  /// Where in a pixel the samples lie, from its lower left corner, 0 to 1; none without
+  /// multisampling. Binds this target.
+  std::vector<glm::vec2> samplePositions() const;
 
   /// Makes it what is drawn into and sets the viewport to the whole of it.
   void bind() const;

@@ -9,15 +9,15 @@
 
 namespace glint {
 
-/// The text of one stage, #version line included. Several with one stage are linked together.
+/// The text of one stage, `#version` line included. Several with one stage are linked together.
 struct ShaderSource {
   GLenum stage;  ///< GL_VERTEX_SHADER, GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER
   std::string_view text;
 };
 
 /// Whether the driver's compiler takes `#line N "file"`, with the line
-/// `#extension GL_ARB_shading_language_include : enable` after #version, so that its messages name
-/// files. Without it `#line N NUMBER` is all there is.
+/// `#extension GL_ARB_shading_language_include : enable` after `#version`, so that its messages
+/// name files. Without it `#line N NUMBER` is all there is.
 bool fileNamesInLines();
 
 /// A linked program.

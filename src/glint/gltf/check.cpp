@@ -48,6 +48,8 @@ void checkExtensions(Cursor root, Messages& messages) {
   }
 }
 
+}  // namespace
+
 std::int64_t componentBytes(std::int64_t componentType) {
   switch (componentType) {
     case 5120:
@@ -63,6 +65,8 @@ std::int64_t componentBytes(std::int64_t componentType) {
       return 0;
   }
 }
+
+namespace {
 
 /// Bytes of one element, the padding of matrix columns to four bytes included; 0 if unknown. What
 /// would follow the `last` column of all need not be there.
@@ -175,6 +179,17 @@ void checkAttributes(Cursor attributes, std::size_t accessors) {
   attributes.forEachMember([&](Cursor attribute) { attribute.index(accessors); });
 }
 
+/// Each takes a kilobyte, be it an empty object; a model that somebody made has some hundreds.
+void checkCounts(Cursor root) {
+  constexpr std::size_t most = 1 << 16;
+  for (const char* list : {"materials", "textures", "images", "samplers", "animations", "skins"}) {
+    const std::size_t count = root.member(list).size();
+    if (count > most)
+      root.member(list).fail("has " + std::to_string(count) + " entries, more than " +
+                             std::to_string(most));
+  }
+}
+
 void checkMeshes(Cursor root) {
   const std::size_t accessors = root.member("accessors").size();
   const std::size_t materials = root.member("materials").size();
@@ -277,6 +292,16 @@ void checkScenesAndSkins(Cursor root) {
 
 }  // namespace
 
+std::uint64_t spanOfElements(Cursor accessor, std::int64_t stride) {
+  const std::int64_t component =
+      componentBytes(accessor.member("componentType").integer(0, 0, INT_MAX));
+  const std::string type = accessor.member("type").text();
+  const std::int64_t count = accessor.member("count").integer(0, 0, UINT32_MAX);
+  if (count == 0) return 0;
+  if (stride == 0) stride = elementBytes(type, component);
+  return static_cast<std::uint64_t>((count - 1) * stride + elementBytes(type, component, true));
+}
+
 void checkDocument(Json& document, Messages& messages) {
   const Cursor root(document, messages);
   checkAsset(root, messages);
@@ -286,6 +311,7 @@ void checkDocument(Json& document, Messages& messages) {
 
 void checkStructure(Json& document, const Messages& messages) {
   const Cursor root(document, messages);
+  checkCounts(root);
   checkAccessors(root, checkViews(root));
   checkMeshes(root);
   checkNodes(root);

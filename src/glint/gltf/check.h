@@ -18,4 +18,10 @@ void checkDocument(Json& document, Messages& messages);
 /// The part of it that looks at indices, offsets and counts; once more where those have changed.
 void checkStructure(Json& document, const Messages& messages);
 
+/// Bytes that the elements of an accessor span from its first to the end of its last one, `stride`
+/// apart (0: one behind the other); of an accessor that has been checked.
+std::uint64_t spanOfElements(Cursor accessor, std::int64_t stride);
+/// Bytes of one component of a glTF type such as 5126; 0 if there is none.
+std::int64_t componentBytes(std::int64_t componentType);
+
 }  // namespace glint::gltf

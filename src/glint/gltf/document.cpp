@@ -17,7 +17,7 @@ using Bytes = std::vector<unsigned char>;
 constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
 
 ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& container,
-                      const std::filesystem::path& folder, bool& absent, Messages& messages) {
+                      const std::filesystem::path& model, bool& absent, Messages& messages) {
   const char* const meshopt = "EXT_meshopt_compression";
   const std::string label = "buffers[" + std::to_string(index) + "]";
   const auto wanted =
@@ -26,12 +26,13 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
   if (const Cursor uri = buffer.member("uri"); uri.exists()) {
     std::string error;
     const std::string text = uri.text();
-    source = openUri(text, folder, error);
+    source = openUri(text, model, error);
     if (const std::string oddity = oddityOf(text); !oddity.empty())
       messages.warn(label + ", the file \"" + printableUri(text) + "\", " + oddity);
     if (!error.empty()) {
       messages.fail(label + ", the file \"" + printableUri(text) + "\", " + error,
-                    "put it there or export the model as .glb");
+                    error == liesOutside ? "take a model whose files lie beside it"
+                                         : "put it there or export the model as .glb");
     }
   } else if (index == 0 && container.binary) {
     source = *container.binary;
@@ -60,43 +61,60 @@ std::vector<ViewPlace> placeViews(Cursor root) {
   return views;
 }
 
-/// The buffer views that accessors refer to.
-std::vector<bool> viewsOfAccessors(Cursor root, std::size_t count) {
-  std::vector<bool> used(count, false);
-  const auto use = [&](Cursor owner) {
+/// How far from its beginning accessors read each buffer view; 0: no accessor refers to it.
+std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
+  std::vector<std::uint64_t> ends(count, 0);
+  const auto use = [&](Cursor owner, std::uint64_t bytes) {
     const int view = owner.member("bufferView").index(count);
-    if (view >= 0) used[static_cast<std::size_t>(view)] = true;
+    if (view < 0) return;
+    std::uint64_t& end = ends[static_cast<std::size_t>(view)];
+    const auto offset =
+        static_cast<std::uint64_t>(owner.member("byteOffset").integer(0, 0, INT64_MAX));
+    end = std::max(end, offset + bytes);
   };
-  const Cursor list = root.member("accessors");
+  const Cursor list = root.member("accessors"), views = root.member("bufferViews");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    use(list.item(i));
-    use(list.item(i).member("sparse").member("indices"));
-    use(list.item(i).member("sparse").member("values"));
+    const Cursor accessor = list.item(i);
+    const int view = accessor.member("bufferView").index(count);
+    if (view >= 0)
+      use(accessor,
+          spanOfElements(
+              accessor,
+              views.item(static_cast<std::size_t>(view)).member("byteStride").integer(0, 0, 252)));
+    const Cursor sparse = accessor.member("sparse");
+    if (!sparse.exists()) continue;
+    const auto values =
+        static_cast<std::uint64_t>(sparse.member("count").integer(0, 0, UINT32_MAX));
+    const Cursor indices = sparse.member("indices");
+    use(indices, values * static_cast<std::uint64_t>(componentBytes(
+                              indices.member("componentType").integer(0, 0, INT32_MAX))));
+    // An element of VEC4 or MAT4 has 64 bytes at most; the view's end cuts what is too much.
+    use(sparse.member("values"), values * 64);
   }
-  return used;
+  return ends;
 }
 
 /// Reads of each buffer the stretch in which the views lie that accessors use, and makes the
 /// document's buffer views relative to it.
 std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages& messages) {
-  const std::vector<bool> used = viewsOfAccessors(root, document.views.size());
+  const std::vector<std::uint64_t> used = endsOfViews(root, document.views.size());
   struct Stretch {
     std::uint64_t first = UINT64_MAX;
     std::uint64_t end = 0;
   };
   std::vector<Stretch> stretches(document.buffers.size());
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
+    if (used[i] == 0) continue;
     const ViewPlace& view = document.views[i];
     Stretch& stretch = stretches[view.buffer];
     stretch.first = std::min(stretch.first, view.offset);
-    stretch.end = std::max(stretch.end, view.offset + view.size);
+    stretch.end = std::max(stretch.end, view.offset + std::min(used[i], view.size));
   }
   const Cursor views = root.member("bufferViews");
   for (std::size_t i = 0; i < used.size(); ++i) {
     const ViewPlace& view = document.views[i];
     views.item(i).json()["byteOffset"] =
-        used[i] ? view.offset - stretches[view.buffer].first : std::uint64_t(0);
+        used[i] > 0 ? view.offset - stretches[view.buffer].first : std::uint64_t(0);
   }
   std::vector<Bytes> buffers(document.buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -253,8 +271,7 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   const Cursor list = root.member("buffers");
   for (std::size_t i = 0; i < list.size(); ++i) {
     bool absent = false;
-    document.buffers.push_back(
-        openBuffer(list.item(i), i, container, path.parent_path(), absent, messages));
+    document.buffers.push_back(openBuffer(list.item(i), i, container, path, absent, messages));
     document.absent.push_back(absent);
   }
   if (decompress(document, messages)) checkStructure(document.json, messages);

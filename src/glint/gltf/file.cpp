@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -17,6 +18,21 @@ namespace {
 
 /// JSON beyond this is no scene that fits into memory once parsed.
 constexpr std::uint64_t maxJsonBytes = std::uint64_t(256) << 20;
+
+std::atomic<bool> isConfined = false;
+
+/// Whether the file that is open lies in the folder or below it. It is asked of the open file, so
+/// that nobody can put another one in its place in between.
+bool isInside(int descriptor, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path file =
+      std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), error);
+  if (error) return false;
+  const std::filesystem::path real = std::filesystem::canonical(folder, error);
+  if (error) return false;
+  const auto [end, in] = std::mismatch(real.begin(), real.end(), file.begin(), file.end());
+  return end == real.end() && in != file.end();
+}
 
 std::uint32_t littleEndian(const unsigned char* bytes) {
   return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
@@ -58,7 +74,7 @@ Container readGlb(const RegularFile& file, const std::filesystem::path& path,
       container.json.resize(size);
       if (!file.read(container.json.data(), offset, size)) messages.fail("cannot be read", cutOff);
     } else if (type == binaryChunk && !container.binary) {
-      container.binary.emplace(path, offset, size);
+      container.binary.emplace(path, confinementOf(path), offset, size);
     }
     offset += size;
   }
@@ -139,7 +155,15 @@ std::string oddityOf(const std::string& uri) {
   return percentDecoded(uri).find('\\') != uri.npos ? "has a backslash in its name" : "";
 }
 
-RegularFile::RegularFile(const std::filesystem::path& path, std::string& error) {
+void confineModels() { isConfined = true; }
+
+std::filesystem::path confinementOf(const std::filesystem::path& model) {
+  if (!isConfined) return {};
+  return model.has_parent_path() ? model.parent_path() : std::filesystem::path(".");
+}
+
+RegularFile::RegularFile(const std::filesystem::path& path, const std::filesystem::path& folder,
+                         std::string& error) {
   // Without O_NONBLOCK, opening a FIFO waits for someone to write into it.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status = {};
@@ -151,6 +175,8 @@ RegularFile::RegularFile(const std::filesystem::path& path, std::string& error) 
     error = "is a folder, not a file";
   } else if (!S_ISREG(status.st_mode)) {
     error = "is not a regular file";
+  } else if (!folder.empty() && !isInside(descriptor_, folder)) {
+    error = liesOutside;
   } else {
     size_ = static_cast<std::uint64_t>(status.st_size);
     noteReadFile(descriptor_, path.string());
@@ -177,8 +203,9 @@ bool RegularFile::read(void* to, std::uint64_t offset, std::size_t count) const 
 ByteSource::ByteSource(std::vector<unsigned char> bytes)
     : size_(bytes.size()), bytes_(std::move(bytes)) {}
 
-ByteSource::ByteSource(std::filesystem::path path, std::uint64_t start, std::uint64_t size)
-    : path_(std::move(path)), start_(start), size_(size) {}
+ByteSource::ByteSource(std::filesystem::path path, std::filesystem::path folder,
+                       std::uint64_t start, std::uint64_t size)
+    : path_(std::move(path)), folder_(std::move(folder)), start_(start), size_(size) {}
 
 bool ByteSource::read(void* to, std::uint64_t offset, std::size_t count) const {
   if (offset > size_ || count > size_ - offset) return false;
@@ -188,13 +215,13 @@ bool ByteSource::read(void* to, std::uint64_t offset, std::size_t count) const {
     return true;
   }
   std::string error;
-  const RegularFile file(path_, error);
+  const RegularFile file(path_, folder_, error);
   return error.empty() && file.read(to, start_ + offset, count);
 }
 
 Container readContainer(const std::filesystem::path& path, const Messages& messages) {
   std::string error;
-  const RegularFile file(path, error);
+  const RegularFile file(path, confinementOf(path), error);
   if (!error.empty()) messages.fail(error, "give a .gltf or .glb file");
   if (file.size() == 0) messages.fail("is empty", "give a .gltf or .glb file");
   std::array<char, 64> start{};
@@ -239,8 +266,7 @@ std::string percentDecoded(std::string_view text) {
   return decoded;
 }
 
-ByteSource openUri(const std::string& uri, const std::filesystem::path& folder,
-                   std::string& error) {
+ByteSource openUri(const std::string& uri, const std::filesystem::path& model, std::string& error) {
   if (isDataUri(uri)) return ByteSource(readDataUri(uri, error));
   if (!schemeOf(uri).empty()) {
     error = "is not a file beside the model";
@@ -251,24 +277,25 @@ ByteSource openUri(const std::string& uri, const std::filesystem::path& folder,
     error = "is not a file name";
     return {};
   }
-  if (const RegularFile file(folder / name, error); error.empty()) {
-    return ByteSource(folder / name, 0, file.size());
-  }
-  // Some exporters write names with a percent sign as they are.
-  std::string second;
-  if (const RegularFile file(folder / uri, second); second.empty()) {
-    error.clear();
-    return ByteSource(folder / uri, 0, file.size());
-  }
-  // Those of Windows write its separators, plain or as %5C.
+  const std::filesystem::path folder = model.parent_path(), confinement = confinementOf(model);
+  const auto open = [&](const std::string& as, std::string& why) {
+    const RegularFile file(folder / as, confinement, why);
+    return why.empty() ? ByteSource(folder / as, confinement, 0, file.size()) : ByteSource();
+  };
+  ByteSource source = open(name, error);
+  if (error.empty()) return source;
+  // Some exporters write names with a percent sign as they are; those of Windows write its
+  // separators, plain or as %5C.
   std::string slashed = name;
   std::ranges::replace(slashed, '\\', '/');
-  if (slashed != name) {
-    std::string third;
-    if (const RegularFile file(folder / slashed, third); third.empty()) {
-      error.clear();
-      return ByteSource(folder / slashed, 0, file.size());
-    }
+  for (const std::string& other : {uri, slashed}) {
+    if (other == name) continue;
+    std::string second;
+    source = open(other, second);
+    if (second == liesOutside) error = second;
+    if (!second.empty()) continue;
+    error.clear();
+    return source;
   }
   return {};
 }

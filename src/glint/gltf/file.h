@@ -12,12 +12,23 @@
 
 namespace glint::gltf {
 
+/// From now on, for the whole process, models read nothing that lies outside of their own folder,
+/// whatever names or links lead there; the model itself may not be such a link either. For models
+/// that strangers have sent.
+void confineModels();
+/// The folder that a model's files must lie in: its own after confineModels(), else none (empty).
+std::filesystem::path confinementOf(const std::filesystem::path& model);
+/// Why a file is not opened then.
+inline constexpr const char* liesOutside = "lies outside of the model's folder (--confine)";
+
 /// A file open for reading. Opens regular files only and never waits: a FIFO, a device or a folder
 /// that a model names must not hang or flood the viewer.
 class RegularFile {
  public:
-  /// Where `error` is filled, the file is not open and `error` says why: "does not exist".
-  RegularFile(const std::filesystem::path& path, std::string& error);
+  /// Where `error` is filled, the file is not open and `error` says why: "does not exist". A file
+  /// that is not in `folder` or below it, unless that is empty, is refused.
+  RegularFile(const std::filesystem::path& path, const std::filesystem::path& folder,
+              std::string& error);
   ~RegularFile();
   RegularFile(const RegularFile&) = delete;
   RegularFile& operator=(const RegularFile&) = delete;
@@ -37,7 +48,9 @@ class ByteSource {
  public:
   ByteSource() = default;
   explicit ByteSource(std::vector<unsigned char> bytes);
-  ByteSource(std::filesystem::path path, std::uint64_t start, std::uint64_t size);
+  /// Of a file that may only lie in `folder`, as RegularFile.
+  ByteSource(std::filesystem::path path, std::filesystem::path folder, std::uint64_t start,
+             std::uint64_t size);
 
   std::uint64_t size() const { return size_; }
   /// Reads exactly `count` bytes from `offset`; false where there are fewer.
@@ -45,6 +58,7 @@ class ByteSource {
 
  private:
   std::filesystem::path path_;  ///< empty for memory
+  std::filesystem::path folder_;
   std::uint64_t start_ = 0;
   std::uint64_t size_ = 0;
   std::vector<unsigned char> bytes_;
@@ -61,9 +75,9 @@ struct Container {
 /// and bytes behind the end that the header tells.
 Container readContainer(const std::filesystem::path& path, const Messages& messages);
 
-/// What a URI stands for: the payload of a `data:` URI or the file named relative to `folder`,
-/// percent-decoded. Where there is none, `error` says why, without the URI.
-ByteSource openUri(const std::string& uri, const std::filesystem::path& folder, std::string& error);
+/// What a URI stands for: the payload of a `data:` URI or the file named relative to the folder of
+/// `model`, percent-decoded. Where there is none, `error` says why, without the URI.
+ByteSource openUri(const std::string& uri, const std::filesystem::path& model, std::string& error);
 
 /// Is it a `data:` URI? The scheme counts in any case of its letters.
 bool isDataUri(std::string_view uri);

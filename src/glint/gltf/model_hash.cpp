@@ -1,22 +1,151 @@
 #include "glint/gltf/model_hash.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "glint/gltf/file.h"
-#include "glint/gltf/patch.h"
 #include "glint/image/error.h"
-#include "glint/image/file.h"
+#include "glint/image/json_text.h"
 
 namespace glint {
 namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint64_t maxBytes = std::uint64_t(8) << 30, maxImageBytes = std::uint64_t(256) << 20;
 
 // FNV-1a's step on words of eight bytes, with the high half mixed down, since a product carries
 // nothing to its lower bits.
 std::uint64_t step(std::uint64_t state, std::uint64_t word) {
   state = (state ^ word) * 0x100000001b3u;
   return state ^ (state >> 32);
+}
+
+std::uint64_t numberOf(const Json& from, const char* key) {
+  const auto found = from.find(key);
+  const bool known = found != from.end() && found->is_number_unsigned();
+  return known ? std::min(found->get<std::uint64_t>(), maxBytes) : 0;
+}
+
+// How much of what a file refers to loading it can need.
+class Needs {
+ public:
+  explicit Needs(const Json& root) : root_(root) {
+    each("bufferViews", [&](const Json&) { views_.push_back(0); });
+    each("accessors", [&](const Json& accessor) {
+      useElements(accessor, numberOf(accessor, "count"));
+      const auto sparse = accessor.find("sparse");
+      if (sparse == accessor.end() || !sparse->is_object()) return;
+      for (const Json& part : *sparse)
+        if (part.is_object()) useElements(part, numberOf(*sparse, "count"));
+    });
+    for (auto it = root.begin(); it != root.end(); ++it)
+      if (it.key() != "accessors") useWhole(*it, it.key() == "images" ? maxImageBytes : maxBytes);
+  }
+
+  /// Bytes of each file by the name that it has, in their order; `whole`: all, or none where it is
+  /// larger than any picture.
+  std::vector<std::pair<std::string, std::uint64_t>> files() const {
+    std::vector<std::uint64_t> ends;
+    const auto use = [&](const Json& view, std::uint64_t bytes) {
+      const std::uint64_t buffer = numberOf(view, "buffer");
+      if (buffer >= 1u << 20 || bytes == 0) return;
+      if (ends.size() <= buffer) ends.resize(buffer + 1, 0);
+      ends[buffer] = std::max(ends[buffer], numberOf(view, "byteOffset") + bytes);
+    };
+    std::size_t number = 0;
+    each("bufferViews", [&](const Json& view) {
+      use(view, std::min(views_[number++], numberOf(view, "byteLength")));
+      const auto extensions = view.find("extensions");
+      if (extensions == view.end() || !extensions->is_object()) return;
+      for (const Json& extension : *extensions)  // EXT_meshopt_compression
+        if (extension.is_object()) use(extension, numberOf(extension, "byteLength"));
+    });
+    std::vector<std::pair<std::string, std::uint64_t>> files;
+    std::map<std::string, std::size_t> places;
+    const auto name = [&](const Json& item, std::uint64_t bytes) {
+      const auto uri = item.find("uri");
+      if (uri == item.end() || !uri->is_string()) return;
+      const auto& text = uri->get_ref<const std::string&>();
+      if (gltf::isDataUri(text)) return;
+      const auto [place, isNew] = places.try_emplace(text, files.size());
+      if (isNew) files.emplace_back(text, 0);
+      files[place->second].second = std::max(files[place->second].second, bytes);
+    };
+    number = 0;
+    each("buffers", [&](const Json& item) {
+      name(item, number < ends.size() ? ends[number] : 0);
+      ++number;
+    });
+    each("images", [&](const Json& item) { name(item, whole); });
+    return files;
+  }
+
+  static constexpr std::uint64_t whole = UINT64_MAX;
+
+ private:
+  template <typename Take>
+  void each(const char* list, const Take& take) const {
+    const auto found = root_.find(list);
+    if (found == root_.end() || !found->is_array()) return;
+    static const Json nothing = Json::object();
+    for (const Json& item : *found) take(item.is_object() ? item : nothing);
+  }
+
+  // What refers to a view: at most 252 bytes lie between elements.
+  void useElements(const Json& from, std::uint64_t count) {
+    if (from.contains("bufferView"))
+      use(numberOf(from, "bufferView"), numberOf(from, "byteOffset") + 256 * count);
+  }
+
+  void use(std::uint64_t view, std::uint64_t bytes) {
+    if (view < views_.size()) views_[view] = std::max(views_[view], bytes);
+  }
+
+  // Whatever else refers to one reads all of it, if it is not larger than that.
+  void useWhole(const Json& json, std::uint64_t most) {
+    if (json.is_object() && json.contains("bufferView")) {
+      const std::uint64_t view = numberOf(json, "bufferView");
+      const auto list = root_.find("bufferViews");
+      if (view < views_.size() && numberOf((*list)[view], "byteLength") <= most) use(view, most);
+    }
+    if (!json.is_structured()) return;
+    for (const Json& item : json)
+      if (item.is_structured()) useWhole(item, most);
+  }
+
+  const Json& root_;
+  std::vector<std::uint64_t> views_;  ///< bytes from each one's beginning
+};
+
+// Adds the beginning of a source; false where it cannot be read.
+template <typename Source>
+bool addBytes(Hash& hash, const Source& source, std::uint64_t size) {
+  std::vector<char> part(std::size_t(1) << 16);
+  for (std::uint64_t at = 0; at < size; at += part.size()) {
+    const auto count = std::size_t(std::min<std::uint64_t>(part.size(), size - at));
+    if (!source.read(part.data(), at, count)) return false;
+    hash.add({part.data(), count});
+  }
+  return true;
+}
+
+// How much of a file is read when it is loaded.
+std::uint64_t lengthOf(const gltf::RegularFile& file) {
+  std::array<unsigned char, 12> head{};
+  const auto known = std::size_t(std::min<std::uint64_t>(head.size(), file.size()));
+  if (!file.read(head.data(), 0, known)) return 0;
+  if (std::string_view(reinterpret_cast<const char*>(head.data()), 4) != "glTF")
+    return std::min(file.size(), maxBytes);
+  const std::uint64_t told =
+      head[8] | head[9] << 8 | head[10] << 16 | static_cast<std::uint64_t>(head[11]) << 24;
+  return std::min(file.size(), told);
 }
 
 }  // namespace
@@ -42,24 +171,32 @@ std::string Hash::text() const {
 
 std::string modelHash(const std::string& path) {
   Hash hash;
-  std::vector<std::byte> bytes;
   try {
-    bytes = readFile(path);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    hash.add(text);
-    if (text.find("\"uri\"") == std::string_view::npos) return hash.text();
-    const auto folder = std::filesystem::path(path).parent_path();
-    std::vector<char> part(std::size_t(1) << 16);
-    for (const std::string& name : referredFiles(bytes, path)) {
-      std::string error;
-      const gltf::ByteSource source = gltf::openUri(name, folder, error);
-      for (std::uint64_t at = 0; at < source.size(); at += part.size()) {
-        const auto count = std::size_t(std::min<std::uint64_t>(part.size(), source.size() - at));
-        if (!source.read(part.data(), at, count)) break;
-        hash.add({part.data(), count});
-      }
+    std::string error;
+    const gltf::RegularFile file(path, gltf::confinementOf(path), error);
+    if (!error.empty()) return hash.text();
+    if (!addBytes(hash, file, lengthOf(file))) return hash.text();
+    std::array<char, 64> start{};
+    const auto known = std::size_t(std::min<std::uint64_t>(start.size(), file.size()));
+    if (!file.read(start.data(), 0, known)) return hash.text();
+    // Pictures and tables are hashed too.
+    const std::string_view front(start.data(), known);
+    if (!front.starts_with("glTF") && front.find('{') == front.npos) return hash.text();
+    const gltf::Container container = gltf::readContainer(path, gltf::Messages(path));
+    if (container.json.find("\"uri\"") == std::string::npos) return hash.text();
+    const auto root = parseJsonText<Json>(container.json, error);
+    if (!root || !root->is_object()) return hash.text();
+    std::uint64_t left = maxBytes;
+    for (const auto& [name, needed] : Needs(*root).files()) {
+      error.clear();
+      const gltf::ByteSource source = gltf::openUri(name, path, error);
+      std::uint64_t size = std::min({needed, source.size(), left});
+      if (needed == Needs::whole && source.size() > maxImageBytes) size = 0;
+      addBytes(hash, source, size);
+      left -= size;
     }
   } catch (const InputError&) {
+  } catch (const std::bad_alloc&) {
   }
   return hash.text();
 }

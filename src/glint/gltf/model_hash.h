@@ -19,8 +19,9 @@ class Hash {
   std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-/// The hash of a model file and of the buffers and images that it refers to by name. What is
-/// missing or unreadable counts as empty: loading the model will say so.
+/// The hash of a model file and of the buffers and images that it refers to by name, of each as
+/// much as loading it can need. What is missing or unreadable counts as empty: loading the model
+/// will say so. Of any other file, that of its bytes.
 std::string modelHash(const std::string& path);
 
 }  // namespace glint

@@ -69,8 +69,8 @@ struct SceneFile::State {
     start.extensions = std::move(document.extensions);
     for (const tinygltf::Scene& each : document.model.scenes)
       start.scenes.push_back(glint::printable(each.name, 80));
-    for (const std::string& name : document.variants)
-      start.variants.push_back(glint::printable(name, 80));
+    for (const std::string& each : document.variants)
+      start.variants.push_back(glint::printable(each, 80));
     start.skins = std::move(document.skins);
     start.morphs = std::move(document.morphs);
   }

@@ -1,7 +1,10 @@
 #include "glint/gltf/texture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <string_view>
 
 #include "glint/gltf/file.h"
 #include "glint/image/texture.h"
@@ -9,7 +12,8 @@
 namespace glint::gltf {
 namespace {
 
-constexpr std::uint64_t maxImageBytes = std::uint64_t(1) << 30;
+/// More than any picture whose pixels could be drawn.
+constexpr std::uint64_t maxImageBytes = std::uint64_t(256) << 20;
 /// Texture coordinate sets that are read; the standard asks for two.
 constexpr std::int64_t maxTexcoord = 15;
 
@@ -125,12 +129,9 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   EncodedImage loaded;
   loaded.bytes = load(image, loaded.name, error);
   if (error.empty()) {
-    const std::string_view format = formatOf(loaded.bytes);
-    if (format != "PNG" && format != "JPEG" && !(format == "WebP" && canDecodeWebp())) {
-      error = "is neither PNG nor JPEG (" + std::string(format) + ")";
-    }
-  }
-  if (error.empty()) {
+    // Exporters write a picture once for each material that shows it.
+    if (const int twin = equalImage(loaded.bytes, isData); twin >= 0)
+      return slotsBySource_[source] = slot = twin;
     if (formatOf(loaded.bytes) == std::string_view("JPEG") && lacksEnd(loaded.bytes))
       messages_.warn("the image " + loaded.name + " is a JPEG without its end");
     slot = static_cast<int>(images_.size());
@@ -142,6 +143,18 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   return slotsBySource_[source] = slot;
 }
 
+int TextureReader::equalImage(const std::vector<std::byte>& bytes, bool isData) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t hash = std::hash<std::string_view>()(text);
+  const auto [first, end] = slotsByHash_.equal_range(hash);
+  for (auto it = first; it != end; ++it) {
+    const EncodedImage& known = images_[static_cast<std::size_t>(it->second)];
+    if (known.isData == isData && known.bytes == bytes) return it->second;
+  }
+  slotsByHash_.emplace(hash, static_cast<int>(images_.size()));
+  return -1;
+}
+
 std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std::string& error) {
   name = image.path();
   const int viewIndex = image.member("bufferView").index(document_.views.size());
@@ -149,9 +162,17 @@ std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std:
   std::vector<std::byte> bytes;
   const auto take = [&](const ByteSource& source, std::uint64_t offset, std::uint64_t size) {
     if (size > maxImageBytes) {
-      error = "has more than 1 GiB";
+      error = "has more than 256 MiB";
       return;
     }
+    // A file that is no picture is not read any further.
+    bytes.resize(std::min<std::uint64_t>(size, 16));
+    if (!source.read(bytes.data(), offset, bytes.size())) error = "cannot be read";
+    const std::string_view format = formatOf(bytes);
+    if (error.empty() && format != "PNG" && format != "JPEG" &&
+        !(format == "WebP" && canDecodeWebp()))
+      error = "is neither PNG nor JPEG (" + std::string(format) + ")";
+    if (!error.empty()) return;
     bytes.resize(size);
     if (!source.read(bytes.data(), offset, bytes.size())) error = "cannot be read";
   };
@@ -163,7 +184,9 @@ std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std:
     if (!isDataUri(text)) name = printableUri(text);
     if (const std::string oddity = oddityOf(text); !oddity.empty())
       messages_.warn("the image " + printableUri(text) + " " + oddity);
-    const ByteSource source = openUri(text, document_.path.parent_path(), error);
+    const ByteSource source = openUri(text, document_.path, error);
+    if (error == liesOutside)
+      messages_.fail("the image " + name + " " + error, "take a model whose files lie beside it");
     if (error.empty()) take(source, 0, source.size());
   } else {
     error = "has neither a bufferView nor a uri";

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "glint/gltf/document.h"
@@ -25,6 +26,8 @@ class TextureReader {
 
  private:
   int imageSlot(std::size_t image, bool isData);
+  /// The slot of an image of the same bytes and use, or -1, and the next one will be this image's.
+  int equalImage(const std::vector<std::byte>& bytes, bool isData);
   std::vector<std::byte> load(Cursor image, std::string& name, std::string& error);
   Sampler sampler(Cursor texture);
 
@@ -34,6 +37,7 @@ class TextureReader {
   std::vector<EncodedImage> images_;
   std::map<std::pair<std::size_t, bool>, int> slots_;  ///< by image and use; -1 is not usable
   std::map<std::string, int> slotsBySource_;           ///< several images may name one file or view
+  std::unordered_multimap<std::size_t, int> slotsByHash_;  ///< of the bytes
 };
 
 }  // namespace glint::gltf

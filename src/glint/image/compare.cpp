@@ -9,6 +9,7 @@
 
 #include "glint/image/compared_rows.h"
 #include "glint/image/error.h"
+#include "glint/image/metrics.h"
 #include "glint/image/regions.h"
 
 namespace glint {
@@ -29,7 +30,7 @@ class Sums {
     for (int y = 0; y < rows_.height(); ++y) {
       if (!rows_.ignoresSome() && rows_.codesAreEqual(y)) {
         result_.pixels += std::size_t(width);
-        finite_ += std::size_t(width) * std::size_t(rows_.channels());
+        sums_.count += std::size_t(width) * std::size_t(rows_.channels());
         continue;
       }
       if (rows_.ignoresSome()) rows_.counted(y, counts.data());
@@ -44,9 +45,9 @@ class Sums {
       }
       if (rows_.ignoresSome())
         result_.ignoredPixels += std::size_t(std::count(counts.begin(), counts.end(), 0));
-      absolute_ += row.absolute;
-      square_ += row.square;
-      relative_ += row.relative;
+      sums_.absolute += row.absolute;
+      sums_.square += row.square;
+      sums_.relative += row.relative;
     }
     finish();
   }
@@ -76,7 +77,7 @@ class Sums {
       addDifferent(x, y, va, vb, row);
     }
     result_.pixels += counted;
-    finite_ += same * channels;
+    sums_.count += same * channels;
   }
 
   void add(int x, int y, const float* a, const float* b, Row& row) {
@@ -90,7 +91,7 @@ class Sums {
       equal = equal && a[c] == b[c];
     }
     if (sum == 0 && equal) {
-      finite_ += channels;
+      sums_.count += channels;
       return;
     }
     addDifferent(x, y, a, b, row);
@@ -108,13 +109,13 @@ class Sums {
       infinityB = infinityB || std::isinf(b[c]);
       differs = differs || !(a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c])));
       if (std::isinf(a[c]) && a[c] == b[c]) {
-        ++finite_;
+        ++sums_.count;
         continue;
       }
       infinityDiffers = infinityDiffers || std::isinf(a[c]) || std::isinf(b[c]);
       const double difference = std::fabs(double(a[c]) - double(b[c]));
       if (!std::isfinite(difference)) continue;
-      ++finite_;
+      ++sums_.count;
       largest = std::max(largest, difference);
       row.absolute += difference;
       row.square += difference * difference;
@@ -127,7 +128,7 @@ class Sums {
     result_.infinityB += infinityB;
     result_.infinityDiffering += infinityDiffers;
     result_.differing += differs;
-    maximum_ = std::max(maximum_, largest);
+    sums_.largest = std::max(sums_.largest, largest);
     if (!differs) return;
     if (regions_) regions_->add(x, y, nanA || nanB || infinityDiffers ? INFINITY : largest);
     // Not finite is worse than every number.
@@ -166,24 +167,16 @@ class Sums {
   void finish() {
     result_.seenOverWhite = overWhite_ > overBlack_;
     if (regions_) result_.regions = regions_->found();
-    // Of nothing there is no mean, and no largest one: NaN.
-    const auto count = double(finite_);
-    const double rmse = std::sqrt(square_ / count);
-    result_.values["max"] = finite_ > 0 ? maximum_ : std::numeric_limits<double>::quiet_NaN();
-    result_.values["mean"] = absolute_ / count;
-    result_.values["rmse"] = rmse;
-    result_.values["relative-rmse"] = std::sqrt(relative_ / count);
-    result_.values["psnr"] =
-        rmse == 0 ? std::numeric_limits<double>::infinity() : -20 * std::log10(rmse);
+    for (const detail::MetricRow& metric : detail::metricRows())
+      if (metric.ofValues) result_.values[std::string(metric.name)] = metric.ofValues(sums_);
   }
 
   const detail::ComparedRows& rows_;
   std::optional<detail::Regions> regions_;
   std::size_t worst_;
   Comparison& result_;
-  double absolute_ = 0, square_ = 0, relative_ = 0, maximum_ = 0;
+  detail::ValueSums sums_;
   double overBlack_ = 0, overWhite_ = 0;
-  std::size_t finite_ = 0;
 };
 
 std::string number(double value) {
@@ -277,12 +270,20 @@ StoredImage padded(const StoredImage& image, int width, int height) {
 }
 
 const std::vector<std::string>& metricNames() {
-  static const std::vector<std::string> names{"max",    "mean", "rmse", "relative-rmse", "psnr",
-                                              "pixels", "ssim", "flip", "hdr-flip"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const detail::MetricRow& metric : detail::metricRows()) all.emplace_back(metric.name);
+    return all;
+  }();
   return names;
 }
 
-bool isSimilarity(const std::string& metric) { return metric == "psnr" || metric == "ssim"; }
+bool isSimilarity(const std::string& metric) {
+  const auto rows = detail::metricRows();
+  return std::any_of(rows.begin(), rows.end(), [&](const detail::MetricRow& row) {
+    return row.name == metric && row.isSimilarity;
+  });
+}
 
 Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOptions& options) {
   std::vector<std::string> wanted = options.metrics;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -36,7 +37,11 @@ bool isTga(std::span<const std::byte> bytes);
 
 /// Throws InputError, too, where the build has no libwebp.
 ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name);
-ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
+TextureHeader webpHeader(std::span<const std::byte> bytes, const std::string& name);
+/// Made smaller as decodeTexture() says.
+ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name, int halvings = 0,
+                     bool isData = false);
+TextureHeader jpegHeader(std::span<const std::byte> bytes, const std::string& name);
 
 StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name);
 StoredImage decodeHdr(std::span<const std::byte> bytes, const std::string& name);
@@ -70,10 +75,13 @@ class PngReader {
   int height() const { return height_; }
   int bitDepth() const { return bitDepth_; }  ///< of the file: 1, 2, 4, 8 or 16
   bool hasAlpha() const;                      ///< a channel of it, or transparent colours
+  bool isInterlaced() const { return isInterlaced_; }
 
   /// Straight RGBA, rows from the top: 4 * width * height values each.
   void decode(std::vector<std::uint8_t>& rgba);
   void decode(std::vector<std::uint16_t>& rgba);
+  /// The same of 8 bits row by row; the whole is held only where the file is interlaced.
+  void decodeRows(const std::function<void(const std::uint8_t* rgba)>& take);
   /// RGB of 8 bits, for a file without alpha: 3 * width * height values.
   void decodeOpaque(std::vector<std::uint8_t>& rgb);
   /// The text chunks, in UTF-8: all of them once the picture has been decoded, before that those
@@ -91,6 +99,7 @@ class PngReader {
   int height_ = 0;
   int bitDepth_ = 0;
   int colourType_ = 0;
+  bool isInterlaced_ = false;
   bool isPlain_ = false;  ///< 8 bits, rows in order
 };
 

@@ -353,9 +353,35 @@ bool isExr(std::span<const std::byte> bytes) {
 
 namespace {
 
+/// The library makes room for an attribute of two gigabytes before it finds that the file ends:
+/// false where one is said to be longer than what is left.
+bool attributesFit(std::span<const std::byte> bytes) {
+  std::size_t at = 8;  // magic and version
+  const bool hasParts = bytes.size() > 5 && (bytes[5] & std::byte(0x10)) != std::byte(0);
+  const auto endOfText = [&] {
+    while (at < bytes.size() && bytes[at] != std::byte(0)) ++at;
+    return ++at <= bytes.size();
+  };
+  for (std::size_t header = at; at < bytes.size();) {
+    if (bytes[at] == std::byte(0)) {  // the end of a header; of several, an empty one is the last
+      if (!hasParts || at == header) return true;
+      header = ++at;
+      continue;
+    }
+    if (!endOfText() || !endOfText() || bytes.size() - at < 4) return false;
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size |= std::uint32_t(bytes[at + i]) << (8 * i);
+    at += 4;
+    if (size > bytes.size() - at) return false;
+    at += size;
+  }
+  return false;
+}
+
 /// Runs `read`, whose errors of the library become ours.
 template <class Read>
-auto guarded(const std::string& name, Read read) {
+auto guarded(std::span<const std::byte> bytes, const std::string& name, Read read) {
+  if (!attributesFit(bytes)) throw damaged(name, "the EXR is cut short");
   static std::once_flag once;
   std::call_once(once, [] {
     Imf::Header::setMaxImageSize(maxSide, maxSide);
@@ -377,17 +403,17 @@ auto guarded(const std::string& name, Read read) {
 
 StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer) {
-  return guarded(name, [&] { return ExrReader(bytes, name).read(layer); });
+  return guarded(bytes, name, [&] { return ExrReader(bytes, name).read(layer); });
 }
 
 PictureLayers decodeExrLayers(std::span<const std::byte> bytes, const std::string& name,
                               const std::string& wanted) {
-  return guarded(name, [&] { return ExrReader(bytes, name).readAll(wanted); });
+  return guarded(bytes, name, [&] { return ExrReader(bytes, name).readAll(wanted); });
 }
 
 std::map<std::string, std::string> exrText(std::span<const std::byte> bytes,
                                            const std::string& name) {
-  return guarded(name, [&] { return ExrReader(bytes, name).text(); });
+  return guarded(bytes, name, [&] { return ExrReader(bytes, name).text(); });
 }
 
 }  // namespace glint::detail

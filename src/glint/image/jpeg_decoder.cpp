@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <optional>
 
 #include "glint/image/decoders.h"
+#include "glint/image/row_reducer.h"
 
 // libjpeg reports errors through a function that must not return. It jumps back into one of the
 // small functions below that have no object with a destructor, so that the jump skips none.
@@ -126,7 +128,7 @@ unsigned char product(unsigned a, unsigned b) {
 
 /// Without a profile CMYK says little about colour; this is what most viewers do. Adobe's files,
 /// nearly all there are, hold the complements.
-void convertCmyk(std::vector<unsigned char>& pixels, bool complements) {
+void convertCmyk(std::span<unsigned char> pixels, bool complements) {
   const unsigned flip = complements ? 0 : 255;
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const unsigned black = pixels[i + 3] ^ flip;
@@ -144,31 +146,66 @@ bool isJpeg(std::span<const std::byte> bytes) {
          bytes[2] == std::byte(0xff);
 }
 
-ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name) {
+namespace {
+
+/// Reads the header and checks the size.
+void openJpeg(JpegReader& reader, std::span<const std::byte> bytes, const std::string& name) {
+  if (!readHeader(reader, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
+    throw damaged(name, std::string("the JPEG is damaged (") + reader.message + ")");
+  checkSides(name, reader.info.image_width, reader.info.image_height);
+}
+
+}  // namespace
+
+TextureHeader jpegHeader(std::span<const std::byte> bytes, const std::string& name) {
   JpegReader reader;
+  openJpeg(reader, bytes, name);
+  TextureHeader header{int(reader.info.image_width), int(reader.info.image_height), 0, 0};
+  // Of a picture in several scans the library holds all coefficients, two bytes each.
+  if (jpeg_has_multiple_scans(&reader.info)) {
+    for (int i = 0; i < reader.info.num_components; ++i) {
+      const jpeg_component_info& component = reader.info.comp_info[i];
+      header.work +=
+          std::uint64_t(2) * DCTSIZE2 * component.width_in_blocks * component.height_in_blocks;
+    }
+  }
+  header.reducedWork = header.work;
+  return header;
+}
+
+ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name, int halvings,
+                     bool isData) {
+  JpegReader reader;
+  openJpeg(reader, bytes, name);
   const auto check = [&](bool good) {
     if (!good) throw damaged(name, std::string("the JPEG is damaged (") + reader.message + ")");
   };
-  check(readHeader(reader, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-  checkSides(name, reader.info.image_width, reader.info.image_height);
   check(startDecoding(reader));
   ByteImage image;
   image.width = static_cast<int>(reader.info.output_width);
   image.height = static_cast<int>(reader.info.output_height);
   const std::size_t rowBytes = std::size_t(4) * image.width;
-  image.values.reserve(rowBytes * image.height);
+  std::optional<RowReducer> reducer;
+  if (halvings > 0) {
+    reducer.emplace(image.width, image.height, halvings, isData);
+    image.values.resize(rowBytes * rowsAtOnce);
+  } else {
+    image.values.reserve(rowBytes * image.height);
+  }
   // Grown as rows arrive: a small file that claims to be a giant touches little memory.
   for (int y = 0; y < image.height; y += rowsAtOnce) {
     const int count = std::min(rowsAtOnce, image.height - y);
-    image.values.resize(rowBytes * (y + count));
-    check(readRows(reader, image.values.data() + rowBytes * y, count));
+    if (!reducer) image.values.resize(rowBytes * (y + count));
+    const std::span<unsigned char> rows(image.values.data() + (reducer ? 0 : rowBytes * y),
+                                        rowBytes * count);
+    check(readRows(reader, rows.data(), count));
+    if (reader.info.out_color_space == JCS_CMYK)
+      convertCmyk(rows, reader.info.saw_Adobe_marker != 0);
+    for (int row = 0; reducer && row < count; ++row) reducer->add(rows.data() + rowBytes * row);
   }
   if (reader.endless && !isComplete(reader.info))
     throw damaged(name, "the JPEG is damaged (its last scans are missing)");
-  if (reader.info.out_color_space == JCS_CMYK) {
-    convertCmyk(image.values, reader.info.saw_Adobe_marker != 0);
-  }
-  return image;
+  return reducer ? reducer->take() : std::move(image);
 }
 
 }  // namespace glint::detail

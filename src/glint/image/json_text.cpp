@@ -5,7 +5,14 @@
 namespace glint {
 namespace {
 
-bool nestsTooDeep(std::string_view text) {
+/// What is said of a text by its brackets alone.
+struct Brackets {
+  bool tooDeep = false;
+  std::size_t count = 0;  ///< arrays and objects
+};
+
+Brackets bracketsOf(std::string_view text) {
+  Brackets all;
   int depth = 0;
   bool inString = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -16,19 +23,26 @@ bool nestsTooDeep(std::string_view text) {
     } else if (c == '"') {
       inString = true;
     } else if (c == '{' || c == '[') {
-      if (++depth > maxJsonNesting) return true;
+      ++all.count;
+      if (++depth > maxJsonNesting) {
+        all.tooDeep = true;
+        return all;
+      }
     } else if (c == '}' || c == ']') {
       --depth;
     }
   }
-  return false;
+  return all;
 }
 
 }  // namespace
 
 std::string jsonRefusal(std::string_view text) {
-  if (nestsTooDeep(text))
-    return "JSON nested more than " + std::to_string(maxJsonNesting) + " deep";
+  const Brackets brackets = bracketsOf(text);
+  if (brackets.tooDeep) return "JSON nested more than " + std::to_string(maxJsonNesting) + " deep";
+  if (brackets.count > jsonBracketsFree && brackets.count * jsonBytesForBrackets > text.size())
+    return "JSON of " + std::to_string(brackets.count) + " arrays and objects in " +
+           std::to_string(text.size()) + " bytes, which are empty for the most part";
   return {};
 }
 

@@ -14,6 +14,10 @@ namespace glint {
 /// Arrays and objects in one another; no file that is read here needs a quarter of it.
 inline constexpr int maxJsonNesting = 64;
 
+/// So many arrays and objects any text may hold, and beyond that one for so many bytes: each takes
+/// more than a kilobyte in the end, and one that says anything has a dozen, as {"mesh":10} has.
+inline constexpr std::size_t jsonBracketsFree = 1 << 16, jsonBytesForBrackets = 12;
+
 /// Why a text is not read as JSON at all, such as "JSON nested more than 64 deep"; empty if it may
 /// be parsed.
 std::string jsonRefusal(std::string_view text);

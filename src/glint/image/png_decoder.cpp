@@ -73,7 +73,8 @@ PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
   height_ = static_cast<int>(header.height);
   bitDepth_ = header.bit_depth;
   colourType_ = header.color_type;
-  isPlain_ = header.bit_depth == 8 && header.interlace_method == SPNG_INTERLACE_NONE;
+  isInterlaced_ = header.interlace_method != SPNG_INTERLACE_NONE;
+  isPlain_ = header.bit_depth == 8 && !isInterlaced_;
 }
 
 bool PngReader::hasAlpha() const {
@@ -115,6 +116,25 @@ void PngReader::decode(std::vector<std::uint8_t>& rgba) {
 void PngReader::decode(std::vector<std::uint16_t>& rgba) {
   rgba.resize(std::size_t(4) * width_ * height_);
   decodeTo(rgba.data(), rgba.size() * sizeof rgba[0], SPNG_FMT_RGBA16);
+}
+
+void PngReader::decodeRows(const std::function<void(const std::uint8_t* rgba)>& take) {
+  const std::size_t rowBytes = std::size_t(4) * width_;
+  if (isInterlaced_) {
+    std::vector<std::uint8_t> rgba;
+    decode(rgba);
+    for (int y = 0; y < height_; ++y) take(rgba.data() + rowBytes * y);
+    return;
+  }
+  std::vector<std::uint8_t> row(rowBytes);
+  check(spng_decode_image(png_.get(), nullptr, 0, SPNG_FMT_RGBA8,
+                          SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE));
+  for (int y = 0; y < height_; ++y) {
+    const int status = spng_decode_row(png_.get(), row.data(), row.size());
+    if (status != SPNG_EOI) check(status);
+    take(row.data());
+  }
+  check(spng_decode_chunks(png_.get()));
 }
 
 void PngReader::decodeTo(void* out, std::size_t size, int format) {

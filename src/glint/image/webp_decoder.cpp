@@ -14,6 +14,22 @@ bool isWebp(std::span<const std::byte> bytes) {
          std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
 }
 
+TextureHeader webpHeader(std::span<const std::byte> bytes, const std::string& name) {
+#if GLINT_WEBP
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                      &features) != VP8_STATUS_OK)
+    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+  // Without losses (format 2) the library holds the whole picture once more, with losses its alpha.
+  const std::uint64_t pixels = std::uint64_t(features.width) * features.height;
+  const std::uint64_t work = features.format == 1 ? (features.has_alpha ? pixels : 0) : 4 * pixels;
+  return {features.width, features.height, work, work + 4 * pixels};
+#else
+  decodeWebp(bytes, name);
+  return {};
+#endif
+}
+
 ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name) {
 #if GLINT_WEBP
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());

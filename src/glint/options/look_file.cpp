@@ -43,9 +43,9 @@ void readMaterials(Look& look, const Json& value) {
 }  // namespace
 
 void readLook(Look& look, const std::string& text, const std::string& source) {
-  std::string error;
-  const std::optional<Json> parsed = parseJsonText<Json>(text, error);
-  if (!parsed) throw InputError(source + ": not a look file: " + error);
+  std::string fault;
+  const std::optional<Json> parsed = parseJsonText<Json>(text, fault);
+  if (!parsed) throw InputError(source + ": not a look file: " + fault);
   const Json& json = *parsed;
   if (!json.is_object()) throw InputError(source + ": not a look file: it must be a JSON object");
   if (json.value("glint-look", Json()) != Json(1))

@@ -27,11 +27,9 @@ std::string defaultText(const Parameter& p) {
 
 /// Takes back what `by` sets.
 void clearEdit(MaterialEdit& edit, const MaterialEdit& by) {
-  for (const auto& p : materialParameters())
-    if (by.*p.edit) (edit.*p.edit).reset();
-  if (by.color) edit.color.reset();
-  if (by.highlight) edit.highlight.reset();
-  if (by.fresnel) edit.fresnel.reset();
+  forEachEdit([&](auto part) {
+    if (by.*part) (edit.*part).reset();
+  });
 }
 
 bool hasBudget(const Look& look) {

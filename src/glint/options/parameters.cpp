@@ -180,14 +180,22 @@ Parameter lightScale() {
   return p;
 }
 
+// Of the lobe, as --highlight takes them.
+std::string formNames() {
+  std::string names;
+  for (const HighlightRow& each : highlightRows())
+    names += (names.empty() ? "" : ", ") + std::string(each.name) + (each.hasGamma ? ":G" : "");
+  return names;
+}
+
 Parameter highlight() {
   Parameter p = custom(
       "highlight", "FORM[/N,FORM...]",
-      "how the specular lobe is computed: exact (from the difference vector, stable), pow (the "
-      "textbook's pow(dot)), integer (whole exponents from 1 to 128 by squaring, others exact), "
-      "lyon:G, lyon-tuned:G (a better slope at the same cost), lyon-cross:G (from the cross "
-      "product), pade:G (G = 1, 2, 4, ... 64), gaussian, none; exact/2,lyon:8 uses the first form "
-      "for the two brightest lights and the second for the others",
+      "how the specular lobe is computed: " + formNames() +
+          " (G = 1, 2, 4, ... 64); exact is from the difference vector, stable, pow the textbook's "
+          "pow(dot), integer takes whole exponents from 1 to 128 by squaring and others exactly, "
+          "docs/approximations.md has the others; exact/2,lyon:8 uses the first form for the two "
+          "brightest lights and the second for the others",
       [](Look& look, const std::string& text) {
         look.highlight = parseHighlights(text, "--highlight");
       },
@@ -212,14 +220,16 @@ Json materialEdits(const Look& look) {
 }
 
 Parameter materials() {
+  std::string names;
+  for (const MaterialParameter& each : materialParameters()) names += std::string(each.name) + ", ";
   Parameter p = custom(
       "material", "[NAME:|NAME#N:|#N:]key=value,...",
       "set parameters of every material, of those called NAME, of the N-th of them, or of the "
-      "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): "
-      "ambient, diffuse, specular, exponent, "
-      "metalness (1: the highlight has the material's colour, as on real metals; 0: it is white; "
-      "the lecture notes' words say the opposite of their formula, which is used), ior, "
-      "transmission, color, and the forms highlight and fresnel; repeatable",
+      "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): " +
+          names +
+          "color, and the forms highlight and fresnel; metalness 1: the highlight has the "
+          "material's colour, as on real metals; 0: it is white (the lecture notes' words say the "
+          "opposite of their formula, which is used); repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -240,6 +250,26 @@ Parameter costTable() {
       [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
       [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
   return resetting(std::move(p), &Look::costTable);
+}
+
+Parameter maxError() {
+  Parameter p = number("max-error", "E", 0, 1e6, &Look::maxError,
+                       "use the cheapest forms of lobe and reflectance whose proven error for "
+                       "this scene is at most E, in linear light, or Ncode: N codes of the 8-bit "
+                       "picture after exposure; the exact ones where there is none");
+  p.value = "E|Ncode";
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
+    const bool codes = at != std::string::npos && text.compare(at, 4, "code") == 0;
+    read(look, codes ? text.substr(0, at) : text);
+    look.maxErrorInCodes = codes;
+  };
+  p.save = [save = p.save](const Look& look) {
+    if (!look.maxErrorInCodes || !look.maxError) return save(look);
+    return Json(save(look).dump() + "code");
+  };
+  p.reset = [](Look& look) { look.maxError.reset(), look.maxErrorInCodes = false; };
+  return slider(std::move(p), 1e-5, 1, true);
 }
 
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
@@ -263,13 +293,7 @@ std::vector<Parameter> makeTable() {
               "how the program environment computes reflectance: exact (without cancellation), the "
               "textbook's equations, Schlick's approximation, the same with its power by exp2, or "
               "a rational function fitted to the index"),
-       slider(
-           number(
-               "max-error", "E", 0, 1e6, &Look::maxError,
-               "use the cheapest forms of lobe and reflectance whose proven error for this scene "
-               "is at most E, in linear light; the exact ones where there is none"),
-           1e-5, 1, true),
-       costTable(),
+       maxError(), costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),

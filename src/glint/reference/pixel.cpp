@@ -4,35 +4,35 @@
 #include <cmath>
 #include <limits>
 
+#include "glint/reference/samples.h"
 #include "glint/shading/pbr_conversion.h"
 #include "glint/shading/safe.h"
 
 namespace glint::reference {
 namespace {
 
-// The perspective-correct mean of a vertex attribute.
+// The perspective-correct mean of a vertex attribute, by weights over w.
 template <typename Get>
-auto mean(const Footprint& f, Get get) {
-  const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
-  auto sum = f.weights[0] * get(f.vertex[0]);
-  if (f.weights[1] != 0) sum += f.weights[1] * get(f.vertex[1]);
-  if (f.weights[2] != 0) sum += f.weights[2] * get(f.vertex[2]);
+auto mean(const Footprint& f, const glm::dvec3& weights, Get get) {
+  const double w = 1 / (weights[0] + weights[1] + weights[2]);
+  auto sum = weights[0] * get(f.vertex[0]);
+  if (weights[1] != 0) sum += weights[1] * get(f.vertex[1]);
+  if (weights[2] != 0) sum += weights[2] * get(f.vertex[2]);
   return w * sum;
 }
 
+template <typename Get>
+auto mean(const Footprint& f, Get get) {
+  return mean(f, f.weights, get);
+}
+
+// By one level of detail for the square, from the largest of its four steps.
 glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::dvec2> texcoords,
                          const Footprint& f) {
   const auto get = [&](std::uint32_t i) { return texcoords[i]; };
-  const glm::dvec2 uv = mean(f, get);
-  // d(sum / weight) = (d sum - uv d weight) / weight
-  const double w = 1 / (f.weights[0] + f.weights[1] + f.weights[2]);
-  glm::dvec2 dx(0.0), dy(0.0);
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec2 from = get(f.vertex[std::size_t(i)]) - uv;
-    dx += f.dx[i] * w * from;
-    dy += f.dy[i] * w * from;
-  }
-  return sampler.sample(uv, dx, dy);
+  std::array<glm::dvec2, 4> uv;
+  for (std::size_t i = 0; i < 4; ++i) uv[i] = mean(f, f.square[i], get);
+  return sampler.sample(mean(f, get), {uv[1] - uv[0], uv[2] - uv[0], uv[3] - uv[1], uv[3] - uv[2]});
 }
 
 glm::dvec3 emissionOf(const Item& item, const Footprint& f) {
@@ -179,7 +179,9 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   select(itemNumber, number);
   const Item& item = stage_.items[std::size_t(itemNumber)];
   const Vertices& v = stage_.vertices[item.vertices];
-  const Footprint f = primitive_.footprint(column + 0.5, stage_.grid.y - row - 0.5);
+  const double middleX = column + 0.5, middleY = stage_.grid.y - row - 0.5;
+  const Footprint f = primitive_.fragment(
+      column, row, stage_.grid.y, shadingPlace(primitive_, stage_.samples, middleX, middleY));
   Attributes a;
   a.item = itemNumber;
   a.primitive = number;
@@ -199,16 +201,11 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   a.faceNormal = faceNormal_;
   a.normal = normalAt(f);
   if (stage_.frame.image && item.surface.program == Shading::environment) {
-    const auto place = [&](int x, int y) {
-      return primitive_.footprint(x + 0.5, stage_.grid.y - y - 0.5);
-    };
-    // GL takes differences within squares of 2 x 2 pixels, which begin at the lower left.
-    const int below = (stage_.grid.y - 1 - row) % 2 == 0 ? row - 1 : row + 1;
-    const Footprint across = place(column ^ 1, row), along = place(column, below);
-    a.positionAcross = positionAt(across) - a.position;
-    a.normalAcross = normalAt(across) - a.normal;
-    a.positionAlong = positionAt(along) - a.position;
-    a.normalAlong = normalAt(along) - a.normal;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Footprint at = f;
+      at.weights = f.square[i];
+      a.square[i] = {positionAt(at), normalAt(at)};
+    }
   }
   if (item.surface.program == Shading::flat) {
     a.numbers = numbers_[0];

@@ -115,6 +115,19 @@ Footprint Primitive::footprint(double x, double y) const {
   return f;
 }
 
+Footprint Primitive::fragment(int column, int row, int rows, const glm::dvec2& place) const {
+  const auto middleOf = [rows](int y) { return rows - y - 0.5; };
+  Footprint f = footprint(column + 0.5 + place.x, middleOf(row) + place.y);
+  // Squares begin at the lower left.
+  const int below = (rows - 1 - row) % 2 == 0 ? row - 1 : row + 1;
+  const int columns[] = {column, column ^ 1}, lines[] = {row, below};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (int k = 0; k < 3; ++k)
+      f.square[i][k] =
+          at(edges[std::size_t(k)], columns[i % 2] + 0.5, middleOf(lines[i / 2])) * scale;
+  return f;
+}
+
 std::size_t primitiveCount(const Mesh& mesh) {
   return mesh.indices.size() / cornersOf(mesh.topology);
 }

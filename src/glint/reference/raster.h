@@ -18,6 +18,10 @@ namespace glint::reference {
 struct Footprint {
   std::array<std::uint32_t, 3> vertex{};
   glm::dvec3 weights{0.0}, dx{0.0}, dy{0.0};
+  /// The weights in the middles of the four pixels of the square by which GL takes differences: the
+  /// pixel's own, the others across, along, and across both. The first alone counts unless it is a
+  /// fragment's.
+  std::array<glm::dvec3, 4> square{};
   double depth = 0;  ///< 1 at the near plane, 0 at the far one
 };
 
@@ -35,6 +39,10 @@ struct Primitive {
   glm::dvec2 from{0.0}, to{0.0};   ///< of lines and points: the ends, within the depth range
 
   Footprint footprint(double x, double y) const;
+
+  /// That of a fragment of the pixel (column, row from the top) of a picture of `rows` rows, shaded
+  /// at `place` from the pixel's middle.
+  Footprint fragment(int column, int row, int rows, const glm::dvec2& place) const;
 };
 
 /// Nothing if it is culled, without area, or beyond the near or the far plane as a whole.
@@ -51,6 +59,15 @@ inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0
 
 inline double at(const glm::dvec3& f, double x, double y) { return f.x * x + f.y * y + f.z; }
 
+/// Whether a triangle covers the place (x, y).
+inline bool covers(const Primitive& p, double x, double y) {
+  for (const glm::dvec3& edge : p.edges) {
+    const double e = at(edge, x, y);
+    if (!(e > 0 || (e == 0 && ownsEdge(edge)))) return false;
+  }
+  return true;
+}
+
 /// The samples from column first to column last that the triangle may cover in the row at height y.
 struct Columns {
   int first, last;
@@ -66,10 +83,11 @@ inline bool isSteep(const Primitive& line) {
 }
 
 /// Calls visit(column, row) for each sample covered, rows counted from the top, in [firstRow,
-/// endRow); row by row.
+/// endRow); row by row. `sample` is where in each pixel, from its middle; lines and points cover
+/// all samples of a pixel.
 template <typename Visit>
 void forEachSample(const Primitive& p, const glm::ivec2& grid, int firstRow, int endRow,
-                   Visit visit) {
+                   const glm::dvec2& sample, Visit visit) {
   const auto place = [](double x, int low, int high) {  // floor, within [low, high]
     return int(std::clamp(std::floor(x), double(low), double(high)));
   };
@@ -95,15 +113,9 @@ void forEachSample(const Primitive& p, const glm::ivec2& grid, int firstRow, int
         visit(int(column), row);
       continue;
     }
-    const Columns columns = columnsAt(p, y, grid.x);
-    for (int column = columns.first; column <= columns.last; ++column) {
-      bool inside = true;
-      for (const glm::dvec3& edge : p.edges) {
-        const double e = at(edge, column + 0.5, y);
-        inside = inside && (e > 0 || (e == 0 && ownsEdge(edge)));
-      }
-      if (inside) visit(column, row);
-    }
+    const Columns columns = columnsAt(p, y + sample.y, grid.x);
+    for (int column = columns.first; column <= columns.last; ++column)
+      if (covers(p, column + 0.5 + sample.x, y + sample.y)) visit(column, row);
   }
 }
 

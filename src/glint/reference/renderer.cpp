@@ -11,6 +11,7 @@
 #include "glint/image/task.h"
 #include "glint/reference/pixel.h"
 #include "glint/reference/raster.h"
+#include "glint/reference/samples.h"
 #include "glint/shading/safe.h"
 
 namespace glint {
@@ -24,7 +25,6 @@ constexpr double sameDepth = 1e-12;
 constexpr int maxStripSamples = 1 << 16;
 
 int scaleOf(const AntiAliasing& antiAliasing) {
-  checkReferenceAntiAliasing(antiAliasing);
   return antiAliasing.mode == AntiAliasing::Mode::ssaa ? antiAliasing.count : 1;
 }
 
@@ -35,10 +35,7 @@ int threadsFor(int asked) {
 }  // namespace
 
 void checkReferenceAntiAliasing(const AntiAliasing& antiAliasing) {
-  if (antiAliasing.mode == AntiAliasing::Mode::msaa && antiAliasing.count > 1)
-    throw InputError("--anti-aliasing msaa:" + std::to_string(antiAliasing.count) +
-                     ": the reference draws none or ssaa:N: give --anti-aliasing ssaa:" +
-                     std::to_string(antiAliasing.count));
+  reference::samplePattern(antiAliasing);
 }
 
 ReferenceRenderer::ReferenceRenderer(const Scene& scene, const DecodedImages& images,
@@ -71,6 +68,24 @@ void ReferenceRenderer::sortIntoStrips() {
   }
 }
 
+double ReferenceRenderer::depthAt(const reference::Primitive& p, int column, int row,
+                                  const glm::dvec2& sample) const {
+  const bool whole = p.topology != Topology::triangles;  // lines and points cover whole pixels
+  const glm::dvec2 place = whole ? glm::dvec2(0.0) : sample;
+  return p.footprint(column + 0.5 + place.x, stage_.grid.y - row - 0.5 + place.y).depth;
+}
+
+double ReferenceRenderer::alphaAt(const reference::Item& item, const reference::Primitive& p,
+                                  int column, int row) const {
+  const glm::dvec2 place =
+      reference::shadingPlace(p, stage_.samples, column + 0.5, stage_.grid.y - row - 0.5);
+  return reference::baseColor(item, p.fragment(column, row, stage_.grid.y, place)).a;
+}
+
+void ReferenceRenderer::sampleAt(std::vector<glm::dvec2> samples) {
+  stage_.samples = std::move(samples);
+}
+
 void ReferenceRenderer::findVisible(int firstRow, int endRow, Strip& strip) const {
   const std::size_t width = std::size_t(stage_.grid.x);
   const std::size_t samples = width * std::size_t(endRow - firstRow);
@@ -83,14 +98,15 @@ void ReferenceRenderer::findVisible(int firstRow, int endRow, Strip& strip) cons
     const auto p =
         reference::makePrimitive(item, stage_.vertices[item.vertices], primitives[k].primitive);
     if (!p) continue;
-    reference::forEachSample(*p, stage_.grid, firstRow, endRow, [&](int column, int row) {
+    const auto visit = [&](int column, int row) {
       const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
-      const auto footprint = p->footprint(column + 0.5, stage_.grid.y - row - 0.5);
-      if (!(footprint.depth > strip.depth[at] * (1 + sameDepth)) || footprint.depth > 1) return;
-      if (item.mask && reference::baseColor(item, footprint).a < item.alphaCutoff) return;
-      strip.depth[at] = footprint.depth;
+      const double depth = depthAt(*p, column, row, strip.sample);
+      if (!(depth > strip.depth[at] * (1 + sameDepth)) || depth > 1) return;
+      if (item.mask && alphaAt(item, *p, column, row) < item.alphaCutoff) return;
+      strip.depth[at] = depth;
       strip.visible[at] = std::uint32_t(k + 1);
-    });
+    };
+    reference::forEachSample(*p, stage_.grid, firstRow, endRow, strip.sample, visit);
   }
 }
 
@@ -100,9 +116,11 @@ glm::dvec4 ReferenceRenderer::background(int column, int row) const {
   const auto ray = [&](int x, int y) {
     return safeNormalize(stage_.ray(x + 0.5, stage_.grid.y - y - 0.5));
   };
-  const glm::dvec3 here = ray(column, row);
-  const double spread =
-      std::max(glm::length(ray(column + 1, row) - here), glm::length(ray(column, row + 1) - here));
+  const int below = (stage_.grid.y - 1 - row) % 2 == 0 ? row - 1 : row + 1;
+  const glm::dvec3 here = ray(column, row), across = ray(column ^ 1, row),
+                   along = ray(column, below), both = ray(column ^ 1, below);
+  const double spread = std::max({glm::length(across - here), glm::length(along - here),
+                                  glm::length(both - across), glm::length(both - along)});
   return {environmentToward(stage_.frame, here, spread), 1.0};
 }
 
@@ -124,6 +142,20 @@ void ReferenceRenderer::drawStrip(int firstRow, int endRow, Strip& strip) const 
   blend(firstRow, endRow, strip);
 }
 
+void ReferenceRenderer::drawSamples(int firstRow, int endRow, Strip& strip) const {
+  strip.sample = glm::dvec2(0.0);
+  if (stage_.samples.empty()) return drawStrip(firstRow, endRow, strip);
+  std::vector<glm::dvec4> sum;
+  for (const glm::dvec2& sample : stage_.samples) {
+    strip.sample = sample;
+    drawStrip(firstRow, endRow, strip);
+    sum.resize(strip.color.size(), glm::dvec4(0.0));
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += strip.color[i];
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    strip.color[i] = sum[i] / double(stage_.samples.size());
+}
+
 // Exactly: at each sample all that is blended and nearer than what is opaque, from the back.
 void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
   const std::size_t width = std::size_t(stage_.grid.x);
@@ -136,13 +168,14 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
     const reference::Item& item = stage_.items[from->item];
     const auto p = reference::makePrimitive(item, stage_.vertices[item.vertices], from->primitive);
     if (!p) continue;
-    reference::forEachSample(*p, stage_.grid, firstRow, endRow, [&](int column, int row) {
+    const auto visit = [&](int column, int row) {
       const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
-      const double depth = p->footprint(column + 0.5, stage_.grid.y - row - 0.5).depth;
+      const double depth = depthAt(*p, column, row, strip.sample);
       if (!(depth > strip.depth[at] * (1 + sameDepth)) || depth > 1) return;
       strip.fragments.push_back(
           {at, depth, shader.fragment(int(from->item), from->primitive, column, row)});
-    });
+    };
+    reference::forEachSample(*p, stage_.grid, firstRow, endRow, strip.sample, visit);
   }
   // Stable: of surfaces that coincide the last drawn lies on top.
   std::ranges::stable_sort(strip.fragments, [](const Fragment& a, const Fragment& b) {
@@ -188,7 +221,7 @@ void ReferenceRenderer::drawRows(int y0, int rows, Image& out) {
   inParallel(lastStrip - firstStrip + 1, [&](int i, Strip& strip) {
     const int from = std::max(first, (firstStrip + i) * stripRows_);
     const int to = std::min(end, (firstStrip + i + 1) * stripRows_);
-    drawStrip(from, to, strip);
+    drawSamples(from, to, strip);
     const double share = 1.0 / (double(scale_) * scale_);
     for (int y = from / scale_; y < to / scale_; ++y)
       for (int x = 0; x < out.width; ++x) {

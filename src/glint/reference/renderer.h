@@ -8,6 +8,10 @@
 #include "glint/reference/scene.h"
 #include "glint/render/picture_terms.h"
 
+namespace glint::reference {
+struct Primitive;
+}
+
 namespace glint {
 
 /// Draws a scene and look on the CPU in double precision, without GL: the truth for every error
@@ -15,15 +19,20 @@ namespace glint {
 ///
 /// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
 /// perspective-correct interpolation, samples between the near and the far plane) but does not snap
-/// vertices to a subpixel grid. Where depths agree to 1e-12 the first drawn stays in front.
-/// What is blended is composed exactly, at every sample from the back to the front.
+/// vertices to a subpixel grid. Multisampled, a pixel that a triangle covers in part is shaded for
+/// it at the mean of the samples covered. Where depths agree to 1e-12 the first drawn stays in
+/// front. What is blended is composed exactly, at every sample from the back to the front.
 class ReferenceRenderer {
  public:
   /// Transforms and sorts by strips of rows; draws nothing yet. Scene and images must outlive it.
-  /// `threads` 0: as many as the processor has. Throws InputError for multisampling, and for a
-  /// camera or a material that the scene does not have.
+  /// `threads` 0: as many as the processor has. Throws InputError for a number of samples without a
+  /// pattern (samples.h), and for a camera or a material that the scene does not have.
   ReferenceRenderer(const Scene& scene, const DecodedImages& images, const Bounds& bounds,
                     const Look& look, int threads = 0);
+
+  /// Before anything is drawn: where a multisampled picture's samples lie in each pixel, from its
+  /// middle, y upwards, as a driver has them.
+  void sampleAt(std::vector<glm::dvec2> samples);
 
   /// Before anything is drawn: leaves one term of the picture (see picture_terms.h) to be drawn.
   void keep(const PictureTerm& term);
@@ -62,13 +71,17 @@ class ReferenceRenderer {
     std::vector<glm::dvec4> color;
     std::vector<double> depth;
     std::vector<Fragment> fragments;     ///< of what is blended
+    glm::dvec2 sample{0.0};              ///< where in each pixel, from its middle
     std::vector<std::uint32_t> visible;  ///< 1 + index into the strip's primitives; 0 is none
   };
   void sortIntoStrips();
   std::size_t stripOf(int sampleRow) const { return std::size_t(sampleRow / stripRows_); }
   void findVisible(int firstRow, int endRow, Strip& strip) const;
   void drawStrip(int firstRow, int endRow, Strip& strip) const;
+  void drawSamples(int firstRow, int endRow, Strip& strip) const;
   void blend(int firstRow, int endRow, Strip& strip) const;
+  double depthAt(const reference::Primitive&, int column, int row, const glm::dvec2& sample) const;
+  double alphaAt(const reference::Item&, const reference::Primitive&, int column, int row) const;
   glm::dvec4 background(int column, int row) const;
   void inParallel(int count, const std::function<void(int, Strip&)>& task) const;
 
@@ -81,7 +94,7 @@ class ReferenceRenderer {
   std::atomic<int> rowsDone_ = 0;
 };
 
-/// Throws InputError if the reference cannot draw with this anti-aliasing: it has no multisampling.
+/// Throws InputError if the reference cannot draw with this anti-aliasing.
 void checkReferenceAntiAliasing(const AntiAliasing&);
 
 }  // namespace glint

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "glint/reference/samples.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/safe.h"
@@ -200,6 +201,7 @@ Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& li
   frame.image = list.environment.get();
   const bool ssaa = look.antiAliasing.mode == AntiAliasing::Mode::ssaa;
   grid = look.resolution * (ssaa ? look.antiAliasing.count : 1);
+  samples = samplePattern(look.antiAliasing);
   const glm::dmat4 toClip = projection(camera, glm::dvec2(0.0), glm::dvec2(1.0), true);
   std::map<int, std::size_t> placed;  // by instance: blended items stand in the list twice
   for (const DrawItem& from : list.items) {

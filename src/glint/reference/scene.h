@@ -52,7 +52,8 @@ struct Item {
 struct Stage {
   Stage(const Scene& scene, const DecodedImages& images, const DrawList& list, const Look& look);
 
-  glm::ivec2 grid{0};  ///< samples across and down
+  glm::ivec2 grid{0};               ///< samples across and down; multisampled, pixels
+  std::vector<glm::dvec2> samples;  ///< multisampled: where in a pixel they lie (samples.h)
   Frame frame;
   std::vector<Vertices> vertices;
   std::vector<Item> items;

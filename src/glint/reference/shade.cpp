@@ -26,17 +26,18 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   glm::dvec3 F(0.0);
   if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
   if (m > 0) F += m * metalReflectance(cosine, C);
-  // A picture is looked up over the angle by which the direction turns from pixel to pixel.
+  // A picture is looked up over the angle by which the direction turns from pixel to pixel, the
+  // largest of the square's.
   const auto spread = [&](const auto& directionAt) {
-    const auto turn = [&](const glm::dvec3& position, const glm::dvec3& normal) {
-      Attributes other = a;
-      other.position += position;
-      other.normal += normal;
-      return directionAt(other);
-    };
-    const glm::dvec3 here = directionAt(a);
-    return std::max(glm::length(turn(a.positionAcross, a.normalAcross) - here),
-                    glm::length(turn(a.positionAlong, a.normalAlong) - here));
+    std::array<glm::dvec3, 4> d;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Attributes at = a;
+      at.position = a.square[i].position;
+      at.normal = a.square[i].normal;
+      d[i] = directionAt(at);
+    }
+    return std::max({glm::length(d[1] - d[0]), glm::length(d[2] - d[0]), glm::length(d[3] - d[1]),
+                     glm::length(d[3] - d[2])});
   };
   const auto mirrored = [&](const Attributes& at) {
     return safeNormalize(reflect(-toViewer(frame, at.position), shadingNormal(surface, at)));
@@ -46,10 +47,12 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   if (terms.transparency == 0) return;
   const double n1 = entering ? surface.mediumIor : surface.ior;
   const double n2 = entering ? surface.ior : surface.mediumIor;
+  // Where a neighbour reflects totally, its refracted ray is taken to run along the surface, to
+  // which it tends at the critical angle.
   const auto refracted = [&](const Attributes& at) {
-    const auto direction =
-        refract(-toViewer(frame, at.position), shadingNormal(surface, at), n1, n2);
-    return direction ? safeNormalize(*direction) : glm::dvec3(0.0);
+    const glm::dvec3 v = toViewer(frame, at.position), n = shadingNormal(surface, at);
+    if (const auto direction = refract(-v, n, n1, n2)) return safeNormalize(*direction);
+    return safeNormalize(glm::dot(n, v) * n - v);
   };
   if (const auto direction = refract(-V, N, n1, n2))
     terms.refraction = terms.transparency * (1.0 - F) * C *

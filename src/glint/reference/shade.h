@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -81,9 +82,13 @@ struct Attributes {
   glm::dvec4 base{1.0};        ///< C and alpha: material, vertex colour and texture
   glm::dvec3 emission{0.0};    ///< material and texture
   Numbers numbers;             ///< material and textures; flat and gouraud read the metalness alone
-  /// What position and normal change by to the other pixel of the pair, across and down: GL's
-  /// differences. Set where the environment is a picture.
-  glm::dvec3 positionAcross{0.0}, positionAlong{0.0}, normalAcross{0.0}, normalAlong{0.0};
+  /// Position and normal in the middles of the four pixels of the square by which GL takes
+  /// differences: this one, the others across, along and across both. Set where the environment is
+  /// a picture.
+  struct Place {
+    glm::dvec3 position{0.0}, normal{0.0};
+  };
+  std::array<Place, 4> square{};
   /// flat and gouraud: the light carried from face or vertices, what C and what S multiply.
   glm::dvec3 matte{0.0}, specular{0.0};
 };

@@ -9,7 +9,6 @@ namespace {
 
 using Kind = PictureTerm::Kind;
 
-
 }  // namespace
 
 Image drawReferenceTerm(const Scene& scene, const DecodedImages& images, const Bounds& bounds,

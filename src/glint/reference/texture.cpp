@@ -76,11 +76,12 @@ glm::dvec4 TextureSampler::sampleLevel(const glm::dvec2& at, double levelOfDetai
   return glm::dvec4(1.0);
 }
 
-glm::dvec4 TextureSampler::sample(const glm::dvec2& at, const glm::dvec2& dx,
-                                  const glm::dvec2& dy) const {
+glm::dvec4 TextureSampler::sample(const glm::dvec2& at,
+                                  std::initializer_list<glm::dvec2> steps) const {
   const glm::dvec2 size(base_->width, base_->height);
-  const glm::dvec2 across = dx * size, along = dy * size;
-  const double square = std::max(glm::dot(across, across), glm::dot(along, along));
+  double square = 0;
+  for (const glm::dvec2& step : steps)
+    square = std::max(square, glm::dot(step * size, step * size));
   return sampleLevel(at, square > 0 ? 0.5 * std::log2(square) : -1.0);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <span>
 
 #include "glint/image/texture.h"
@@ -9,8 +10,8 @@
 namespace glint::reference {
 
 /// A texture sampled by GL's rules (OpenGL 3.3, section 3.8) in double. Texels are decoded from
-/// sRGB one by one, before filtering; alpha is linear. Level of detail log2 of the longer of the
-/// two footprint axes in texels of the full size; above 0 the texture is minified, whatever
+/// sRGB one by one, before filtering; alpha is linear. Level of detail log2 of the longest of the
+/// footprint's steps in texels of the full size; above 0 the texture is minified, whatever
 /// the filters (GL 3.3 moves the switch to 0.5 for some of them, which is not followed).
 ///
 /// The smaller levels are those of the picture's definition (glint/image/mipmaps.h), rounded to 8
@@ -23,8 +24,8 @@ class TextureSampler {
   TextureSampler(const ByteImage& base, std::span<const ByteImage> smaller, const Sampler&,
                  bool isData = false);
 
-  /// Linear RGB and alpha at `at`, whose change from pixel to pixel is `dx` and `dy`.
-  glm::dvec4 sample(const glm::dvec2& at, const glm::dvec2& dx, const glm::dvec2& dy) const;
+  /// Linear RGB and alpha at `at`, which changes by `steps` between neighbouring pixels.
+  glm::dvec4 sample(const glm::dvec2& at, std::initializer_list<glm::dvec2> steps) const;
 
   /// The same with the level of detail given.
   glm::dvec4 sampleLevel(const glm::dvec2& at, double levelOfDetail) const;

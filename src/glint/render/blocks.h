@@ -13,8 +13,9 @@ struct FrameBlock {
   glm::vec4 view{0, 0, 1, 5};
   glm::vec4 ambientLight{0};
   glm::vec4 rays{0};
+  glm::vec4 samples[32] = {};
 };
-static_assert(sizeof(FrameBlock) == 176);
+static_assert(sizeof(FrameBlock) == 688);
 
 struct LightEntry {
   glm::vec4 position{0};

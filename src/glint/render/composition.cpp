@@ -17,6 +17,20 @@ std::string header(bool fileNames) {
                    : "#version 330 core\n";
 }
 
+// What shades a pixel that is partly covered without leaving the triangle; before everything else.
+std::string multisampleText(bool multisampled) {
+  if (!multisampled) return "#define SHADES_AT_OFFSET 0\n#define VARYING\n";
+  return R"(#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : require
+#define SHADES_AT_OFFSET 1
+#define VARYING
+#else
+#define SHADES_AT_OFFSET 0
+#define VARYING centroid
+#endif
+)";
+}
+
 std::string define(std::string_view name, int value) {
   return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
 }
@@ -68,7 +82,12 @@ std::string parameterDefines(const Variant& v) {
 std::string defines(const Variant& v) {
   std::string text;
   for (const Feature& feature : features()) text += define(feature.define, feature.value(v));
-  text += std::string("#define VARYING ") + (v.centroid ? "centroid" : "") + "\n";
+  const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture ||
+                        (v.textured != 0 && !isPerVertex(v));
+  const bool image =
+      !v.unlit && v.program == Shading::environment && v.environment == Environment::image;
+  text += define("TEXTURES", textures);
+  text += define("LEVELS_OF_DETAIL", textures || image);
   constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
                                      "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
                                      "REFLECTION", "REFRACTION"};
@@ -81,8 +100,10 @@ std::string defines(const Variant& v) {
   text += define("LIGHTS", lights);
   text += define("LOBE_FORMS", lights > 0 ? int(v.dimmer.size()) + 1 : 0);
   text += define("BLINN", usesBlinn(v.program));
-  text +=
-      std::string("#define CARRIED ") + (v.program == Shading::flat ? "flat" : "VARYING") + "\n";
+  const bool perFace = v.program == Shading::flat;
+  text += std::string("#define CARRIED ") + (perFace ? "flat" : "VARYING") + "\n";
+  text += std::string("#define CARRIED_AT(varying) ") +
+          (perFace ? "varying" : "AT_PLACE(varying)") + "\n";
   if (!v.unlit && v.program == Shading::environment) text += environmentDefines(v.environment);
   return text;
 }
@@ -184,9 +205,11 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
     std::replace(file.begin(), file.end(), '-', '_');
     files.push_back({file, reflectanceFunction(v)});
   }
-  const std::string head = header(fileNames);
+  const std::string head = header(fileNames) + multisampleText(v.multisampled);
   const std::string features = defines(v);
   std::vector<Part> vertex = files, fragment = files;
+  const auto blocks = std::ranges::find(fragment, "blocks.glsl", &Part::file);
+  fragment.insert(blocks + 1, {"sampling.glsl"});
   vertex.push_back({"vertex.glsl"});
   fragment.push_back({"fragment.glsl"});
   if (v.textured != 0) (isPerVertex(v) ? vertex : fragment).push_back({"parameter_textures.glsl"});
@@ -196,12 +219,19 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
 
 ComposedProgram composeBackground(Environment environment, const GlslSources& sources,
                                   bool fileNames) {
-  const std::vector<Part> files{
-      {"vector.glsl"}, {"environment_map.glsl"}, {"blocks.glsl"}, {"background.glsl"}};
-  const std::string head = header(fileNames), map = environmentDefines(environment);
-  const std::string features = define("LIGHTS", 0) + map;
-  return {"background", join(head + stageDefines(true) + features, files, sources, fileNames),
-          join(head + stageDefines(false) + features, files, sources, fileNames)};
+  const std::vector<Part> vertex{{"vector.glsl"}, {"blocks.glsl"}, {"background.glsl"}};
+  const std::vector<Part> fragment{{"vector.glsl"},
+                                   {"blocks.glsl"},
+                                   {"sampling.glsl"},
+                                   {"environment_map.glsl"},
+                                   {"background.glsl"}};
+  // The background covers every sample.
+  const std::string head = header(fileNames) + multisampleText(false);
+  const std::string features = define("LIGHTS", 0) + define("TEXTURES", 0) +
+                               define("LEVELS_OF_DETAIL", environment == Environment::image) +
+                               environmentDefines(environment);
+  return {"background", join(head + stageDefines(true) + features, vertex, sources, fileNames),
+          join(head + stageDefines(false) + features, fragment, sources, fileNames)};
 }
 
 ComposedProgram composeLayer(bool multisampled, bool reversedDepth, const GlslSources& sources,

@@ -1,17 +1,28 @@
 #include "glint/render/decode.h"
 
 #include <algorithm>
-#include <future>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "glint/image/error.h"
 #include "glint/image/mipmaps.h"
+#include "glint/image/task.h"
+#include "glint/render/decode_plan.h"
+#include "glint/render/environment_image.h"
 #include "glint/render/opacity.h"
 #include "glint/scene/material_parameters.h"
 
 namespace glint {
 namespace {
+
+using detail::DecodeJob;
+
+std::atomic<std::uint64_t> givenLimit = 0;
 
 bool readsMipLevels(const Scene& scene, int image) {
   const auto reads = [&](const std::optional<Texture>& t) {
@@ -23,29 +34,139 @@ bool readsMipLevels(const Scene& scene, int image) {
   });
 }
 
+// Of the whole process, however many models are decoded at once: who decodes works itself, and
+// takes others to help as long as there are processors.
+class Helpers {
+ public:
+  explicit Helpers(std::size_t wanted) {
+    int left = free_;
+    do {
+      taken_ = std::min(int(std::min(wanted, std::size_t(1024))), left);
+    } while (!free_.compare_exchange_weak(left, left - taken_));
+  }
+  ~Helpers() { free_ += taken_; }
+  Helpers(const Helpers&) = delete;
+  Helpers& operator=(const Helpers&) = delete;
+  int count() const { return taken_; }
+
+ private:
+  static inline std::atomic<int> free_ = std::max(1, int(std::thread::hardware_concurrency())) - 1;
+  int taken_ = 0;
+};
+
+// Decodes jobs one after another, in several threads; a large one waits until there is room.
+class Decoding {
+ public:
+  Decoding(const Scene& scene, const std::vector<DecodeJob>& jobs, std::uint64_t room)
+      : scene_(scene), jobs_(jobs), room_(room), images_(jobs.size()), errors_(jobs.size()) {}
+
+  void run() {
+    const Helpers helpers(jobs_.empty() ? 0 : jobs_.size() - 1);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < helpers.count(); ++i)
+      if (!addWorker(threads, [this] { work(); })) break;
+    work();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  /// The picture of a job; throws what decoding has thrown.
+  DecodedImage take(std::size_t job) {
+    if (errors_[job]) std::rethrow_exception(errors_[job]);
+    return std::move(images_[job]);
+  }
+
+ private:
+  void work() {
+    for (std::size_t i = 0; (i = next_++) < jobs_.size();) {
+      const std::uint64_t bytes = jobs_[i].atWork();
+      {
+        std::unique_lock lock(mutex_);
+        left_.wait(lock, [&] { return inUse_ == 0 || inUse_ + bytes <= room_; });
+        inUse_ += bytes;
+      }
+      try {
+        images_[i] = decode(jobs_[i]);
+      } catch (...) {
+        errors_[i] = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      inUse_ -= bytes;
+      left_.notify_all();
+    }
+  }
+
+  DecodedImage decode(const DecodeJob& job) const {
+    const EncodedImage& image = scene_.images[std::size_t(job.image)];
+    DecodedImage decoded{decodeTexture(image.bytes, image.name, job.halvings, image.isData), {}};
+    if (job.hasLevels) decoded.mipLevels = mipLevels(decoded.image, image.isData);
+    return decoded;
+  }
+
+  const Scene& scene_;
+  const std::vector<DecodeJob>& jobs_;
+  const std::uint64_t room_;
+  std::vector<DecodedImage> images_;
+  std::vector<std::exception_ptr> errors_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;
+  std::condition_variable left_;
+  std::uint64_t inUse_ = 0;
+};
+
+void drawWithout(Scene& scene, int image, const InputError& error) {
+  scene.warnings.push_back(std::string(error.what()) + " (drawn without it)");
+  for (Material& material : scene.materials)
+    for (std::optional<Texture>* texture : texturesOf(material))
+      if (*texture && (*texture)->image == image) texture->reset();
+}
+
+// Of a picture of the environment that cannot be read, drawing tells.
+void tellOfEnvironment(Scene& scene, const Look& look) {
+  std::shared_ptr<const EnvironmentImage> image;
+  try {
+    image = environmentImageFor(look);
+  } catch (const InputError&) {
+    return;
+  }
+  if (image && image->corrected > 0)
+    scene.warnings.push_back("--hdri-file: " + image->name + ": " +
+                             std::to_string(image->corrected) +
+                             " texels are negative, infinite or not numbers: NaN and negative "
+                             "values count as 0, values above 1e30 as 1e30");
+}
+
 }  // namespace
 
+void limitDecoding(std::uint64_t bytes) { givenLimit = bytes; }
+
 DecodedImages decodeImages(Scene& scene, const Look& look) {
+  tellOfEnvironment(scene, look);
   return decodeImages(scene, look, [](int) { return false; });
 }
 
 DecodedImages decodeImages(Scene& scene, const Look& look,
                            const std::function<bool(int image)>& present) {
-  std::vector<std::pair<int, std::future<DecodedImage>>> tasks;
-  for (int i : imagesRead(scene, look)) {
+  std::vector<DecodeJob> jobs;
+  for (const int i : imagesRead(scene, look)) {
     if (present(i)) continue;
-    tasks.emplace_back(i, std::async(std::launch::async, [&scene, i] {
-                         const EncodedImage& image = scene.images[std::size_t(i)];
-                         DecodedImage decoded{decodeTexture(image.bytes, image.name), {}};
-                         if (readsMipLevels(scene, i))
-                           decoded.mipLevels = mipLevels(decoded.image, image.isData);
-                         return decoded;
-                       }));
-  }
-  DecodedImages images;
-  for (auto& [i, task] : tasks) {
+    const EncodedImage& image = scene.images[std::size_t(i)];
     try {
-      const DecodedImage& decoded = images[i] = task.get();
+      jobs.push_back({i, image.name, textureHeader(image.bytes, image.name), image.bytes.size(),
+                      readsMipLevels(scene, i), 0});
+    } catch (const InputError& error) {
+      drawWithout(scene, i, error);
+    }
+  }
+  const int useful = std::max({1024, 2 * look.resolution.x, 2 * look.resolution.y});
+  for (std::string& warning : detail::planDecoding(jobs, givenLimit, useful))
+    scene.warnings.push_back(std::move(warning));
+  Decoding decoding(scene, jobs, detail::decodeLimit(jobs, givenLimit));
+  decoding.run();
+  DecodedImages images;
+  for (std::size_t job = 0; job < jobs.size(); ++job) {
+    const int i = jobs[job].image;
+    try {
+      const DecodedImage& decoded = images[i] = decoding.take(job);
       for (Mesh& mesh : scene.meshes) {
         const Material& material = scene.materials[std::size_t(mesh.material)];
         if (material.alphaMode == AlphaMode::blend && material.colorTexture &&
@@ -53,10 +174,8 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
           mesh.opaqueTexels = texelsAreOpaque(mesh, *material.colorTexture, decoded.image);
       }
     } catch (const InputError& error) {
-      scene.warnings.push_back(std::string(error.what()) + " (drawn without it)");
-      for (Material& material : scene.materials)
-        for (std::optional<Texture>* texture : texturesOf(material))
-          if (*texture && (*texture)->image == i) texture->reset();
+      images.erase(i);
+      drawWithout(scene, i, error);
     }
   }
   return images;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <vector>
@@ -19,9 +20,23 @@ struct DecodedImage {
 /// By index in Scene::images.
 using DecodedImages = std::map<int, DecodedImage>;
 
-/// Decodes the images that the look reads, in parallel. A broken one becomes a warning of the scene
-/// and its materials lose the texture; of meshes whose materials blend it finds out whether all
-/// texels that they show are opaque.
+/// Textures are this long a side at most; longer ones are halved while they are read, so that every
+/// way of drawing has the same ones. Drivers of today have textures of this size.
+inline constexpr int maxTextureSide = 16384;
+
+/// The most bytes that the textures of one model may take decoded, for the whole process; 0 is the
+/// rule that stands otherwise: 256 MiB, or 128 times their bytes in the file where that is more.
+void limitDecoding(std::uint64_t bytes);
+
+/// Decodes the images that the look reads, in as many threads as there are processors. A broken one
+/// becomes a warning of the scene and its materials lose the texture; of meshes whose materials
+/// blend it finds out whether all texels that they show are opaque.
+///
+/// What they will take is told by their headers before anything is decoded. Where that is more than
+/// the limit, textures that are larger than the look's picture can show (twice its longer side, and
+/// 1024 at least) are halved while they are read, the largest first, with a warning; where that is
+/// not enough, an InputError names the largest. Warns of texels of
+/// the look's environment that are no light.
 DecodedImages decodeImages(Scene&, const Look&);
 
 /// The same of those that `present` says are not there yet, for a look that has changed.

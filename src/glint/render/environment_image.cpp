@@ -8,6 +8,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/read_image.h"
+#include "glint/render/decode.h"
 
 namespace glint {
 namespace {
@@ -60,6 +61,78 @@ Level halved(const Level& from) {
   return to;
 }
 
+/// The parts of a row that go with the cosine and the sine of the longitude.
+struct FirstHarmonic {
+  glm::dvec3 cosine{0.0}, sine{0.0};
+};
+
+/// Cosine (x) and sine (y) of the longitudes of a row's texels.
+std::vector<glm::dvec2> longitudes(int count) {
+  std::vector<glm::dvec2> around;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * pi * (i + 0.5) / count;
+    around.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return around;
+}
+
+FirstHarmonic firstHarmonic(const float* row, const std::vector<glm::dvec2>& around) {
+  FirstHarmonic h;
+  const double each = 2.0 / double(around.size());
+  for (const glm::dvec2& at : around) {
+    const glm::dvec3 value(row[0], row[1], row[2]);
+    h.cosine += each * at.x * value;
+    h.sine += each * at.y * value;
+    row += 3;
+  }
+  return h;
+}
+
+std::vector<FirstHarmonic> firstHarmonics(const Level& level) {
+  const auto around = longitudes(level.width);
+  std::vector<FirstHarmonic> all;
+  for (int y = 0; y < level.height; ++y)
+    all.push_back(firstHarmonic(&level.rgb[std::size_t(3) * level.width * y], around));
+  return all;
+}
+
+/// Those of the next level: means over as much of the meridian, not of the sphere. A linear
+/// radiance has the amplitude sin(distance from the pole), whose mean by area is that of a place
+/// nearer to the equator than the middle of the row is.
+std::vector<FirstHarmonic> halved(const std::vector<FirstHarmonic>& from, int rows) {
+  std::vector<FirstHarmonic> to;
+  for (const Span& span : spansOf(int(from.size()), rows, [](int) { return 1.0; })) {
+    FirstHarmonic& h = to.emplace_back();
+    for (std::size_t i = 0; i < span.weights.size(); ++i) {
+      h.cosine += span.weights[i] * from[std::size_t(span.first) + i].cosine;
+      h.sine += span.weights[i] * from[std::size_t(span.first) + i].sine;
+    }
+  }
+  return to;
+}
+
+/// Gives a row the first harmonic `wanted`, but no more of it than keeps the row from falling below
+/// 0: no light is negative.
+void keepFirstHarmonic(float* row, const std::vector<glm::dvec2>& around,
+                       const FirstHarmonic& wanted) {
+  const int count = int(around.size());
+  if (count < 4) return;
+  const FirstHarmonic now = firstHarmonic(row, around);
+  for (int c = 0; c < 3; ++c) {
+    const double cosine = wanted.cosine[c] - now.cosine[c], sine = wanted.sine[c] - now.sine[c];
+    const auto missing = [&](int i) {
+      const glm::dvec2& at = around[std::size_t(i)];
+      return cosine * at.x + sine * at.y;
+    };
+    double share = 1;
+    for (int i = 0; i < count; ++i)
+      if (const double more = missing(i); row[3 * i + c] + share * more < 0)
+        share = double(row[3 * i + c]) / -more;
+    for (int i = 0; i < count; ++i)
+      row[3 * i + c] = float(std::max(row[3 * i + c] + share * missing(i), 0.0));
+  }
+}
+
 /// The mean of each texel's row over `width` texels about it, around the sphere.
 void widenRow(float* row, int count, double width) {
   if (width <= 1) return;
@@ -80,30 +153,38 @@ void widenRow(float* row, int count, double width) {
   }
 }
 
-void widenTowardsPoles(Level& level) {
+void widenTowardsPoles(Level& level, const std::vector<FirstHarmonic>& harmonics) {
+  const auto around = longitudes(level.width);
   for (int y = 0; y < level.height; ++y) {
     const double sine = std::sin((y + 0.5) * pi / level.height);
     // At a pole's row the height of a texel reaches around the pole.
     const bool pole = y == 0 || y == level.height - 1;
     const double width = pole ? level.width : level.width / (2 * level.height * sine);
-    widenRow(&level.rgb[std::size_t(3) * level.width * y], level.width, width);
+    float* row = &level.rgb[std::size_t(3) * level.width * y];
+    widenRow(row, level.width, width);
+    keepFirstHarmonic(row, around, harmonics[std::size_t(y)]);
   }
 }
 
-glm::dvec3 texel(const Level& level, int x, int y) {
-  x %= level.width;
-  if (x < 0) x += level.width;
-  y = std::clamp(y, 0, level.height - 1);
-  const float* t = &level.rgb[std::size_t(3) * (std::size_t(y) * level.width + x)];
-  return {t[0], t[1], t[2]};
+/// Linear between the texels of a row, around the sphere.
+glm::dvec3 along(const Level& level, double u, int row) {
+  const double x = u * level.width - 0.5, left = std::floor(x), share = x - left;
+  const auto texel = [&](double column) {
+    const int i = int(column - level.width * std::floor(column / level.width));
+    const float* t = &level.rgb[std::size_t(3) * (std::size_t(row) * level.width + i)];
+    return glm::dvec3(t[0], t[1], t[2]);
+  };
+  return (1 - share) * texel(left) + share * texel(left + 1);
 }
 
 glm::dvec3 bilinear(const Level& level, double u, double v) {
-  const double x = u * level.width - 0.5, y = v * level.height - 0.5;
-  const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
-  const int i = int(left), j = int(top);
-  return (1 - b) * ((1 - a) * texel(level, i, j) + a * texel(level, i + 1, j)) +
-         b * ((1 - a) * texel(level, i, j + 1) + a * texel(level, i + 1, j + 1));
+  const double y = v * level.height - 0.5, top = std::floor(y), share = y - top;
+  const auto row = [&](int j) {
+    if (j < 0) return along(level, u + 0.5, 0);
+    if (j >= level.height) return along(level, u + 0.5, level.height - 1);
+    return along(level, u, j);
+  };
+  return (1 - share) * row(int(top)) + share * row(int(top) + 1);
 }
 
 std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path) {
@@ -113,10 +194,12 @@ std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path)
   } catch (const InputError& error) {
     throw InputError("--hdri-file: " + std::string(error.what()));
   }
+  // In place: large pictures would take twice the memory.
+  std::vector<float>& rgb = image.values;
   const std::size_t count = std::size_t(image.width) * image.height;
-  std::vector<float> rgb(3 * count);
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = image.values[4 * i + c];
+    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = rgb[4 * i + c];
+  rgb.resize(3 * count);
   auto result = std::make_shared<EnvironmentImage>(
       makeEnvironmentImage(image.width, image.height, std::move(rgb)));
   result->name = path;
@@ -126,7 +209,7 @@ std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path)
 }  // namespace
 
 double EnvironmentImage::levelFor(double spread) const {
-  const double level = std::log2(0.6 * spread * levels[0].height / pi);
+  const double level = std::log2(spread * levels[0].height / (std::numbers::sqrt3 * pi));
   return level > 0 ? std::min(level, double(levels.size() - 1)) : 0;
 }
 
@@ -142,14 +225,24 @@ glm::dvec3 EnvironmentImage::radiance(const glm::dvec3& direction, double spread
 }
 
 EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> rgb) {
-  for (float& value : rgb) value = value > 0 ? std::min(value, 1e30f) : 0.0f;
   EnvironmentImage image;
-  image.levels.push_back({width, height, std::move(rgb)});
-  Level level = image.levels[0];
+  for (std::size_t i = 0; i < rgb.size(); i += 3) {
+    bool corrected = false;
+    for (std::size_t c = i; c < i + 3; ++c) {
+      corrected = corrected || !(rgb[c] >= 0) || !std::isfinite(rgb[c]);
+      rgb[c] = rgb[c] > 0 ? std::min(rgb[c], 1e30f) : 0.0f;
+    }
+    image.corrected += corrected;
+  }
+  Level level{width, height, std::move(rgb)};
+  while (std::max(level.width, level.height) > maxTextureSide) level = halved(level);
+  image.levels.push_back(level);
+  std::vector<FirstHarmonic> harmonics = firstHarmonics(level);
   while (level.width > 1 || level.height > 1) {
     level = halved(level);
+    harmonics = halved(harmonics, level.height);
     image.levels.push_back(level);
-    widenTowardsPoles(image.levels.back());
+    widenTowardsPoles(image.levels.back(), harmonics);
   }
   return image;
 }

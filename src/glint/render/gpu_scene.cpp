@@ -1,10 +1,12 @@
 #include "glint/render/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
-#include "glint/image/error.h"
+#include "glint/image/mipmaps.h"
+#include "glint/image/srgb.h"
 #include "glint/render/face_mesh.h"
 #include "glint/render/variant.h"
 
@@ -98,26 +100,66 @@ GLint wrapMode(Wrap wrap) {
                                      : GL_MIRRORED_REPEAT;
 }
 
-TextureHandle uploadTexture(const DecodedImage& decoded, const std::string& name, bool isData) {
-  const ByteImage& image = decoded.image;
+// Uploads a level piece by piece, each texel's four values through `value(byte, channel)`.
+template <typename Component, typename Value>
+void uploadLevel(GLint level, const ByteImage& from, GLint format, GLenum type, Value value) {
+  glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA, type, nullptr);
+  const std::size_t across = std::size_t(4) * from.width;
+  const int most = std::max(1, int((std::size_t(1) << 18) / across));  // rows a piece
+  std::vector<Component> rows(across * std::size_t(std::min(most, from.height)));
+  for (int y = 0; y < from.height; y += most) {
+    const int count = std::min(most, from.height - y);
+    const std::uint8_t* in = &from.values[across * std::size_t(y)];
+    for (std::size_t i = 0; i < across * std::size_t(count); ++i) rows[i] = value(in[i], i % 4);
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, y, from.width, count, GL_RGBA, type, rows.data());
+  }
+}
+
+// Drivers decode sRGB with errors of up to 1.2e-3, and filter 8-bit texels with 3.3e-3. These are
+// filtered as floats are: 16 bits hold c / 255 exactly, and the curve's values need 32 (16 would be
+// off by 7.6e-6).
+void uploadData(GLint level, const ByteImage& from) {
+  uploadLevel<std::uint16_t>(level, from, GL_RGBA16, GL_UNSIGNED_SHORT,
+                             [](std::uint8_t v, std::size_t) { return std::uint16_t(257 * v); });
+}
+
+void uploadColors(GLint level, const ByteImage& from) {
+  std::array<float, 256> curve;
+  for (int i = 0; i < 256; ++i) curve[std::size_t(i)] = decodeSrgb8(std::uint8_t(i));
+  uploadLevel<float>(level, from, GL_RGBA32F, GL_FLOAT, [&](std::uint8_t v, std::size_t channel) {
+    return channel == 3 ? float(v) / 255.0f : curve[v];
+  });
+}
+
+// What a driver cannot take is left out from the pyramid's top. False where nothing was.
+bool fitDriver(DecodedImage& decoded, bool isData) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-  if (image.width > limit || image.height > limit)
-    throw InputError(name + ": " + std::to_string(image.width) + "x" +
-                     std::to_string(image.height) + " pixels are more than this driver's " +
-                     std::to_string(limit) + ": make the texture smaller");
+  const auto fits = [&] { return std::max(decoded.image.width, decoded.image.height) <= limit; };
+  if (fits()) return false;
+  const bool hadLevels = !decoded.mipLevels.empty();
+  if (!hadLevels) decoded.mipLevels = mipLevels(decoded.image, isData);
+  while (!fits()) {
+    decoded.image = std::move(decoded.mipLevels.front());
+    decoded.mipLevels.erase(decoded.mipLevels.begin());
+  }
+  if (!hadLevels) decoded.mipLevels.clear();
+  return true;
+}
+
+TextureHandle uploadTexture(const DecodedImage& decoded, bool isData) {
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const GLint format = isData ? GL_RGBA8 : GL_SRGB8_ALPHA8;
   const auto upload = [&](GLint level, const ByteImage& from) {
-    glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, from.values.data());
+    isData ? uploadData(level, from) : uploadColors(level, from);
   };
-  upload(0, image);
-  for (std::size_t i = 0; i < decoded.mipLevels.size(); ++i)
-    upload(GLint(i + 1), decoded.mipLevels[i]);
+  // From the smallest on, by which the driver guesses the whole pyramid's size: from the largest
+  // on, it would reserve that alone, and then everything again.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
+  for (std::size_t i = decoded.mipLevels.size(); i > 0; --i)
+    upload(GLint(i), decoded.mipLevels[i - 1]);
+  upload(0, decoded.image);
   return texture;
 }
 
@@ -194,7 +236,14 @@ void GpuScene::bindTexture(const Texture& use, GLuint unit) {
   TextureHandle& texture = textures_[use.image];
   if (!texture) {
     const EncodedImage& image = scene_->images[std::size_t(use.image)];
-    texture = uploadTexture(images_.at(use.image), image.name, image.isData);
+    DecodedImage& decoded = images_.at(use.image);
+    if (fitDriver(decoded, image.isData))
+      warnings_.push_back("the image " + image.name +
+                          " is larger than this driver takes, and is "
+                          "shown with " +
+                          std::to_string(decoded.image.width) + " x " +
+                          std::to_string(decoded.image.height) + " pixels");
+    texture = uploadTexture(decoded, image.isData);
     images_.erase(use.image);
   }
   glBindTexture(GL_TEXTURE_2D, texture.id());

@@ -2,7 +2,9 @@
 
 #include <map>
 #include <span>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "glint/gl/handles.h"
@@ -43,10 +45,14 @@ class GpuScene {
 
   const Scene& scene() const { return *scene_; }
 
+  /// What had to be done to textures since it was last asked, for people.
+  std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
+
  private:
   using SamplerKey = std::tuple<Filter, Filter, MipFilter, Wrap, Wrap>;
   const Scene* scene_;
   DecodedImages images_;
+  std::vector<std::string> warnings_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
   std::map<int, TextureHandle> textures_;
   std::map<SamplerKey, SamplerHandle> samplers_;

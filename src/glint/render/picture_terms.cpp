@@ -86,7 +86,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
 // Normals are those of a per-pixel program, whatever the picture's is.
 void keepGeometry(DrawItem& item, const PictureTerm& term) {
   Variant& v = item.variant;
-  v.centroid = false;
+  v.multisampled = false;
   v.emission = v.emissionTexture = false;
   if (term.kind == Kind::depth) {
     v.output = PixelOutput::depth;

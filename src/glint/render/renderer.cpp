@@ -266,6 +266,10 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
     const glm::dvec2 lower = glm::dvec2(tile.x, look_.resolution.y - tile.y - tile.height) / whole;
     const glm::dvec2 upper = glm::dvec2(tile.x + tile.width, look_.resolution.y - tile.y) / whole;
     FrameBlock frame = list_.frame;
+    const std::vector<glm::vec2> samples = target.samplePositions();
+    frame.ambientLight.a = float(std::min(samples.size(), std::size(frame.samples)));
+    for (std::size_t i = 0; i < samples.size() && i < std::size(frame.samples); ++i)
+      frame.samples[i] = glm::vec4(samples[i] - 0.5f, 0, 0);
     frame.projection = glm::mat4(projection(list_.camera, lower, upper, renderer_.clipControl_));
     if (!list_.camera.orthographic) {
       const glm::dvec2 reach =
@@ -280,6 +284,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
 
     target.bind();
     glViewport(0, 0, width, height);
+    glEnable(GL_MULTISAMPLE);  // others in the context, the probe among them, may have it off
     if (renderer_.clipControl_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(renderer_.clipControl_ ? GL_GREATER : GL_LESS);

@@ -16,7 +16,8 @@ TileLayout tilesFor(glm::ivec2 resolution, const AntiAliasing& antiAliasing) {
   };
   layout.tileWidth = evenly(resolution.x, std::max(1, maxAcross / layout.scale));
   const int rowSamples = layout.tileWidth * layout.scale * layout.scale * layout.samples;
-  layout.bandHeight = evenly(resolution.y, std::max(1, maxSamples / rowSamples));
+  layout.bandHeight = evenly(
+      resolution.y, std::clamp(maxSamples / rowSamples, 1, std::max(1, maxAcross / layout.scale)));
   for (int y = 0; y < resolution.y; y += layout.bandHeight) {
     auto& band = layout.bands.emplace_back();
     for (int x = 0; x < resolution.x; x += layout.tileWidth)

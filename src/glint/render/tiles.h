@@ -24,7 +24,7 @@ struct TileLayout {
   std::vector<std::vector<Tile>> bands;  ///< from the top; each from the left
 };
 
-/// At most 2 Mi samples a tile, 32 MiB of colour, and at most 8192 pixels across. The figures
+/// At most 2 Mi samples a tile, 32 MiB of colour, and at most 8192 pixels a side. The figures
 /// behind this stand in docs/framebuffer.md.
 TileLayout tilesFor(glm::ivec2 resolution, const AntiAliasing&);
 

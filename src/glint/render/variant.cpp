@@ -167,7 +167,10 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.program = programOf(look);
   v.unlit = material.unlit || (mesh.topology != Topology::triangles && mesh.normals.empty());
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
-  v.centroid = look.antiAliasing.mode == AntiAliasing::Mode::msaa && look.antiAliasing.count > 1;
+  // Lines and points cover pixels as a whole, and drivers do not interpolate at offsets within them
+  // (llvmpipe then reads what it has not written).
+  v.multisampled = look.antiAliasing.mode == AntiAliasing::Mode::msaa &&
+                   look.antiAliasing.count > 1 && mesh.topology == Topology::triangles;
   v.vertexColors = !mesh.colors.empty();
   v.colorTexture = readsTexture(mesh, material.colorTexture);
   v.alphaMask = material.alphaMode == AlphaMode::mask;

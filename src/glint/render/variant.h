@@ -67,8 +67,8 @@ struct Variant {
   Fresnel fresnel = Fresnel::exact;
   bool schlickFifth = false;  ///< Schlick's exponent is 5: products in place of pow
   bool dielectric = false, metal = false, refraction = false;
-  bool denserSide = false;  ///< some side that shows is seen from the denser medium
-  bool centroid = false;    ///< multisampled: varyings stay within the triangle
+  bool denserSide = false;    ///< some side that shows is seen from the denser medium
+  bool multisampled = false;  ///< shaded where the triangle covers samples
   PixelOutput output = PixelOutput::radiance;
 
   /// For what is not shaded.

@@ -96,8 +96,10 @@ struct Look {
   Shading shading = Shading::phong;
   HighlightForms highlight;
   Fresnel fresnel = Fresnel::exact;
-  /// What error the forms may cost in linear radiance; read by resolveLook alone.
+  /// What error the forms may cost, in linear radiance or in codes of an 8-bit picture; read by
+  /// errorBudget() alone.
   std::optional<double> maxError;
+  bool maxErrorInCodes = false;
   std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
   double blinnFactor = 4.0;
   double schlickExponent = 5.0;

@@ -377,8 +377,10 @@ void parseMaterialEdit(Look& look, const std::string& text) {
     const std::size_t at = part.find('=');
     if (at != std::string::npos)
       pairs.emplace_back(part.substr(0, at), part.substr(at + 1));
+    else if (pairs.empty())
+      refuse("--material", text, "[NAME:]key=value,...");
     else
-      pairs.back().second += "," + part;  // the first part has its '='
+      pairs.back().second += "," + part;
   }
   for (const auto& [key, value] : pairs) setMaterialEdit(look, name, key, value);
 }

@@ -143,11 +143,9 @@ void gatherMaterialEdits(Look& look, const Scene& scene) {
 }
 
 void mergeEdit(MaterialEdit& to, const MaterialEdit& from) {
-  for (const auto& p : materialParameters())
-    if (from.*p.edit) to.*p.edit = from.*p.edit;
-  if (from.color) to.color = from.color;
-  if (from.highlight) to.highlight = from.highlight;
-  if (from.fresnel) to.fresnel = from.fresnel;
+  forEachEdit([&](auto edit) {
+    if (from.*edit) to.*edit = from.*edit;
+  });
 }
 
 }  // namespace glint

@@ -31,6 +31,15 @@ struct MaterialParameter {
 /// them.
 std::span<const MaterialParameter> materialParameters();
 
+/// Calls `visit` with the pointer to each member of MaterialEdit.
+template <typename Visit>
+void forEachEdit(Visit visit) {
+  for (const MaterialParameter& p : materialParameters()) visit(p.edit);
+  visit(&MaterialEdit::color);
+  visit(&MaterialEdit::highlight);
+  visit(&MaterialEdit::fresnel);
+}
+
 /// All textures that a material may have, whether it has them or not.
 std::array<std::optional<Texture>*, 7> texturesOf(Material&);
 std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);

@@ -202,9 +202,8 @@ double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent) 
   return std::min(1.25 * s.largest, 1.0);
 }
 
-double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
-  if (form == Highlight::none) return 0.0;
-  const double off = blinn ? 8.0 * vectorError : vectorError;
+double lobeTurnBound(double alpha, bool blinn, double turn) {
+  const double off = blinn ? 8.0 * turn : turn;
   // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
   // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
   double geometry = 0.0;
@@ -214,7 +213,12 @@ double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
   } else {
     geometry = std::pow(std::numbers::sqrt2 * off, std::max(alpha, 0.0)) + off;
   }
-  return std::min(geometry + row(form).rounding(alpha, gamma), 1.0);
+  return geometry;
+}
+
+double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
+  if (form == Highlight::none) return 0.0;
+  return std::min(lobeTurnBound(alpha, blinn, vectorError) + row(form).rounding(alpha, gamma), 1.0);
 }
 
 double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent) {

@@ -39,6 +39,9 @@ double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent =
 // sqrt and exp2 as its table of precision has them (2.5 ulp, from them, 3 + 2 |x| ulp); log2 within
 // 2^-21 near 1. The functions of glsl/ are held to these by tests on the driver.
 
+/// How far the exact lobe moves where the difference vector D is off by `turn`, as below.
+double lobeTurnBound(double alpha, bool blinn, double turn);
+
 /// What rounding adds to a lobe that a shader computes from rounded unit vectors N, L and V of its
 /// own, against the exact lobe of the same geometry in double.
 ///

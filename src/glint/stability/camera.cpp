@@ -265,8 +265,8 @@ void g11(Bench& bench, Record& record) {
       }
       record.within(name + ": lowest", low, 0, 0);
       record.within(name + ": highest", high, 0.01, 1.000001);
-      record.that(name + ": varyings stay within the triangle",
-                  makeDrawList(scene, boundsOf(scene), look).items.at(0).variant.centroid);
+      record.that(name + ": shaded within the triangle",
+                  makeDrawList(scene, boundsOf(scene), look).items.at(0).variant.multisampled);
     }
 }
 
@@ -295,7 +295,7 @@ const Case cameraTable[] = {
      "a reference belongs to one scene, look and size: a change makes a new one", g10},
     {"G11", "multisampling, normals that turn by 170 degrees over thin triangles",
      "finite, between 0 and the peak", "exact; 1e-6", "extrapolation outside the triangle",
-     "varyings are centroid under multisampling", g11},
+     "shaded at the mean of the samples covered, which lies inside", g11},
 };
 
 }  // namespace

@@ -94,6 +94,7 @@ std::span<const Case> outputCases();
 std::span<const Case> interpolationCases();
 std::span<const Case> propertyCases();
 std::span<const Case> limitCases();
+std::span<const Case> mappingCases();
 
 /// All of them, in the order of the report.
 std::span<const Group> groups();

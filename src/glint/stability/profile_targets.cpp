@@ -105,7 +105,7 @@ void measureTargets(std::vector<Quality>& all) {
                          std::to_string(size) + ", " + std::to_string(texture) +
                              " pixels a side, " + std::to_string(block) + " bytes",
                          "1024, 1024, 16384", "as required",
-                         "cases L1 to L6: drawn in parts or refused by name"));
+                         "cases L1 to L6: drawn in parts, smaller, or refused by name"));
 }
 
 }  // namespace glint::stability

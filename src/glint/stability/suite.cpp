@@ -53,6 +53,7 @@ std::span<const Group> groups() {
       {'I', "interpolation and precision", interpolationCases()},
       {'P', "properties and worst inputs", propertyCases(), false},
       {'L', "limits of the driver", limitCases(), false},
+      {'M', "mapping", mappingCases(), false},
   };
   return all;
 }

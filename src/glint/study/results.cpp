@@ -106,17 +106,21 @@ class Results {
           "|---|---|---|---|---|---|\n" +
           table);
     }
-    if (const StudySeries* s = series("exponent"); s && !s->lines.empty()) {
-      add("\nThe largest error over the exponent α, `phong`:\n\n| form |");
-      for (const SeriesPoint& p : s->lines[0].points) add(formatted(" %g |", p.x));
-      add("\n|---|");
-      for (std::size_t i = 0; i < s->lines[0].points.size(); ++i) add("---|");
-      for (const SeriesLine& l : s->lines) {
-        add("\n| `" + l.name + "` |");
-        for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
-      }
-      add("\n");
+    if (const StudySeries* s = series("exponent"); s && !s->lines.empty())
+      largestErrors("the exponent α, `phong`", *s);
+  }
+
+  /// A row for each line, a column for each point.
+  void largestErrors(const char* over, const StudySeries& s) {
+    add(formatted("\nThe largest error over %s:\n\n| form |", over));
+    for (const SeriesPoint& p : s.lines[0].points) add(formatted(" %g |", p.x));
+    add("\n|---|");
+    for (std::size_t i = 0; i < s.lines[0].points.size(); ++i) add("---|");
+    for (const SeriesLine& l : s.lines) {
+      add("\n| `" + l.name + "` |");
+      for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
     }
+    add("\n");
   }
 
   void blinn() {
@@ -209,15 +213,7 @@ class Results {
                       v.errors[0].whole.max, v.errors[0].whole.rmse, v.errors[0].flip));
     const StudySeries* s = series("ior");
     if (!s || s->lines.empty()) return;
-    add("\nThe largest error over the index n:\n\n| form |");
-    for (const SeriesPoint& p : s->lines[0].points) add(formatted(" %g |", p.x));
-    add("\n|---|");
-    for (std::size_t i = 0; i < s->lines[0].points.size(); ++i) add("---|");
-    for (const SeriesLine& l : s->lines) {
-      add("\n| `" + l.name + "` |");
-      for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
-    }
-    add("\n");
+    largestErrors("the index n", *s);
   }
 
   void specialisation() {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "glint/scene/scene.h"
+
+namespace glint {
+
+/// How near the triangles, lines and points of a scene come to a place in world space. Boxes around
+/// runs of triangles leave most of them out, so that many lamps and many triangles cost little.
+class SceneDistance {
+ public:
+  explicit SceneDistance(const Scene& scene);
+
+  /// Infinite of an empty scene.
+  double to(const glm::dvec3& point) const;
+
+ private:
+  using Triangle = std::array<glm::dvec3, 3>;
+  struct Run {
+    std::size_t first, end;
+    glm::dvec3 low, high;
+  };
+  std::vector<Triangle> triangles_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace glint

@@ -1,0 +1,96 @@
+#include "glint/render/decode_plan.h"
+
+#include <algorithm>
+
+#include "glint/image/error.h"
+#include "glint/render/decode.h"
+
+namespace glint::detail {
+namespace {
+
+constexpr std::uint64_t mebibyte = std::uint64_t(1) << 20;
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string((bytes + mebibyte - 1) / mebibyte) + " MiB";
+}
+
+std::uint64_t sumOf(const std::vector<DecodeJob>& jobs) {
+  std::uint64_t sum = 0;
+  for (const DecodeJob& job : jobs) sum += job.kept();
+  return sum;
+}
+
+[[noreturn]] void refuse(const DecodeJob& job, const std::string& what, std::uint64_t limit) {
+  throw InputError("the image " + job.name + " of " +
+                   sizeText(job.header.width, job.header.height) + ": " + what + " more than " +
+                   mebibytes(limit) + ": make it smaller or raise --decode-limit");
+}
+
+}  // namespace
+
+int DecodeJob::width() const { return std::max(1, header.width >> halvings); }
+int DecodeJob::height() const { return std::max(1, header.height >> halvings); }
+
+std::uint64_t DecodeJob::kept() const {
+  const std::uint64_t bytes = std::uint64_t(4) * width() * height();
+  return hasLevels ? bytes + bytes / 3 : bytes;
+}
+
+std::uint64_t DecodeJob::atWork() const {
+  const std::uint64_t decoder = halvings > 0 ? header.reducedWork : header.work;
+  // The first smaller level and the next are floats: 16 bytes a pixel of a quarter and a sixteenth.
+  const std::uint64_t levels = hasLevels ? std::uint64_t(5) * width() * height() : 0;
+  return kept() + std::max(decoder, levels);
+}
+
+std::uint64_t decodeLimit(const std::vector<DecodeJob>& jobs, std::uint64_t given) {
+  if (given > 0) return given;
+  std::uint64_t encoded = 0;
+  for (const DecodeJob& job : jobs) encoded += job.encoded;
+  return std::max(256 * mebibyte, 128 * encoded);
+}
+
+std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t given,
+                                      int useful) {
+  const std::uint64_t limit = decodeLimit(jobs, given);
+  std::vector<bool> tooLong(jobs.size(), false);
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    for (; std::max(jobs[i].width(), jobs[i].height()) > maxTextureSide; ++jobs[i].halvings)
+      tooLong[i] = true;
+  // What is halved while it is read takes time all the same.
+  std::uint64_t full = 0;
+  for (const DecodeJob& job : jobs) full += std::uint64_t(4) * job.header.width * job.header.height;
+  if (full > 3 * limit)
+    refuse(*std::ranges::max_element(jobs, {}, &DecodeJob::kept),
+           "the model's textures are " + mebibytes(full) + " in full,", 3 * limit);
+  while (sumOf(jobs) > limit) {
+    const auto largest = std::ranges::max_element(jobs, {}, [&](const DecodeJob& job) {
+      return std::max(job.width(), job.height()) > useful ? job.kept() : 0;
+    });
+    if (std::max(largest->width(), largest->height()) <= useful)
+      refuse(*std::ranges::max_element(jobs, {}, &DecodeJob::kept),
+             "decoded, the model's textures take " + mebibytes(sumOf(jobs)) + ",", limit);
+    ++largest->halvings;
+  }
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const DecodeJob& job = jobs[i];
+    if (job.atWork() > 3 * limit)
+      refuse(job, "decoding it takes " + mebibytes(job.atWork()) + ",", 3 * limit);
+    if (job.halvings == 0) continue;
+    warnings.push_back(
+        "the image " + job.name + " of " + sizeText(job.header.width, job.header.height) +
+        " is shown with " + sizeText(job.width(), job.height()) +
+        (tooLong[i]
+             ? ", since textures have at most " + std::to_string(maxTextureSide) + " pixels a side"
+             : ", since all textures would take more than " + mebibytes(limit) +
+                   " (--decode-limit)"));
+  }
+  return warnings;
+}
+
+}  // namespace glint::detail

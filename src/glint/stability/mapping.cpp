@@ -1,0 +1,512 @@
+// Group M: what is looked up, and where: pictures of the environment and textures.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "glint/gl/framebuffer.h"
+#include "glint/image/mipmaps.h"
+#include "glint/image/picture_writer.h"
+#include "glint/image/srgb.h"
+#include "glint/scene/look_text.h"
+#include "glint/shading/environment_map.h"
+#include "glint/shading/fresnel.h"
+#include "glint/shading/safe.h"
+#include "glint/stability/bench.h"
+#include "glint/stability/scenes.h"
+
+namespace glint::stability {
+namespace {
+
+constexpr double texel = pi / 128;  // of the picture of directions
+
+/// A radiance that tells every direction from every other: a channel for each axis.
+glm::dvec3 compass(const glm::dvec3& d) { return 0.5 + 0.25 * d; }
+
+/// Bilinear texels are off by h^2 / 8 of the second derivatives along both axes, 0.25 each; across
+/// a pole too. Directions, places and the filter in floats add 2e-6.
+constexpr double compassTolerance = 0.25 * texel * texel / 4 + 2e-6;
+
+/// The compass as a file, as long as the program runs: what was read is not written anew.
+class CompassPicture {
+ public:
+  static std::string path() {
+    static const CompassPicture picture;
+    return picture.path_.string();
+  }
+  CompassPicture(const CompassPicture&) = delete;
+  CompassPicture& operator=(const CompassPicture&) = delete;
+  ~CompassPicture() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+ private:
+  CompassPicture()
+      : path_(std::filesystem::temp_directory_path() /
+              ("glint-compass-" + std::to_string(getpid()) + ".pfm")) {
+    Image image{256, 128, {}};
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const double down = texel * (y + 0.5), turn = texel * (x + 0.5) - pi;
+        const glm::dvec3 e = compass(
+            {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
+        image.values.insert(image.values.end(), {float(e.r), float(e.g), float(e.b), 1.0f});
+      }
+    const auto writer = openPictureWriter(path_.string(), image.width, image.height);
+    writer->write(image);
+    writer->finish();
+  }
+
+  std::filesystem::path path_;
+};
+
+Material mirror() {
+  Material m = litMaterial(0, 0, 1);
+  m.shading.color = glm::dvec3(1);
+  m.shading.metalness = 1;
+  return m;
+}
+
+Look environmentLook(Bench& bench, const std::string& picture) {
+  Look look = parallel(bench.look(Shading::environment), {0, 0, 1}, 3);
+  look.fresnel = Fresnel::exact;
+  look.hdriFile = picture;
+  return look;
+}
+
+void expectColor(Record& record, const std::string& what, const glm::dvec3& got,
+                 const glm::dvec3& expected, double tolerance) {
+  Worst worst;
+  const char* const names[] = {"red", "green", "blue"};
+  for (int i = 0; i < 3; ++i) worst.add(got[i], expected[i], tolerance, names[i]);
+  worst.into(record, what);
+}
+
+glm::dvec3 at(const Image& image, int x, int y) {
+  const float* p = image.row(y) + std::size_t(4) * std::size_t(x);
+  return {p[0], p[1], p[2]};
+}
+
+glm::dvec3 middle(const Image& image) { return at(image, image.width / 2, image.height / 2); }
+
+/// The normal that reflects the direction +Z into d.
+glm::dvec3 halfWay(const glm::dvec3& d) {
+  return safeNormalize(safeNormalize(d) + glm::dvec3(0, 0, 1));
+}
+
+const glm::dvec3 directions[] = {{0, 0, 1},     {1, 0, 0},  {-1, 0, 0},     {0, 1, 0},
+                                 {0, -1, 0},    {1, 2, -2}, {-2, 1, -1},    {1e-3, 1, 0},
+                                 {0, -1, 2e-3}, {3, -1, 5}, {1e-4, 0.2, 1}, {-1e-4, -0.2, 1}};
+
+/// The environment turned by the angle about +Y shows in the direction d what stood there before.
+glm::dvec3 before(const glm::dvec3& d, double angle) {
+  const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
+  return {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
+}
+
+void m1(Bench& bench, Record& record) {
+  for (const glm::dvec3& d : directions) {
+    const Look look = environmentLook(bench, CompassPicture::path());
+    const Scene scene = sceneOf(square(halfWay(d)), mirror());
+    expectColor(record, "a mirror that shows " + vectorText(d), middle(bench.draw(scene, look)),
+                compass(safeNormalize(d)), compassTolerance);
+    expectColor(record, "the reference's", middle(bench.reference(scene, look)),
+                compass(safeNormalize(d)), compassTolerance);
+  }
+}
+
+void m2(Bench& bench, Record& record) {
+  for (const double angle : {90.0, -35.0, 180.0})
+    for (const glm::dvec3& d : directions) {
+      Look look = environmentLook(bench, CompassPicture::path());
+      look.environmentRotation = angle;
+      const Scene scene = sceneOf(square(halfWay(d)), mirror());
+      const glm::dvec3 expected = compass(before(safeNormalize(d), angle));
+      const std::string what = "turned by " + numberText(angle) + ", " + vectorText(d);
+      expectColor(record, what, middle(bench.draw(scene, look)), expected, compassTolerance);
+      expectColor(record, what + ", the reference", middle(bench.reference(scene, look)), expected,
+                  compassTolerance);
+    }
+}
+
+// A ball's middle shows what is behind the viewer.
+void m3(Bench& bench, Record& record) {
+  for (const glm::dvec3& d :
+       {glm::dvec3(1, 0.3, 0.2), {-1, 0.5, 2}, {0.2, -1, -0.3}, {-1, 1, -1}}) {
+    Look look = parallel(bench.look(Shading::environment), d, 65);
+    look.hdriFile = CompassPicture::path();
+    // A ball of 96 x 48: its normals between vertices of 3.75 degrees are off by (0.065)^2 / 8 at
+    // most, a row of the picture above its middle turns the reflection by 2 * 2 / 65 / 2.
+    expectColor(record, "a ball seen from " + vectorText(d),
+                middle(bench.draw(sceneOf(sphere(96, 48), mirror()), look)),
+                compass(safeNormalize(d)), 0.25 * 2e-3 + compassTolerance);
+  }
+}
+
+void m4(Bench& bench, Record& record) {
+  const std::pair<Environment, BuiltinEnvironment> maps[] = {
+      {Environment::studio, BuiltinEnvironment::studio},
+      {Environment::sky, BuiltinEnvironment::sky}};
+  for (const auto& [map, truth] : maps)
+    for (const double angle : {0.0, 70.0})
+      for (const glm::dvec3& d : directions) {
+        Look look = environmentLook(bench, "");
+        look.environment = map;
+        look.environmentRotation = angle;
+        // The steepest edge of them rises by 32 per radian, directions are off by 1e-6; the look-up
+        // itself by 1e-5.
+        expectColor(record,
+                    (map == Environment::sky ? "sky towards " : "studio towards ") + vectorText(d),
+                    middle(bench.draw(sceneOf(square(halfWay(d)), mirror()), look)),
+                    environmentRadiance(truth, before(safeNormalize(d), angle)), 32e-6 + 1e-5);
+      }
+}
+
+void m5(Bench& bench, Record& record) {
+  for (const bool behind : {false, true})
+    for (const double medium : {1.0, 1.33})
+      for (const double ior : {1.5, 1.2})
+        for (const glm::dvec3& tilt : {glm::dvec3(0, 0, 1), {0.3, 0.2, 1}, {-0.2, 0.4, 1}}) {
+          const glm::dvec3 n = safeNormalize(tilt), v(0, 0, 1), color(0.9, 0.5, 0.2);
+          Material glass = litMaterial(0, 0, 1);
+          glass.shading.color = color;
+          glass.shading.ior = ior;
+          glass.shading.transmission = 0.75;
+          glass.doubleSided = true;
+          Mesh mesh = square(behind ? -n : n);
+          if (behind) mesh.indices = {0, 2, 1, 0, 3, 2};
+          Look look = environmentLook(bench, CompassPicture::path());
+          look.mediumIor = medium;
+          const double n1 = behind ? ior : medium, n2 = behind ? medium : ior;
+          const double cosine = glm::dot(n, v), ratio = n1 / n2;
+          const double square = 1 - ratio * ratio * (1 - cosine * cosine);
+          const double r = square > 0 ? fresnelExact(cosine, n1, n2) : 1;
+          glm::dvec3 expected = r * compass(2 * cosine * n - v);
+          if (square > 0)
+            expected +=
+                0.75 * (1 - r) * color * compass(ratio * (cosine * n - v) - std::sqrt(square) * n);
+          const std::string what = std::string(behind ? "leaving " : "entering ") +
+                                   numberText(ior) + " from " + numberText(medium) + ", normal " +
+                                   vectorText(n);
+          const Scene scene = sceneOf(mesh, glass);
+          expectColor(record, what, middle(bench.draw(scene, look)), expected,
+                      compassTolerance + 1e-5);
+          expectColor(record, what + ", the reference", middle(bench.reference(scene, look)),
+                      expected, compassTolerance + 1e-5);
+        }
+}
+
+// ---- Textures --------------------------------------------------------------------------------
+
+/// 2 x 2 texels: rows from the top, as in a file.
+ByteImage texels(const std::vector<glm::ivec4>& rgba, int width = 2) {
+  ByteImage image;
+  image.width = width;
+  image.height = int(rgba.size()) / width;
+  for (const glm::ivec4& t : rgba)
+    for (int c = 0; c < 4; ++c) image.values.push_back(std::uint8_t(t[c]));
+  return image;
+}
+
+/// A square of half size 1 with the texture's corners at its own: v downwards, as glTF has it.
+struct Textured {
+  Scene scene;
+  DecodedImages images;
+  Material& material() { return scene.materials[0]; }
+};
+
+Textured textured(Material material, ByteImage image, bool isData) {
+  Textured t;
+  Mesh mesh = square({0, 0, 1}, 1);
+  mesh.texcoords = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  mesh.tangents.assign(4, glm::vec4(1, 0, 0, 1));
+  t.scene = sceneOf(mesh, std::move(material));
+  t.scene.images.push_back({"texels", {}, isData});
+  t.images[0].image = std::move(image);
+  return t;
+}
+
+Texture nearest() {
+  Texture texture;
+  texture.sampler = {Filter::nearest, Filter::nearest, MipFilter::none, Wrap::clampToEdge,
+                     Wrap::clampToEdge};
+  return texture;
+}
+
+/// A normal map's texel as a direction.
+glm::dvec3 mapped(const glm::ivec4& code) { return 2.0 * glm::dvec3(code) / 255.0 - 1.0; }
+
+void expectNormal(Bench& bench, Record& record, const std::string& what, float handedness,
+                  double scale, const glm::ivec4& code) {
+  const glm::dvec3 m = mapped(code) * glm::dvec3(scale, scale * double(handedness), 1);
+  const glm::dvec3 n = safeNormalize(m);
+  for (const Shading shading : {Shading::phong, Shading::blinnPhong, Shading::environment})
+    for (const glm::dvec3& l : {glm::dvec3(1, 0, 1), {0, 1, 1}, {0, 0, 1}}) {
+      Textured t = textured(litMaterial(1, 0, 1), texels({code, code, code, code}), true);
+      t.material().normalTexture = nearest();
+      t.material().normalScale = scale;
+      for (glm::vec4& tangent : t.scene.meshes[0].tangents) tangent.w = handedness;
+      Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
+      look.light = {directional(l)};
+      const double lit = std::max(glm::dot(n, safeNormalize(l)), 0.0);
+      record.near(what + ", lit from " + vectorText(l),
+                  middle(bench.draw(t.scene, look, t.images)).r, lit, 2e-6);
+      record.near("the reference's", middle(bench.reference(t.scene, look, t.images)).r, lit, 1e-6);
+    }
+}
+
+void m6(Bench& bench, Record& record) {
+  expectNormal(bench, record, "red 200: right", 1, 1, {200, 128, 220, 255});
+  expectNormal(bench, record, "green 200: up", 1, 1, {128, 200, 220, 255});
+}
+
+void m7(Bench& bench, Record& record) {
+  expectNormal(bench, record, "handedness -1: green down", -1, 1, {150, 200, 220, 255});
+}
+
+void m8(Bench& bench, Record& record) {
+  expectNormal(bench, record, "scale 0.25", 1, 0.25, {220, 60, 200, 255});
+  expectNormal(bench, record, "scale 2", 1, 2, {160, 110, 230, 255});
+}
+
+const std::vector<glm::ivec4> corners{
+    {255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 128, 0, 255}};
+
+void m9(Bench& bench, Record& record) {
+  for (const Shading shading : everyShading)
+    for (const bool unlit : {false, true}) {
+      Material m = unlit ? unlitMaterial(glm::dvec3(1)) : litMaterial(1, 0, 1);
+      m.shading.color = glm::dvec3(1);
+      Textured t = textured(m, texels(corners), false);
+      t.material().colorTexture = nearest();
+      Look look = parallel(bench.look(shading), {0, 0, 1}, 4);
+      look.light = {directional({0, 0, 1})};
+      const Image image = bench.draw(t.scene, look, t.images);
+      const char* const names[] = {"top left", "top right", "bottom left", "bottom right"};
+      for (int i = 0; i < 4; ++i)
+        expectColor(record,
+                    std::string(shadingName(shading)) + (unlit ? ", unlit, " : ", ") + names[i],
+                    at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
+                    {decodeSrgb8(std::uint8_t(corners[std::size_t(i)].r)),
+                     decodeSrgb8(std::uint8_t(corners[std::size_t(i)].g)),
+                     decodeSrgb8(std::uint8_t(corners[std::size_t(i)].b))},
+                    1e-6);
+    }
+}
+
+void m10(Bench& bench, Record& record) {
+  for (const Shading shading : everyShading) {
+    Material m = litMaterial(0, 0, 1);
+    m.emission = {0.5, 2, 3};
+    Textured t = textured(m, texels(corners), false);
+    t.material().emissionTexture = nearest();
+    const Look look = parallel(bench.look(shading), {0, 0, 1}, 4);
+    const Image image = bench.draw(t.scene, look, t.images);
+    expectColor(record, std::string(shadingName(shading)) + ", top left", at(image, 0, 0),
+                {0.5, 0, 0}, 1e-6);
+    expectColor(record, std::string(shadingName(shading)) + ", bottom left", at(image, 0, 3),
+                {0, 0, 3}, 3e-6);
+  }
+}
+
+void m11(Bench& bench, Record& record) {
+  for (const Shading shading : {Shading::gouraud, Shading::phong, Shading::blinnPhong})
+    for (const double alpha : {1.0, 0.5}) {
+      Material m = unlitMaterial(glm::dvec3(1));
+      m.alphaMode = AlphaMode::blend;
+      m.alpha = alpha;
+      Textured t = textured(m,
+                            texels({{255, 255, 255, 255},
+                                    {255, 255, 255, 51},
+                                    {255, 255, 255, 0},
+                                    {255, 255, 255, 204}}),
+                            false);
+      t.material().colorTexture = nearest();
+      Look look = parallel(bench.look(shading), {0, 0, 1}, 4);
+      look.backgroundColor = {0.25, 0.5, 0};
+      const Image image = bench.draw(t.scene, look, t.images);
+      const double covers[] = {1, 0.2, 0, 0.8};
+      for (int i = 0; i < 4; ++i) {
+        const double a = alpha * covers[i];
+        expectColor(record, "alpha " + numberText(a), at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
+                    a + (1 - a) * look.backgroundColor, 1e-6);
+      }
+    }
+}
+
+void m12(Bench& bench, Record& record) {
+  for (const glm::dvec3& eye : {glm::dvec3(0, 0, 3), {2, 1, -2}, {-1, -2, 0.5}}) {
+    Look look = bench.look(Shading::phong);
+    look.hdriFile = CompassPicture::path();
+    look.environmentBackground = true;
+    look.environmentRotation = 25;
+    look.resolution = {33, 17};
+    look.cameraPosition = eye;
+    look.cameraFocalPoint = glm::dvec3(0);
+    look.cameraViewAngle = 60;
+    Scene away = sceneOf(square({0, 0, 1}, 1e-3f), unlitMaterial(glm::dvec3(1)),
+                         translation(-40.0 * eye + glm::dvec3(0, 300, 0)));
+    const Image image = bench.draw(away, look);
+    const glm::dvec3 back = safeNormalize(eye),
+                     right = safeNormalize(glm::cross(glm::dvec3(0, 1, 0), back)),
+                     up = glm::cross(back, right);
+    const double half = std::tan(30 * degrees);
+    // A pixel is a fourteenth of a radian wide: the mean over it is off by s^2 / 12 of 0.25, and
+    // the levels' by as much.
+    for (const glm::ivec2 place : {glm::ivec2(0, 0), {32, 0}, {0, 16}, {32, 16}, {16, 8}}) {
+      const glm::dvec3 ray = right * (((place.x + 0.5) / 33 * 2 - 1) * half * 33 / 17) +
+                             up * ((1 - (place.y + 0.5) / 17 * 2) * half) - back;
+      expectColor(record, "behind the model from " + vectorText(eye), at(image, place.x, place.y),
+                  compass(before(safeNormalize(ray), 25)),
+                  0.25 * 0.07 * 0.07 / 4 + compassTolerance);
+    }
+  }
+}
+
+void m13(Bench& bench, Record& record) {
+  // Levels of one colour each: what is seen tells the level of detail. 64 texels over 2 / size of
+  // the picture's height.
+  ByteImage base = texels(std::vector<glm::ivec4>(64 * 64, glm::ivec4(0, 0, 0, 255)), 64);
+  std::vector<ByteImage> smaller;
+  const int codes[] = {51, 102, 153, 204, 230, 255};
+  for (int i = 0, size = 32; i < 6; ++i, size /= 2)
+    smaller.push_back(texels(
+        std::vector<glm::ivec4>(std::size_t(size * size), glm::ivec4(glm::ivec3(codes[i]), 255)),
+        size));
+  {
+    for (const int pixels : {64, 32, 45, 16, 9}) {
+      Material m = unlitMaterial(glm::dvec3(1));
+      Textured t = textured(m, base, false);
+      t.images[0].mipLevels = smaller;
+      t.material().colorTexture = Texture{};
+      t.material().colorTexture->sampler = {Filter::linear, Filter::linear, MipFilter::linear,
+                                            Wrap::repeat, Wrap::repeat};
+      const Look look = parallel(bench.look(Shading::phong), {0, 0, 1}, pixels);
+      const double level = std::clamp(std::log2(64.0 / pixels), 0.0, 6.0);
+      const int fine = std::min(int(level), 5);
+      const auto value = [&](int i) {
+        return i == 0 ? 0.0 : double(decodeSrgb8(std::uint8_t(codes[i - 1])));
+      };
+      const double expected = value(fine) + (level - fine) * (value(fine + 1) - value(fine));
+      // The step of the coordinates is a difference of floats: 2 * 6e-8 over 1 / pixels, over ln 2.
+      record.near("64 texels over " + std::to_string(pixels) + " pixels",
+                  middle(bench.draw(t.scene, look, t.images)).r, expected, 5e-5);
+      record.near("the reference's", middle(bench.reference(t.scene, look, t.images)).r, expected,
+                  1e-6);
+    }
+  }
+}
+
+void m14(Bench& bench, Record& record) {
+  // Across between two texels, and what lies outside by each rule.
+  const ByteImage two = texels({{0, 0, 0, 255}, {255, 255, 255, 255}}, 2);
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirroredRepeat, Wrap::clampToEdge}) {
+    Textured t = textured(unlitMaterial(glm::dvec3(1)), two, false);
+    t.material().colorTexture = Texture{};
+    t.material().colorTexture->sampler = {Filter::linear, Filter::linear, MipFilter::none, wrap,
+                                          wrap};
+    for (auto& place : t.scene.meshes[0].texcoords[0]) place.x = 2 * place.x;
+    const Image image =
+        bench.draw(t.scene, parallel(bench.look(Shading::phong), {0, 0, 1}, 8), t.images);
+    record.near("the mean of black and white is 1/2 in linear light, pixel 1 of texel 0.25 to 0.75",
+                at(image, 1, 3).r, 0.25, 1e-6);
+    record.near("at 1.125, by the rule of wrapping", at(image, 4, 3).r,
+                wrap == Wrap::repeat ? 0.25 : 1, 1e-6);
+    record.near("at 1.375", at(image, 5, 3).r,
+                wrap == Wrap::repeat        ? 0.25
+                : wrap == Wrap::clampToEdge ? 1
+                                            : 0.75,
+                1e-6);
+  }
+  for (int code = 0; code < 256; code += 15) {
+    Textured t =
+        textured(unlitMaterial(glm::dvec3(1)),
+                 texels(std::vector<glm::ivec4>(4, glm::ivec4(glm::ivec3(code), 255))), false);
+    t.material().colorTexture = nearest();
+    const double s = code / 255.0;
+    record.near("code " + std::to_string(code) + " of sRGB",
+                middle(bench.draw(t.scene, parallel(bench.look(Shading::phong)), t.images)).r,
+                s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4), 1e-7);
+  }
+}
+
+// Thin triangles whose colours go from 0.4 to 0.6: what they cover of a pixel has no other.
+void m15(Bench& bench, Record& record) {
+  const int most = maxSamples();
+  record.within("samples of the driver", most, 1, 1024);
+  if (most < 2) return;
+  Mesh mesh;
+  for (int i = 0; i < 12; ++i) {
+    const float y = -0.9f + 0.15f * float(i), x = 0.03f * float(i);
+    const std::uint32_t first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(),
+                          {{x - 0.03f, y, 0}, {x + 0.03f, y + 0.02f, 0}, {x - 0.02f, y + 0.1f, 0}});
+    mesh.colors.insert(mesh.colors.end(),
+                       {{0.4f, 0.6f, 0.5f, 1}, {0.6f, 0.4f, 0.6f, 1}, {0.4f, 0.5f, 0.4f, 1}});
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  }
+  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  Look look = parallel(bench.look(Shading::phong), {0, 0, 1}, 16);
+  look.antiAliasing = {AntiAliasing::Mode::msaa, std::min(most, 4)};
+  look.noBackground = true;
+  const Image image = bench.draw(sceneOf(mesh, unlitMaterial(glm::dvec3(1))), look);
+  double low = 1, high = 0;
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    const double alpha = image.values[i + 3];
+    for (std::size_t c = i; alpha > 0 && c < i + 3; ++c) {
+      low = std::min(low, image.values[c] / alpha);
+      high = std::max(high, image.values[c] / alpha);
+    }
+  }
+  record.within("lowest", low, 0.4 - 1e-6, 0.6);
+  record.within("highest", high, 0.4, 0.6 + 1e-6);
+}
+
+const char* const compassReason = "mirrored, upside down or turned pictures look right to the eye";
+
+const Case cases[] = {
+    {"M1", "a mirror that shows the axes, poles and seam of a picture",
+     "what the picture has there", "4e-5: h^2 / 4 of its bend", compassReason,
+     "u = 1/2 + atan2(x, -z) / 2 pi, v = acos(y) / pi; beyond a pole's row lies its other side",
+     m1},
+    {"M2", "the same, the environment turned by 90, -35 and 180 degrees", "what stood there before",
+     "4e-5", "the sign of the angle", "about +Y, from +Z towards +X", m2},
+    {"M3", "a mirroring ball seen from four sides", "its middle shows what is behind the viewer",
+     "5e-4: facets", "the transform of the eye transposed", "", m3},
+    {"M4", "the built-in environments in a mirror, turned and not", "their formulas", "4.2e-5",
+     compassReason, "", m4},
+    {"M5", "glass with tilted normals, entering and leaving, in air and water",
+     "R E(reflected) + t (1 - R) C E(refracted)", "5e-5",
+     "refraction by n in place of 1/n; without C; into the wrong side", "", m5},
+    {"M6", "a normal map's red, and its green", "the normal leans right; up", "2e-6",
+     "maps of the other convention", "green is up, as in glTF", m6},
+    {"M7", "a tangent of handedness -1", "green leans down", "2e-6", "mirrored coordinates", "",
+     m7},
+    {"M8", "a normal map scaled by 0.25 and 2", "red and green scaled, blue not", "2e-6", "", "",
+     m8},
+    {"M9", "four texels, by every program, lit and unlit", "the file's first row is at the top",
+     "1e-6", "upside down", "v is 0 at the top, as in glTF", m9},
+    {"M10", "an emission texture", "factor times texel", "3e-6", "ignored", "", m10},
+    {"M11", "alpha of a texture and of the material, blended", "their product covers", "1e-6",
+     "ignored", "", m11},
+    {"M12", "the environment behind the model from three places", "what lies along each ray",
+     "4e-4", "the background turned against the reflections", "", m12},
+    {"M13", "64 texels over 64 to 9 pixels, levels of one colour each", "log2 of the ratio",
+     "5e-5: steps of coordinates are differences of floats", "estimates of the level",
+     "the longest step within the square of 2 x 2 pixels", m13},
+    {"M14", "two texels by every rule of wrapping; every 15th code", "linear light; the curve",
+     "1e-6; 1e-7", "filtered before decoding; 8-bit filters", "decoded before filtering", m14},
+    {"M15", "multisampled: thin triangles of colours from 0.4 to 0.6", "nothing below or above",
+     "1e-6", "extrapolation beyond the triangle",
+     "a pixel covered in part is shaded at the mean of the samples covered", m15},
+};
+
+}  // namespace
+
+std::span<const Case> mappingCases() { return cases; }
+
+}  // namespace glint::stability

@@ -1,0 +1,133 @@
+// A disk that is full at every output: one line, a status that says so, nothing half-written.
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "command.h"
+
+using glint::test::contents;
+using glint::test::Folder;
+using glint::test::Ran;
+using glint::test::runGlint;
+using glint::test::shipped;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+/// The commands with all that they can write, into the folder out/ of the one they run in.
+std::vector<Arguments> commands() {
+  const std::string torus = shipped + "torus.glb";
+  const Arguments small{"--resolution", "64,48", "--rendering-backend", "osmesa"};
+  const auto render = [&](Arguments more) {
+    Arguments all{"render", torus, "-o"};
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), small.begin(), small.end());
+    return all;
+  };
+  return {
+      render({"out/a.png"}),
+      render({"out/a.png", "--bit-depth", "16"}),
+      render({"out/a.exr"}),
+      render({"out/a.pfm"}),
+      render({"out/a.exr", "--terms"}),
+      render({"out/a.png", "--terms"}),
+      render({"out/{frame}.png", "--turntable", "3"}),
+      render({"out/a.png", "--sweep", "exponent=1:100:2"}),
+      render({"null.png", "--json", "out/a.json"}),
+      render({"null.png", "--save-look", "out/a.json"}),
+      {"info", torus, "--json", "out/a.json"},
+      {"convert", torus, "out/a.glb", "--material", "exponent=7"},
+      {"environment", "sky", "-o", "out/a.exr"},
+      {"diff", "a.png", "b.png", "--output", "out/d.png"},
+      {"diff", "a.png", "b.png", "--html", "out/d.html"},
+      {"diff", "a.png", "b.png", "--json", "out/d.json"},
+      {"study", "--quick", "--resolution", "32,32", "--repetitions", "3", "--highlight", "exact",
+       "--fresnel", "exact", "--rendering-backend", "osmesa", "--output", "out", "--json",
+       "out/s.json", "--markdown", "out/s.md"},
+      {"stability", "--case", "d4", "--rendering-backend", "osmesa", "--output", "out"},
+      {"stability", "--case", "d4", "--rendering-backend", "osmesa", "--json", "out/s.json"},
+  };
+}
+
+/// What the commands read.
+void prepare(const Folder& folder) {
+  fs::create_symlink("/dev/null", folder / "null.png");
+  for (const char* name : {"a.png", "b.png"}) {
+    const Ran ran =
+        runGlint({"render", shipped + "torus.glb", "-o", folder / name, "--resolution", "64,48",
+                  "--rendering-backend", "osmesa", "--exposure", name[0] == 'a' ? "0" : "1"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+  }
+}
+
+std::vector<std::string> leftIn(const std::string& folder) {
+  std::vector<std::string> left;
+  if (!fs::exists(folder)) return left;
+  for (const auto& each : fs::recursive_directory_iterator(folder))
+    if (each.is_regular_file())
+      left.push_back(each.path().filename().string() + ", " + std::to_string(each.file_size()) +
+                     " bytes");
+  return left;
+}
+
+}  // namespace
+
+TEST(FullDisk, OfEachOutputLeavesNothing) {
+  const Folder folder("full");
+  prepare(folder);
+  for (const Arguments& command : commands()) {
+    std::string text;
+    for (const std::string& word : command) text += word + " ";
+    SCOPED_TRACE(text);
+    const Ran ran =
+        runGlint(command, {.timeoutSeconds = 120, .folder = folder.path(), .fileLimit = 600});
+    EXPECT_EQ(ran.status, 2) << ran.out << ran.err;
+    EXPECT_THAT(ran.err, testing::AnyOf(HasSubstr("raise the limit of file sizes (ulimit -f)"),
+                                        HasSubstr("set TMPDIR to a folder with room")));
+    EXPECT_THAT(ran.err, Not(HasSubstr("internal error")));
+    EXPECT_THAT(leftIn(folder / "out"), testing::IsEmpty());
+    fs::remove_all(folder / "out");
+  }
+}
+
+// A disk of its own with 8 KiB, where the system lets one be made.
+TEST(FullDisk, ThatIsOneIsTold) {
+  const Folder folder("disk");
+  prepare(folder);
+  fs::create_directory(folder / "out");
+  const auto inside = [&](const std::string& what) {
+    std::ofstream(folder / "run.sh") << "mount -t tmpfs -o size=8k none out || exit 99\n" << what;
+    const int status = std::system(
+        ("cd '" + folder.path() + "' && unshare -rm sh run.sh > out.txt 2> err.txt").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  if (inside("true") != 0) GTEST_SKIP() << "no disk can be mounted here";
+  for (const Arguments& command : commands()) {
+    std::string text = "'" GLINT_EXECUTABLE "'";
+    for (const std::string& word : command) text += " '" + word + "'";
+    SCOPED_TRACE(text);
+    // Filled but for one page, which the folder's own entries need.
+    const int status = inside("head -c 8192 /dev/zero > out/full 2> /dev/null; " + text +
+                              "; status=$?; rm -f out/full; find out -type f >&2; exit $status");
+    const std::string said = contents(folder / "err.txt");
+    EXPECT_EQ(status, 2) << said;
+    EXPECT_THAT(said, HasSubstr("No space left on device"));
+    EXPECT_THAT(said, Not(HasSubstr("\nout/"))) << said;
+  }
+}
+
+TEST(FullDisk, UnderAReportOfAListIsNoReaderThatWentAway) {
+  const Folder folder("report");
+  std::ofstream(folder / "list") << shipped << "torus.glb\n";
+  const Ran ran = runGlint({"render", "--from-list", folder / "list", "-o", folder / "{n}.png",
+                            "--resolution", "32,32", "--rendering-backend", "osmesa"},
+                           {.fullOut = true});
+  EXPECT_NE(ran.status, 0);
+  EXPECT_THAT(ran.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(ran.err, Not(HasSubstr("went away")));
+}

@@ -1,0 +1,363 @@
+// Whole pictures of the driver against closed forms, and against the reference where that has what
+// they need: pictures of the environment, textures, multisampling.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "formulas.h"
+#include "glint/gltf/scene_file.h"
+#include "glint/image/file.h"
+#include "glint/image/picture_writer.h"
+#include "glint/image/srgb.h"
+#include "glint/reference/renderer.h"
+#include "glint/scene/look_text.h"
+#include "gltf_text.h"
+#include "random.h"
+#include "stage.h"
+
+using namespace glint;
+using namespace glint::test;
+
+namespace {
+
+class Truth : public OnStage {
+ protected:
+  /// Where the driver's samples lie, from the pixel's middle.
+  std::vector<glm::dvec2> samples(int count) {
+    std::vector<glm::dvec2> all;
+    for (const glm::vec2& place : RenderTarget(4, 4, count).samplePositions())
+      all.push_back(glm::dvec2(place) - 0.5);
+    return all;
+  }
+
+  Image reference(const Scene& given, const Look& look, std::vector<glm::dvec2> samples = {}) {
+    Scene scene = given;
+    const DecodedImages images = decodeImages(scene, look);
+    ReferenceRenderer renderer(scene, images, boundsOf(scene), look, 1);
+    if (!samples.empty()) renderer.sampleAt(std::move(samples));
+    return renderer.draw();
+  }
+};
+
+using Radiance = std::function<glm::dvec3(const glm::dvec3&)>;
+
+// Linear and quadratic in direction; no two axes alike.
+glm::dvec3 linear(const glm::dvec3& d) {
+  return 0.6 + glm::dvec3(0.3 * d.x + 0.1 * d.y, 0.3 * d.y - 0.1 * d.z, 0.3 * d.z + 0.15 * d.x);
+}
+glm::dvec3 quadratic(const glm::dvec3& d) {
+  return 0.6 + 0.4 * glm::dvec3(d.x * d.y, d.z * d.z - d.x * d.z, d.y * d.z + d.x * d.x);
+}
+
+constexpr int pictureRows = 256;
+constexpr double texel = std::numbers::pi / pictureRows;
+
+// Written once: what was read is not written anew.
+std::string pictureOf(const std::string& name, const Radiance& radiance) {
+  const std::string path = temporaryFolder() + "/" + name + ".pfm";
+  static std::set<std::string> written;
+  if (!written.insert(name).second) return path;
+  Image image{2 * pictureRows, pictureRows, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double down = texel * (y + 0.5), turn = texel * (x + 0.5) - std::numbers::pi;
+      const glm::dvec3 e = radiance(
+          {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
+      image.values.insert(image.values.end(), {float(e.r), float(e.g), float(e.b), 1.0f});
+    }
+  const auto writer = openPictureWriter(path, image.width, image.height);
+  writer->write(image);
+  writer->finish();
+  return path;
+}
+
+// What the environment turned by an angle about +Y shows.
+glm::dvec3 turnedBack(const glm::dvec3& d, double angle) {
+  const double s = std::sin(-angle * degrees), c = std::cos(-angle * degrees);
+  return {c * d.x + s * d.z, d.y, -s * d.x + c * d.z};
+}
+
+Look mirrorLook(const glm::dvec3& toViewer, const std::string& picture, double turn) {
+  Look look = parallelLook(toViewer, 3);
+  look.shading = Shading::environment;
+  look.noLights = true;
+  look.hdriFile = picture;
+  look.environmentRotation = turn;
+  return look;
+}
+
+}  // namespace
+
+// A mirror and a pane that are looked up at the picture's full size. Bilinear texels are off by h^2
+// / 8 of the second derivatives along both axes, which are at most 0.32 and 1.2; across a pole too,
+// where rows meet those of the other side. Floats add 2e-6 (direction, place and filter).
+TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
+  const std::pair<Radiance, double> radiances[] = {{linear, 0.32}, {quadratic, 1.2}};
+  std::vector<glm::dvec3> directions{{0, 1, 0},         {0, -1, 0}, {1e-4, 1, 0},  {0, 1, -2e-3},
+                                     {-4e-3, -1, 5e-3}, {0, 0, 1},  {1e-5, 0, 1},  {-1e-5, 0.3, 1},
+                                     {0, 0, -1},        {1, 0, 0},  {0.5, -0.4, 1}};
+  for (int i = 0; const auto& [radiance, bend] : radiances) {
+    const std::string picture = pictureOf("radiance" + std::to_string(i++), radiance);
+    const double tolerance = bend * texel * texel / 4 + 2e-6;
+    for (const double turn : {0.0, 33.0, 180.0, -120.0})
+      for (const glm::dvec3& to : directions)
+        for (const double cosine : {1.0, 0.6, 0.02}) {  // 0.02: grazing
+          const glm::dvec3 seen = unit(to);
+          const glm::dvec3 side = unit(glm::cross(
+              seen, std::abs(seen.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0.2)));
+          const double sine = std::sqrt(1 - cosine * cosine);
+          const glm::dvec3 n = cosine * seen + sine * side;
+          const glm::dvec3 v = unit(2 * cosine * n - seen);
+          Mesh mesh = quad();
+          const glm::dvec3 right = unit(glm::cross(
+                               v, std::abs(v.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1))),
+                           up = glm::cross(v, right);
+          for (glm::vec3& p : mesh.positions)
+            p = glm::vec3(-double(p.x) * right + double(p.y) * up);
+          mesh.normals.assign(4, glm::vec3(n));
+          Material mirror = materialOf(0, 0, 0, 1, 1);
+          mirror.doubleSided = true;
+          Look look = mirrorLook(v, picture, turn);
+          look.cameraViewUp = up;
+          if (glm::dot(glm::cross(glm::dvec3(mesh.positions[1] - mesh.positions[0]),
+                                  glm::dvec3(mesh.positions[2] - mesh.positions[0])),
+                       v) < 0)
+            std::swap(mesh.indices[1], mesh.indices[2]),
+                std::swap(mesh.indices[4], mesh.indices[5]);
+          const glm::dvec3 shown = middle(draw(sceneOf(mesh, mirror), look));
+          expectColor(shown, radiance(turnedBack(seen, turn)), tolerance, "mirror");
+          // Glass: the same direction by reflection, another by refraction.
+          Material glass = materialOf(0, 0, 0, 1);
+          glass.shading.transmission = 1;
+          const double r = reflectance(cosine, 1, 1.5);
+          const glm::dvec3 along = (cosine * n - v) / 1.5;
+          const glm::dvec3 through = along - std::sqrt(1 - glm::dot(along, along)) * n;
+          expectColor(
+              middle(draw(sceneOf(mesh, glass), look)),
+              r * radiance(turnedBack(seen, turn)) + (1 - r) * radiance(turnedBack(through, turn)),
+              tolerance + 1e-5, "glass");
+          if (HasFailure())
+            FAIL() << "to " << seen.x << " " << seen.y << " " << seen.z << " cosine " << cosine
+                   << " turn " << turn;
+        }
+  }
+}
+
+// A ball of water in glass, part of which reflects totally: the reference and the driver agree in
+// every pixel, whatever its neighbours do.
+TEST_P(Truth, NeighboursInTotalReflection) {
+  Scene scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
+  for (Material& m : scene.materials) m.shading.transmission = 0.9, m.shading.ior = 1.33;
+  Look look;
+  look.shading = Shading::environment;
+  look.resolution = {128, 128};
+  look.antiAliasing = {AntiAliasing::Mode::none, 1};
+  look.mediumIor = 1.5;
+  look.hdriFile = pictureOf("stripes", [](const glm::dvec3& d) {
+    return glm::dvec3(0.5 + 0.5 * std::sin(20 * d.x), 0.5 + 0.5 * std::sin(25 * d.y),
+                      0.5 + 0.5 * std::sin(20 * d.z));
+  });
+  const Image drawn = draw(scene, look), truth = reference(scene, look);
+  int off = 0, covered = 0;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      covered += color(truth, x, y) != color(truth, 0, 0);
+      const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
+      off += std::max({d.x, d.y, d.z}) > 2e-3;
+    }
+  EXPECT_GT(covered, 5000);
+  // At the outline, and where the square root at the critical angle takes a rounding's root.
+  EXPECT_LE(off, covered / 500);
+}
+
+namespace {
+
+std::vector<std::byte> png(const std::string& name, int size,
+                           const std::function<glm::ivec3(int x, int y)>& code) {
+  const std::string path = temporaryFolder() + "/" + name;
+  const auto writer = openPictureWriter(path, size, size);
+  Image image{size, size, {}};
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const glm::ivec3 c = code(x, y);
+      for (int k = 0; k < 3; ++k) image.values.push_back(decodeSrgb8(std::uint8_t(c[k])));
+      image.values.push_back(1);
+    }
+  writer->write(image);
+  writer->finish();
+  return readFile(path);
+}
+
+Scene texturedQuad(Sampler sampler, double repeats) {
+  Material m;
+  m.unlit = true;
+  m.colorTexture = Texture{};
+  m.colorTexture->sampler = sampler;
+  Mesh mesh = quad();
+  const float r = float(repeats);
+  mesh.texcoords = {{{0, r}, {r, r}, {r, 0}, {0, 0}}};
+  Scene scene = sceneOf(mesh, m);
+  Random random(3);
+  static const std::vector<std::byte> noise = png("noise.png", 64, [&](int, int) {
+    return glm::ivec3(random.below(256), random.below(256), random.below(256));
+  });
+  scene.images.push_back({"noise", noise, false});
+  return scene;
+}
+
+}  // namespace
+
+// Noise, enlarged and made smaller, seen straight and aslant, by every filter: the driver's picture
+// and the reference's agree to 1e-5, and to what the coordinates, floats of at most `repeats` that
+// two roundings have moved, are off by in texels of which neighbours differ by 1.
+TEST_P(Truth, TexturesAreFilteredByTheRule) {
+  for (const MipFilter mip : {MipFilter::none, MipFilter::nearest, MipFilter::linear})
+    for (const Filter filter : {Filter::nearest, Filter::linear})
+      for (const double repeats : {0.1, 0.7, 3.0})
+        for (const bool aslant : {false, true}) {
+          Sampler sampler{filter, filter, mip, Wrap::repeat, Wrap::mirroredRepeat};
+          const Scene scene = texturedQuad(sampler, repeats);
+          Look look = parallelLook({0, 0, 1}, 64);
+          if (aslant) {
+            look.cameraOrthographic = false;
+            look.cameraPosition = glm::dvec3(0.4, -2.5, 1.5);
+            look.cameraViewAngle = 40;
+          }
+          const Image drawn = draw(scene, look), truth = reference(scene, look);
+          double worst = 0;
+          int jumps = 0;
+          for (int y = 1; y < 63; ++y)
+            for (int x = 1; x < 63; ++x) {
+              const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
+              const double most = std::max({d.x, d.y, d.z});
+              // A nearest texel, or a nearest level, may be either of two where both are as near.
+              const bool jump =
+                  (filter == Filter::nearest || mip == MipFilter::nearest ||
+                   color(drawn, x, y) == glm::dvec3(0) || color(truth, x, y) == glm::dvec3(0)) &&
+                  most > 1e-4;
+              jumps += jump;
+              if (!jump) worst = std::max(worst, most);
+            }
+          SCOPED_TRACE("mip " + std::to_string(int(mip)) + " filter " +
+                       std::to_string(int(filter)) + " repeats " + std::to_string(repeats) +
+                       " aslant " + std::to_string(aslant));
+          EXPECT_LE(worst, 1e-5 + 64 * std::max(repeats, 1.0) * 0x1p-22);
+          EXPECT_LE(jumps, 62 * 62 / 100);
+        }
+}
+
+// A pixel that one triangle covers as a whole looks as without anti-aliasing: to 1e-6, and as much
+// again where the direction so interpolated is looked up in a picture.
+TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
+  for (const Shading shading :
+       {Shading::gouraud, Shading::phong, Shading::blinnPhong, Shading::environment}) {
+    const Scene scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
+    Look look;
+    look.shading = shading;
+    look.resolution = {256, 256};
+    look.noBackground = true;
+    if (shading == Shading::environment) look.hdriFile = pictureOf("linear", linear);
+    Look plain = look;
+    plain.antiAliasing = {AntiAliasing::Mode::none, 1};
+    const Image multi = draw(scene, look), single = draw(scene, plain);
+    // Whole: all of the pixel's corners lie in the triangle of its middle.
+    const ReferenceRenderer renderer(scene, {}, boundsOf(scene), plain, 1);
+    const auto seen = renderer.attributes(0, 256);
+    int whole = 0;
+    for (int y = 1; y < 255; ++y)
+      for (int x = 1; x < 255; ++x) {
+        const reference::Attributes& a = seen[std::size_t(256 * y + x)];
+        if (a.item < 0 || a.edgeDistance < 0.75) continue;
+        ++whole;
+        const glm::dvec3 value = color(single, x, y);
+        expectColor(color(multi, x, y), value,
+                    (shading == Shading::environment ? 2e-6 : 1e-6) *
+                        std::max({1.0, value.r, value.g, value.b}),
+                    std::string(shadingName(shading)).c_str());
+      }
+    EXPECT_GT(whole, 300);
+  }
+}
+
+namespace {
+
+double largest(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// What pixels differ by from the reference, and at most by how much of what they may.
+struct Deviation {
+  int pixels = 0;
+  double most = 0, ofBound = 0;
+  void add(double difference, double bound) {
+    ++pixels;
+    most = std::max(most, difference);
+    ofBound = std::max(ofBound, difference / bound);
+  }
+};
+
+}  // namespace
+
+// Against the reference at the driver's own sample positions, every pixel. One that a single
+// triangle covers is within the bound without anti-aliasing, 1e-5 + 4e-6 sqrt(exponent) (reference_
+// gl_test.cpp). Where edges cross it, the driver rounds vertices to 1/256 of a pixel, by up to
+// 1/512 along either axis, and so every edge: a sample that near to an edge may fall on its other
+// side. The pictures that the reference draws with all samples moved to a corner of that square
+// tell what this changes; the sum over the four corners counts edges that move differently. The
+// rows of docs/accuracy.md.
+TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
+  constexpr int size = 128;
+  const auto places = samples(4);
+  ASSERT_EQ(places.size(), 4u);
+  for (const char* model : {"sphere.glb", "torus.glb", "teapot.glb"})
+    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong,
+                                  Shading::blinnPhong, Shading::environment}) {
+      const Scene scene = loadGltf(std::string(GLINT_SOURCE_DIR "/models/") + model);
+      Look look;
+      look.shading = shading;
+      look.resolution = {size, size};
+      look.noBackground = true;
+      const Image drawn = draw(scene, look), truth = reference(scene, look, places);
+      std::vector<Image> corners;
+      for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+        auto moved = places;
+        for (glm::dvec2& place : moved) place += corner / 512.0;
+        corners.push_back(reference(scene, look, moved));
+      }
+      Look plain = look;
+      plain.antiAliasing = {AntiAliasing::Mode::none, 1};
+      const ReferenceRenderer renderer(scene, {}, boundsOf(scene), plain, 1);
+      const auto seen = renderer.attributes(0, size);
+      double alpha = 0;
+      for (const Material& m : scene.materials) alpha = std::max(alpha, lobeExponent(m, look));
+      const double smooth = 1e-5 + 4e-6 * std::sqrt(alpha);
+      Deviation single, crossed, outline;
+      for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+          const auto difference = [&](const Image& other) {
+            return std::max(largest(color(other, x, y) - color(truth, x, y)),
+                            std::abs(pixel(other, x, y).a - pixel(truth, x, y).a));
+          };
+          const reference::Attributes& a = seen[std::size_t(size * y + x)];
+          double bound = smooth;
+          for (const Image& corner : corners) bound += difference(corner);
+          Deviation& kind = pixel(truth, x, y).a < 1                ? outline
+                            : a.item >= 0 && a.edgeDistance >= 0.75 ? single
+                                                                    : crossed;
+          kind.add(difference(drawn), &kind == &single ? smooth : bound);
+        }
+      std::printf("| %s | %s, msaa:4 | %d, %.2e, %.2f | %d, %.2e, %.2f | %d, %.2e, %.2f |\n", model,
+                  std::string(shadingName(shading)).c_str(), single.pixels, single.most,
+                  single.ofBound, crossed.pixels, crossed.most, crossed.ofBound, outline.pixels,
+                  outline.most, outline.ofBound);
+      EXPECT_GT(single.pixels + crossed.pixels, 2000);
+      EXPECT_LE(single.ofBound, 1);
+      EXPECT_LE(crossed.ofBound, 1);
+      EXPECT_LE(outline.ofBound, 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Software, Truth, softwareBackends(), nameOfBackend);
