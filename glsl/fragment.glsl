@@ -20,7 +20,7 @@ void main() {
 #if SHADES_AT_OFFSET
   findShadingPlace();
 #endif
-  vec4 base = material.color;
+  vec4 base = vec4(material.color, material.alpha);
 #if VERTEX_COLORS
   base *= arrived(AT_PLACE(vColor));
 #endif
@@ -28,11 +28,11 @@ void main() {
   base *= TEXTURE_AT(colorTexture, vColorTexcoord);
 #endif
 #if ALPHA_MASK
-  if (base.a < material.emission.a) discard;
+  if (base.a < material.alphaCutoff) discard;
 #endif
   vec3 emission = vec3(0.0);
 #if !UNLIT && EMISSION
-  emission = material.emission.rgb;
+  emission = material.emission;
 #if EMISSION_TEXTURE
   emission *= TEXTURE_AT(emissionTexture, vEmissionTexcoord).rgb;
 #endif

@@ -21,10 +21,8 @@ uniform sampler2D transmissionTexture;
 #endif
 
 Parameters parametersHere() {
-  vec4 strength = material.strength;
-  Parameters p = Parameters(strength.x, strength.y, strength.z, strength.w, material.surface.x,
-                            material.surface.y);
-  float metallic = material.textured.x, roughness = material.textured.y;
+  Parameters p = materialParameters();
+  float metallic = material.metallic, roughness = material.roughness;
 #if METALLIC_ROUGHNESS_TEXTURE
   vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_PLACE);
   metallic *= texel.b;
@@ -42,10 +40,10 @@ Parameters parametersHere() {
   float exponent = max(0.5 / (square * square) - 0.5, 0.0);
 #endif
 #if TEXTURED_EXPONENT
-  p.exponent = material.detail.x * exponent;
+  p.exponent = material.blinnFactor * exponent;
 #endif
 #if TEXTURED_SPECULAR
-  float reflectance = material.textured.z;
+  float reflectance = material.reflectance;
 #if SPECULAR_TEXTURE
   reflectance *= TEXEL(specularTexture, SPECULAR_PLACE).a;
 #endif
@@ -55,7 +53,7 @@ Parameters parametersHere() {
   p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);
 #endif
 #if TEXTURED_AMBIENT
-  p.ambient *= 1.0 + material.textured.w * (TEXEL(occlusionTexture, OCCLUSION_PLACE).r - 1.0);
+  p.ambient *= 1.0 + material.occlusionStrength * (TEXEL(occlusionTexture, OCCLUSION_PLACE).r - 1.0);
 #endif
 #if TEXTURED_TRANSMISSION
   p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_PLACE).r;

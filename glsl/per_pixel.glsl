@@ -12,8 +12,8 @@ uniform sampler2D normalTexture;
 #if VERTEX_STAGE
 #if NORMAL_TEXTURE
 void passTangent(vec4 tangent, vec2 texcoord) {
-  // A mirroring transform, whose sign stands in the corner, turns the handedness.
-  vTangent = vec4(safeUnit(mat3(draw.eyeFromModel) * tangent.xyz), tangent.w * draw.normalMatrix[3][3]);
+  // A mirroring transform turns the handedness.
+  vTangent = vec4(safeUnit(mat3(draw.eyeFromModel) * tangent.xyz), tangent.w * draw.handedness);
   vNormalTexcoord = texcoord;
 }
 #endif
@@ -83,7 +83,7 @@ vec3 surfaceNormal(Inputs at) {
 #endif
 #if NORMAL_TEXTURE
   vec3 m = 2.0 * at.texel.xyz - 1.0;
-  m.xy *= draw.normalMatrix[3][0];
+  m.xy *= draw.normalScale;
   vec3 mapped = m.x * at.tangent.xyz + m.y * at.tangent.w * cross(n, at.tangent.xyz) + m.z * n;
   if (dot(mapped, mapped) > 1e-12) n = mapped;
 #endif

@@ -23,7 +23,7 @@ bool inMiddle = true;
 float placeScale = 1.0;
 
 void findShadingPlace() {
-  int count = int(frame.ambientLight.a), covered = 0;
+  int count = int(frame.sampleCount), covered = 0;
   vec2 sum = vec2(0.0);
   for (int i = 0; i < count; ++i)
     if ((gl_SampleMaskIn[0] >> i & 1) != 0) {

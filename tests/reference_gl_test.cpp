@@ -150,7 +150,7 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
 
   Comparison c;
   for (const DrawItem& item : list.items)
-    c.alpha = std::max(c.alpha, double(item.materialBlock.strength.w));
+    c.alpha = std::max(c.alpha, double(item.materialBlock.exponent));
   const auto at = [&](int x, int y) -> reference::Attributes& {
     return attributes[std::size_t(y) * std::size_t(width) + std::size_t(x)];
   };

@@ -121,8 +121,8 @@ std::vector<std::string> lobeDefines(const Variant& v) {
   std::vector<Variant::Dimmer> forms{{v.highlight, 0, 0, 0}};
   forms.insert(forms.end(), v.dimmer.begin(), v.dimmer.end());
   forms.push_back({{}, v.directionalLights, v.pointLights, v.spotLights});
-  constexpr const char* shapes[] = {"material.lobe.xy", "material.lobe.zw",
-                                    "material.dimmerLobe.xy", "material.dimmerLobe.zw"};
+  constexpr const char* shapes[] = {"material.lobe", "material.secondLobe", "material.thirdLobe",
+                                    "material.fourthLobe"};
   const bool varies = (v.textured & textured::exponent) != 0;
   std::vector<std::string> texts;
   for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
@@ -165,7 +165,7 @@ std::vector<std::string> lobeDefines(const Variant& v) {
 std::string reflectanceFunction(const Variant& v) {
   if (v.program != Shading::environment || !v.dielectric) return {};
   const std::string form(v.schlickFifth
-                             ? "fresnelSchlickFifth(cosine, boundary, material.surface.z)"
+                             ? "fresnelSchlickFifth(cosine, boundary, material.normalReflectance)"
                              : row(v.fresnel).glsl);
   return "float reflectance(float cosine, Boundary boundary) { return " + form + "; }\n";
 }

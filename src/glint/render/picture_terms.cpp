@@ -44,10 +44,8 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   bool specular = v.specular && term.kind == Kind::specular;
   const MaterialBlock& block = item.materialBlock;
   HighlightForm form = v.highlight;
-  glm::vec2 shape(block.lobe);
-  const glm::vec2 shapes[] = {{block.lobe.z, block.lobe.w},
-                              {block.dimmerLobe.x, block.dimmerLobe.y},
-                              {block.dimmerLobe.z, block.dimmerLobe.w}};
+  glm::vec2 shape = block.lobe;
+  const glm::vec2 shapes[] = {block.secondLobe, block.thirdLobe, block.fourthLobe};
   for (std::size_t i = 0; i < v.dimmer.size(); ++i) {
     const Variant::Dimmer& each = v.dimmer[i];
     const int from = place.type == 0 ? each.directional : place.type == 1 ? each.point : each.spot;
@@ -61,14 +59,13 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   v.specular = specular;
   if (!specular) return;
   v.highlight = form;
-  item.materialBlock.lobe = glm::vec4(shape, 0, 0);
+  item.materialBlock.lobe = shape;
 }
 
 void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {
   Variant& v = item.variant;
   if (v.unlit) {
-    if (term.kind != Kind::emission)
-      item.materialBlock.color = glm::vec4(0, 0, 0, item.materialBlock.color.a);
+    if (term.kind != Kind::emission) item.materialBlock.color = glm::vec3(0);
     return;
   }
   const bool oneLight = term.kind == Kind::diffuse || term.kind == Kind::specular;
@@ -109,7 +106,7 @@ DrawList termList(DrawList list, const PictureTerm& term) {
     return list;
   }
   for (DrawItem& item : list.items) keepLight(item, place, term);
-  if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec4(0);
+  if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec3(0);
   if (term.kind == Kind::diffuse || term.kind == Kind::specular)
     list.lights = {list.lights.at(std::size_t(place.index))};
   else

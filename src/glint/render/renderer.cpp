@@ -267,15 +267,15 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
     const glm::dvec2 upper = glm::dvec2(tile.x + tile.width, look_.resolution.y - tile.y) / whole;
     FrameBlock frame = list_.frame;
     const std::vector<glm::vec2> samples = target.samplePositions();
-    frame.ambientLight.a = float(std::min(samples.size(), std::size(frame.samples)));
+    frame.sampleCount = float(std::min(samples.size(), std::size(frame.samples)));
     for (std::size_t i = 0; i < samples.size() && i < std::size(frame.samples); ++i)
       frame.samples[i] = glm::vec4(samples[i] - 0.5f, 0, 0);
     frame.projection = glm::mat4(projection(list_.camera, lower, upper, renderer_.clipControl_));
     if (!list_.camera.orthographic) {
       const glm::dvec2 reach =
           glm::dvec2(list_.camera.halfHeight * list_.camera.aspect, list_.camera.halfHeight);
-      frame.rays =
-          glm::vec4(glm::vec2((upper - lower) * reach), glm::vec2((upper + lower - 1.0) * reach));
+      frame.rayScale = (upper - lower) * reach;
+      frame.rayOffset = (upper + lower - 1.0) * reach;
     }
     glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
     glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
