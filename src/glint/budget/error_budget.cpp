@@ -17,6 +17,7 @@
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/angles.h"
 #include "glint/shading/bounds.h"
 #include "glint/shading/pbr_conversion.h"
 #include "glint/shading/safe.h"
@@ -116,7 +117,6 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
     s.reach.most.push_back(most * light.intensity);
     s.reach.together += s.reach.most.back();
     if (light.type == glint::Light::Type::spot) {
-      constexpr double radians = 0.017453292519943295;
       const double range =
           std::cos(light.innerAngle * radians) - std::cos(light.outerAngle * radians);
       s.spotTurn += s.turns.back() * most * largest(light.intensity) * 2.0 / std::max(range, 1e-9);

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include "glint/scene/lights.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/angles.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
 
 namespace glint {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 glm::dvec3 unit(const glm::dvec3& v) {
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
