@@ -1,12 +1,12 @@
 #include "glint/render/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <span>
 #include <utility>
 
 #include "glint/gl/check.h"
+#include "glint/image/clock.h"
 #include "glint/render/composition.h"
 
 namespace glint {
@@ -25,14 +25,11 @@ enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding
 class Stopwatch {
  public:
   explicit Stopwatch(double& milliseconds) : sum_(milliseconds) {}
-  ~Stopwatch() {
-    using namespace std::chrono;
-    sum_ += duration<double, std::milli>(steady_clock::now() - start_).count();
-  }
+  ~Stopwatch() { sum_ += since(start_); }
 
  private:
   double& sum_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
 };
 
 void connect(const Program& program) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
@@ -294,7 +295,6 @@ RandomScene randomScene(const Look& base, Random& random, bool pathological) {
 
 SearchReport searchNotFinite(Bench& bench, std::uint64_t evaluations,
                              const std::function<void(double)>& progress) {
-  using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::time_point from) {
     return std::chrono::duration<double>(Clock::now() - from).count();
   };

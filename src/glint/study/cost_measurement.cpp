@@ -8,14 +8,13 @@
 #include <numeric>
 #include <random>
 
+#include "glint/image/clock.h"
 #include "glint/shading/angles.h"
 #include "glint/study/format.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int lightCount = 64;
 // Frames of some milliseconds: shorter ones measure how threads are woken.
