@@ -12,6 +12,8 @@
 #include "glint/image/read_image.h"
 #include "scenes.h"
 
+namespace batch_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::quick;
@@ -22,8 +24,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
 
 using Json = nlohmann::json;
 
@@ -126,8 +126,6 @@ class Running {
   int in_ = -1, out_ = -1;
   std::string text_;
 };
-
-}  // namespace
 
 // A model from a pipe is the picture of its file, and its faults are told as stdin's.
 TEST(Stdin, IsAModel) {
@@ -678,3 +676,5 @@ TEST(Batch, OptionsThatExcludeEachOther) {
   }
   EXPECT_THAT(folder.names(), ElementsAre("list"));
 }
+
+}  // namespace batch_cli_test

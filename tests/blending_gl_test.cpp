@@ -11,7 +11,7 @@
 #include "textures.h"
 
 namespace glint::test {
-namespace {
+namespace blending_gl_test {
 
 class Blending : public OnStage {};
 
@@ -50,7 +50,7 @@ std::vector<AntiAliasing> kinds() {
       {AntiAliasing::Mode::none, 1}, {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::ssaa, 2}};
 }
 
-}  // namespace
+}  // namespace blending_gl_test
 
 // Binary fractions, so that every sum is exact; nearest first in the list of triangles.
 TEST_P(Blending, PanesOfOneMeshLieOverOneAnother) {

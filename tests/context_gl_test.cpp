@@ -22,7 +22,7 @@ using glint::Backend;
 using testing::AllOf;
 using testing::HasSubstr;
 
-namespace {
+namespace context_gl_test {
 
 TEST(NoContext, IsAnErrorInWords) {
   const auto open = [] { return glint::RenderTarget(8, 8, 1); };
@@ -123,7 +123,7 @@ class OnBackend : public testing::TestWithParam<Backend> {
   std::unique_ptr<glint::Context> context_;
 };
 
-}  // namespace
+}  // namespace context_gl_test
 
 TEST_P(OnBackend, IsSoftwareOfAtLeast33) {
   const glint::GlStrings gl = glint::glStrings();

@@ -12,6 +12,8 @@
 #include "glint/render/draw_list.h"
 #include "scenes.h"
 
+namespace draw_list_test {
+
 using glint::DrawItem;
 using glint::DrawList;
 using glint::FaceSide;
@@ -19,8 +21,6 @@ using glint::Light;
 using glint::Look;
 using glint::Scene;
 using glint::test::degrees;
-
-namespace {
 
 constexpr double half = 1.0 / (1 << 24);  // rounding to float: half an ulp, relative
 
@@ -105,8 +105,6 @@ glint::Material blended(const char* name) {
   m.alpha = 0.5;
   return m;
 }
-
-}  // namespace
 
 TEST(NormalMatrix, IsTheInverseTransposeUnderEveryTransform) {
   using glint::test::rotation, glint::test::scaling, glint::test::translation;
@@ -429,3 +427,5 @@ TEST(Frame, EnvironmentTurnsAboutY) {
   EXPECT_NEAR(seen.z, 1, half);
   EXPECT_NEAR(seen.x, 0, half);
 }
+
+}  // namespace draw_list_test

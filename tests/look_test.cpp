@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-namespace {
+namespace look_test {
 
 const Parameter& parameter(const std::string& name) {
   for (const Parameter& p : glint::lookParameters())
@@ -520,7 +520,7 @@ class RandomLooks {
   std::mt19937 random_;
 };
 
-}  // namespace
+}  // namespace look_test
 
 TEST(LookTexts, GoodOnesSetWhatTheyName) {
   std::set<std::string> seen;

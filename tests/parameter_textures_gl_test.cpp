@@ -11,7 +11,7 @@
 #include "textures.h"
 
 namespace glint::test {
-namespace {
+namespace parameter_textures_gl_test {
 
 constexpr Shading programs[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                 Shading::blinnPhong, Shading::environment};
@@ -87,7 +87,7 @@ Look lookFor(Shading shading) {
   return look;
 }
 
-}  // namespace
+}  // namespace parameter_textures_gl_test
 
 // The fourth power of the roughness takes 8 roundings, which the steepest lobe here (4 x 4999.5)
 // turns into 8 x 2^-24 / e of its height, the highlight of two lights: below 1e-6. Lobes of two

@@ -28,7 +28,7 @@
 #include "reference_scenes.h"
 
 namespace glint {
-namespace {
+namespace reference_gl_test {
 
 constexpr Shading allPrograms[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                    Shading::blinnPhong, Shading::environment};
@@ -691,5 +691,5 @@ INSTANTIATE_TEST_SUITE_P(Backends, AgainstReference,
                            return p.param == Backend::osmesa ? "osmesa" : "egl_software";
                          });
 
-}  // namespace
+}  // namespace reference_gl_test
 }  // namespace glint

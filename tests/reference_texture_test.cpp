@@ -9,7 +9,7 @@
 #include "glint/image/mipmaps.h"
 #include "reference_scenes.h"
 
-namespace {
+namespace reference_texture_test {
 
 using namespace scenes;
 using glint::ByteImage;
@@ -202,4 +202,4 @@ TEST(ReferenceTexture, IsNotReadWithoutCoordinates) {
   EXPECT_EQ(glm::dvec3(pixel(draw(scene, look), 1, 1)), plain.shading.color);
 }
 
-}  // namespace
+}  // namespace reference_texture_test

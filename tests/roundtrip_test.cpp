@@ -26,7 +26,7 @@ namespace glint {
 void PrintTo(const Look& look, std::ostream* out);  // look_test.cpp
 }  // namespace glint
 
-namespace {
+namespace roundtrip_test {
 
 using namespace glint;
 
@@ -182,7 +182,7 @@ Look withoutRest(Look look) {
   return look;
 }
 
-}  // namespace
+}  // namespace roundtrip_test
 
 TEST(RoundTrip, OfEveryParameterThroughTextAndPictures) {
   Texts texts(11);

@@ -12,9 +12,9 @@
 #include "glint/stability/suite.h"
 #include "gltf_text.h"
 
-using namespace glint;
+namespace stability_mutation_long_test {
 
-namespace {
+using namespace glint;
 
 struct Guard {
   const char *file, *text, *without;
@@ -200,8 +200,6 @@ std::string textWithout(const Guard& guard) {
   return text.replace(at, from.size(), guard.without);
 }
 
-}  // namespace
-
 TEST_P(Mutation, IsCaught) {
   const Guard& guard = GetParam();
   const std::string folder = test::temporaryFolder() + "/mutation";
@@ -243,3 +241,5 @@ INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
                                   (*tested.param.caught ? "_" + std::string(tested.param.caught)
                                                         : std::string("_equivalent"));
                          });
+
+}  // namespace stability_mutation_long_test

@@ -18,10 +18,10 @@
 #include "random.h"
 #include "stage.h"
 
+namespace truth_gl_test {
+
 using namespace glint;
 using namespace glint::test;
-
-namespace {
 
 class Truth : public OnStage {
  protected:
@@ -88,8 +88,6 @@ Look mirrorLook(const glm::dvec3& toViewer, const std::string& picture, double t
   look.environmentRotation = turn;
   return look;
 }
-
-}  // namespace
 
 // A mirror and a pane that are looked up at the picture's full size. Bilinear texels are off by h^2
 // / 8 of the second derivatives along both axes, which are at most 0.32 and 1.2; across a pole too,
@@ -173,8 +171,6 @@ TEST_P(Truth, NeighboursInTotalReflection) {
   EXPECT_LE(off, covered / 500);
 }
 
-namespace {
-
 std::vector<std::byte> png(const std::string& name, int size,
                            const std::function<glm::ivec3(int x, int y)>& code) {
   const std::string path = temporaryFolder() + "/" + name;
@@ -207,8 +203,6 @@ Scene texturedQuad(Sampler sampler, double repeats) {
   scene.images.push_back({"noise", noise, false});
   return scene;
 }
-
-}  // namespace
 
 // Noise, enlarged and made smaller, seen straight and aslant, by every filter: the driver's picture
 // and the reference's agree to 1e-5, and to what the coordinates, floats of at most `repeats` that
@@ -282,8 +276,6 @@ TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
   }
 }
 
-namespace {
-
 double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -298,8 +290,6 @@ struct Deviation {
     ofBound = std::max(ofBound, difference / bound);
   }
 };
-
-}  // namespace
 
 // Against the reference at the driver's own sample positions, every pixel. One that a single
 // triangle covers is within the bound without anti-aliasing, 1e-5 + 4e-6 sqrt(exponent) (reference_
@@ -361,3 +351,5 @@ TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Software, Truth, softwareBackends(), nameOfBackend);
+
+}  // namespace truth_gl_test

@@ -25,7 +25,7 @@ void PrintTo(const Variant& v, std::ostream* out) {
 }
 }  // namespace glint
 
-namespace {
+namespace variant_test {
 
 using glint::test::everyShading;
 using glint::test::lightOf;
@@ -455,7 +455,7 @@ const Case cases[] = {
      [](Variant& v, Shading s) { v.refraction = s == Shading::environment; }},
 };
 
-}  // namespace
+}  // namespace variant_test
 
 TEST(Variants, SwitchEachFeatureForItsReasonAlone) {
   for (const Case& c : cases)
