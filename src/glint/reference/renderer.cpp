@@ -191,7 +191,7 @@ void ReferenceRenderer::drawRows(int y0, int rows, Image& out) {
   out.values.resize(std::size_t(4) * out.width * rows);
   const int first = y0 * scale_, end = (y0 + rows) * scale_;
   const int firstStrip = first / stripRows_, lastStrip = (end - 1) / stripRows_;
-  std::vector<Strip> strips(std::size_t(threads_));
+  std::vector<Strip> strips(static_cast<std::size_t>(threads_));
   inParallel(threads_, std::size_t(lastStrip - firstStrip + 1), [&](std::size_t n, int thread) {
     const int i = int(n);
     Strip& strip = strips[std::size_t(thread)];
@@ -224,7 +224,7 @@ std::vector<reference::Attributes> ReferenceRenderer::attributes(int y0, int row
   const std::size_t width = std::size_t(stage_.grid.x);
   std::vector<reference::Attributes> all(width * std::size_t(rows));
   const int end = y0 + rows, firstStrip = y0 / stripRows_, lastStrip = (end - 1) / stripRows_;
-  std::vector<Strip> strips(std::size_t(threads_));
+  std::vector<Strip> strips(static_cast<std::size_t>(threads_));
   inParallel(threads_, std::size_t(lastStrip - firstStrip + 1), [&](std::size_t n, int thread) {
     const int i = int(n);
     Strip& strip = strips[std::size_t(thread)];
