@@ -50,8 +50,6 @@ std::vector<AntiAliasing> kinds() {
       {AntiAliasing::Mode::none, 1}, {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::ssaa, 2}};
 }
 
-}  // namespace blending_gl_test
-
 // Binary fractions, so that every sum is exact; nearest first in the list of triangles.
 TEST_P(Blending, PanesOfOneMeshLieOverOneAnother) {
   const std::vector<glm::vec4> colors = {{0, 0, 1, 0.5f}, {0, 1, 0, 0.5f}, {1, 0, 0, 0.5f}};
@@ -178,4 +176,5 @@ TEST_P(Blending, TexelsThatAreUsedDecide) {
 
 INSTANTIATE_TEST_SUITE_P(Software, Blending, softwareBackends(), nameOfBackend);
 
+}  // namespace blending_gl_test
 }  // namespace glint::test

@@ -123,8 +123,6 @@ class OnBackend : public testing::TestWithParam<Backend> {
   std::unique_ptr<glint::Context> context_;
 };
 
-}  // namespace context_gl_test
-
 TEST_P(OnBackend, IsSoftwareOfAtLeast33) {
   const glint::GlStrings gl = glint::glStrings();
   EXPECT_THAT(gl.renderer, HasSubstr("llvmpipe"));
@@ -286,3 +284,5 @@ TEST(Contexts, ProbeReportsEachBackend) {
     EXPECT_THAT(report.detail, HasSubstr("OpenGL 4"));
   }
 }
+
+}  // namespace context_gl_test

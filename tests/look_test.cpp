@@ -520,8 +520,6 @@ class RandomLooks {
   std::mt19937 random_;
 };
 
-}  // namespace look_test
-
 TEST(LookTexts, GoodOnesSetWhatTheyName) {
   std::set<std::string> seen;
   for (const Good& good : goodTexts()) {
@@ -687,3 +685,5 @@ TEST(MaterialEdits, OfMaterialsThatDoNotExistAreRefused) {
   EXPECT_THAT(failure([&] { glint::checkMaterialNames(scene, look); }),
               AllOf(HasSubstr("'B'"), HasSubstr("use one of 'a'")));
 }
+
+}  // namespace look_test

@@ -87,8 +87,6 @@ Look lookFor(Shading shading) {
   return look;
 }
 
-}  // namespace parameter_textures_gl_test
-
 // The fourth power of the roughness takes 8 roundings, which the steepest lobe here (4 x 4999.5)
 // turns into 8 x 2^-24 / e of its height, the highlight of two lights: below 1e-6. Lobes of two
 // exponents that differ by that are 2e-6 apart at most.
@@ -196,4 +194,5 @@ TEST_P(ParameterTexture, AgreesWithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Software, ParameterTexture, softwareBackends(), nameOfBackend);
 
+}  // namespace parameter_textures_gl_test
 }  // namespace glint::test

@@ -182,8 +182,6 @@ Look withoutRest(Look look) {
   return look;
 }
 
-}  // namespace roundtrip_test
-
 TEST(RoundTrip, OfEveryParameterThroughTextAndPictures) {
   Texts texts(11);
   const std::string folder = test::temporaryFolder();
@@ -294,3 +292,5 @@ TEST(RoundTrip, OfALookThatChangesUnderEdits) {
   ASSERT_TRUE(merged.light);
   EXPECT_TRUE(merged.light->empty());
 }
+
+}  // namespace roundtrip_test

@@ -455,8 +455,6 @@ const Case cases[] = {
      [](Variant& v, Shading s) { v.refraction = s == Shading::environment; }},
 };
 
-}  // namespace variant_test
-
 TEST(Variants, SwitchEachFeatureForItsReasonAlone) {
   for (const Case& c : cases)
     for (Shading program : everyShading) {
@@ -581,3 +579,5 @@ TEST(Lights, AreTheGivenOnesElseTheDefaultUnlessThereAreNone) {
   look.noLights = true;
   EXPECT_TRUE(glint::lightsOf(look).empty());
 }
+
+}  // namespace variant_test
