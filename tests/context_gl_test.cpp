@@ -4,19 +4,15 @@
 
 #include <cmath>
 #include <cstring>
-#include <ostream>
 #include <thread>
 #include <vector>
 
+#include "backend_name.h"
 #include "glint/gl/check.h"
 #include "glint/gl/context.h"
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/program.h"
 #include "glint/image/error.h"
-
-namespace glint {
-void PrintTo(Backend backend, std::ostream* out) { *out << backendName(backend); }
-}  // namespace glint
 
 using glint::Backend;
 using testing::AllOf;
