@@ -29,12 +29,28 @@ layout(std140) uniform LightBlock {
 };
 #endif
 
+#if INSTANCES > 1
+struct Draw {
+  mat4 eyeFromModel;
+  mat3 normalMatrix;     // as below
+  float normalScale, handedness;  // the same for all
+};
+layout(std140) uniform DrawBlock {
+  Draw draws[INSTANCES];  // the places of one call
+};
+#if VERTEX_STAGE
+#define draw draws[gl_InstanceID]
+#else
+#define draw draws[0]
+#endif
+#else
 layout(std140) uniform DrawBlock {
   mat4 eyeFromModel;
   mat3 normalMatrix;     // cofactors of eyeFromModel, scaled
   float normalScale;     // of the normal map's x and y
   float handedness;      // -1 if eyeFromModel mirrors, else 1
 } draw;
+#endif
 
 layout(std140) uniform MaterialBlock {
   vec3 color;            // C

@@ -43,6 +43,8 @@ void main() {
   fragment = vec4(emission, 1.0);
 #elif OUTPUT == OUTPUT_DEPTH
   fragment = vec4(gl_FragCoord.z, gl_FragCoord.w, 0.0, 1.0);
+#elif OUTPUT == OUTPUT_IDS
+  fragment = vec4(material.emission, 1.0);
 #elif OUTPUT != OUTPUT_RADIANCE && UNLIT
   fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL

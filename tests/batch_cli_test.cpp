@@ -9,6 +9,7 @@
 #include <set>
 
 #include "command.h"
+#include "glint/image/picture_layers.h"
 #include "glint/image/read_image.h"
 #include "scenes.h"
 
@@ -157,6 +158,36 @@ TEST(Stdin, IsAModel) {
       tiny({"render", "--from-list", listOf(folder, {sphere}), "-o", folder / "{folder}.png"}));
   EXPECT_EQ(list.status, 0) << list.err;
   EXPECT_THAT(folder.names(), ElementsAre("file.png", "list", "models.png"));
+}
+
+TEST(Stdin, IsConvertedAndStudied) {
+  Folder folder("stdin-others");
+  const auto convert = [&](const std::string& in, const std::string& out) {
+    return std::vector<std::string>{"convert", in, out, "--material", "exponent=77"};
+  };
+  ASSERT_EQ(runGlint(convert(sphere, folder / "file.glb")).status, 0);
+  Running piped(convert("-", folder / "piped.glb"));
+  piped.write(contents(sphere));
+  piped.closeIn();
+  EXPECT_EQ(piped.wait(), 0);
+  EXPECT_EQ(contents(folder / "piped.glb"), contents(folder / "file.glb"));
+  const Ran empty = runGlint(convert("-", folder / "none.glb"));
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_THAT(empty.err, HasSubstr("stdin: is empty"));
+  Running wrong(convert("-", folder / "none.gltf"));  // a GLB stays one
+  wrong.write(contents(sphere));
+  wrong.closeIn();
+  EXPECT_EQ(wrong.wait(), 2);
+
+  Running study({"study", "-", "--quick", "--repetitions", "2", "--resolution", "16,16",
+                 "--shading", "phong", "--highlight", "exact", "--rendering-backend", "osmesa",
+                 "--json", folder / "study.json"});
+  study.write(contents(sphere));
+  study.closeIn();
+  while (!study.line(60).empty()) continue;
+  EXPECT_EQ(study.wait(), 0);
+  EXPECT_THAT(contents(folder / "study.json"), HasSubstr("\"stdin\""));
+  EXPECT_THAT(folder.names(), ElementsAre("file.glb", "piped.glb", "study.json"));
 }
 
 TEST(Stdin, IsNotTheListAndAModelOfIt) {
@@ -481,13 +512,28 @@ TEST(Terms, FilesAddUpAndLayersAreTheSame) {
       return Json::parse(ran.out)["pictures"][0]["terms"];
     };
     const Json terms = draw(folder / "a.pfm");
-    ASSERT_EQ(terms.size(), 11u);
+    ASSERT_EQ(terms.size(), 12u);
     EXPECT_EQ(terms["diffuse-1"], folder / "a.diffuse-1.pfm");
     draw(folder / "a.exr");
     const glint::Image picture = glint::readImage(folder / "a.pfm");
     std::vector<double> sum(picture.values.size());
     for (const auto& [name, path] : terms.items()) {
       const glint::Image image = glint::readImage(path);
+      if (name == "id") {
+        // One object of one mesh and one material, or none.
+        for (std::size_t i = 0; i < image.values.size(); i += 4)
+          for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_EQ(image.values[i + c], image.values[i]);
+            ASSERT_TRUE(image.values[i] == 0 || image.values[i] == -1);
+          }
+        const auto layers = glint::readPictureLayers(folder / "a.exr", "id.mesh").layers;
+        ASSERT_EQ(layers.size(), 1u);
+        const auto& codes = std::get<2>(layers[0].image.values);
+        const std::size_t channels = std::size_t(layers[0].image.channels);
+        for (std::size_t i = 0; i < 32 * 32; ++i)
+          ASSERT_EQ(codes[channels * i], image.values[4 * i]);
+        continue;
+      }
       if (name != "normal") {
         const glint::Image layer = glint::readImage(folder / "a.exr", name);
         EXPECT_EQ(layer.values, image.values) << name;

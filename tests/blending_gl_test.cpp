@@ -68,6 +68,48 @@ TEST_P(Blending, PanesOfOneMeshLieOverOneAnother) {
   }
 }
 
+// Beyond a few layers the rest is drawn in one order where that is right: panes in any order of
+// their list, which it is, and with two of them cutting each other in front of all, which it never
+// is.
+TEST_P(Blending, ManyPanesLieOverOneAnother) {
+  for (const bool cutting : {false, true}) {
+    std::vector<glm::vec4> colors;
+    std::vector<glm::vec2> heights;
+    std::vector<std::size_t> order;  // from the back
+    constexpr std::size_t count = 40;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t level = (i * 17) % count;
+      const float z = -1 + 0.04f * float(level);
+      heights.emplace_back(z, z);
+      colors.emplace_back(float(level % 3) / 2, float(level % 4) / 4, float(level % 5) / 4, 0.25f);
+    }
+    for (std::size_t level = 0; level < count; ++level)
+      for (std::size_t i = 0; i < count; ++i)
+        if ((i * 17) % count == level) order.push_back(i);
+    if (cutting) {
+      for (const float slope : {0.3f, -0.3f}) {
+        order.push_back(heights.size());
+        heights.emplace_back(1 - slope, 1 + slope);
+        colors.emplace_back(slope > 0 ? 1 : 0, 0, slope > 0 ? 0 : 1, 0.5f);
+      }
+    }
+    const Scene scene = sceneOf(quadsOf(colors, heights), pane(glm::dvec3(1), 1));
+    for (const AntiAliasing& kind : kinds()) {
+      Look look = parallelLook();
+      look.antiAliasing = kind;
+      const Image image = draw(scene, look);
+      for (int x = 0; x < 8; ++x) {
+        auto here = order;
+        if (cutting && x >= 4) std::swap(here[count], here[count + 1]);
+        glm::dvec3 expected(0);
+        for (const std::size_t i : here) expected = over(colors[i], expected);
+        // Some 42 sums of floats, each within 2^-24 of numbers below 1.
+        expectColor(color(image, x, 3), expected, 42 * std::exp2(-24.0));
+      }
+    }
+  }
+}
+
 // Two panes that cut each other in the middle column: on either side the other one is in front.
 TEST_P(Blending, PanesThatCutEachOtherChangeTheirOrderThere) {
   const glm::vec4 red(1, 0, 0, 0.5f), blue(0, 0, 1, 0.25f);

@@ -255,6 +255,72 @@ TEST(Framing, FileCamerasStandAsTheFileSays) {
   EXPECT_THROW(cameraFor(Scene{}, {}, look), glint::InputError);
 }
 
+// u = fx X / Z + cx and v = fy Y / Z + cy with X to the right, Y down and Z ahead, as calibrations
+// give it.
+TEST(Intrinsics, PutPointsWhereTheLensDoes) {
+  Look look;
+  look.resolution = {640, 360};
+  look.cameraIntrinsics = glm::dvec4(700, 820, 290, 230);
+  const Camera camera = framed(look, {{0, 0, 0}, 1});
+  expectSound(camera);
+  for (const glm::dvec3& p :
+       {glm::dvec3(0, 0, 4), glm::dvec3(0.4, -0.3, 3), glm::dvec3(-2, 1, 9)}) {
+    for (const bool reversed : {false, true}) {
+      const glm::dmat4 m = glint::projection(camera, {0, 0}, {1, 1}, reversed);
+      const glm::dvec3 at = ndc(m, glm::dvec3(p.x, -p.y, -p.z) / camera.unit);
+      // Pixels are some 1e3 times as large as numbers of about 1.
+      EXPECT_NEAR((at.x + 1) / 2 * 640, 700 * p.x / p.z + 290, 1e3 * tight);
+      EXPECT_NEAR((1 - at.y) / 2 * 360, 820 * p.y / p.z + 230, 1e3 * tight);
+    }
+  }
+  // A part of the picture: the same pixel of it.
+  const glm::dmat4 part = glint::projection(camera, {0.25, 0.5}, {0.5, 1}, true);
+  const glm::dvec3 at = ndc(part, glm::dvec3(-0.1, 0.05, -1) / camera.unit);
+  EXPECT_NEAR((at.x + 1) / 2 * 160, 700 * -0.1 + 290 - 160, 1e3 * tight);
+  EXPECT_NEAR((1 - at.y) / 2 * 180, 820 * -0.05 + 230, 1e3 * tight);
+}
+
+TEST(Intrinsics, FrameTheSphereOnAllFourSides) {
+  for (const glm::dvec4& lens :
+       {glm::dvec4(700, 820, 290, 230), glm::dvec4(300, 300, 60, 180), glm::dvec4(500, 90, 320, 20),
+        glm::dvec4(700, 700, 500, 180), glm::dvec4(700, 700, 320, 300)}) {
+    Look look;
+    look.resolution = {640, 360};
+    look.cameraIntrinsics = lens;
+    const double distance = glm::length(framed(look, {{0, 0, 0}, 1}).eye);
+    const double nearest = std::min(
+        {lens.z / lens.x, (640 - lens.z) / lens.x, lens.w / lens.y, (360 - lens.w) / lens.y});
+    EXPECT_NEAR(distance, 1 / (0.9 * std::sin(std::atan(nearest))), 100 * tight);
+  }
+  Look look;  // a principal point outside of the picture
+  look.cameraIntrinsics = glm::dvec4(1000, 1000, -1e7, 1e7);
+  expectSound(framed(look, {{0, 0, 0}, 1}));
+  // The same lens as a view angle.
+  look.cameraIntrinsics = glm::dvec4(1024, 1024, 512, 512);
+  Look angle;
+  angle.cameraViewAngle = 2 * std::atan(0.5) / degrees;
+  expectNear(framed(look, {{0, 0, 0}, 1}).eye, framed(angle, {{0, 0, 0}, 1}).eye, 10 * tight);
+}
+
+TEST(Intrinsics, AreNotOfParallelProjections) {
+  Scene scene;
+  scene.cameras.resize(1);
+  scene.cameras[0].orthographic = true;
+  Look look;
+  look.cameraIntrinsics = glm::dvec4(1000, 1000, 512, 512);
+  look.cameraOrthographic = true;
+  EXPECT_THROW(cameraFor(scene, {}, look), glint::InputError);
+  look.cameraOrthographic = false;
+  look.cameraIndex = 0;
+  EXPECT_THROW(cameraFor(scene, {}, look), glint::InputError);
+  // Of a perspective camera of the file they take the lens's place, and nothing else.
+  scene.cameras[0].orthographic = false;
+  scene.cameras[0].world = glint::test::translation({1, 2, 9});
+  const Camera camera = cameraFor(scene, {}, look);
+  expectNear(camera.eye, {1, 2, 9}, 0);
+  EXPECT_NEAR(camera.halfHeight, 0.512, tight);
+}
+
 TEST(Projection, ReversedMapsNearToOneAndFarToZero) {
   for (bool orthographic : {false, true}) {
     Look look;
@@ -336,7 +402,9 @@ TEST(TurnedLook, GoesRoundTheCentre) {
   scene.cameras[1] = scene.cameras[0];
   scene.cameras[1].orthographic = true;
   scene.cameras[1].halfHeight = 0.8;
-  std::vector<Look> looks(8);
+  std::vector<Look> looks(9);
+  looks[8].cameraIndex = 0;
+  looks[8].cameraIntrinsics = {700, 800, 300, 600};
   looks[1].cameraPosition = {1, 2, 6};
   looks[2].cameraPosition = {1, 2, 6};
   looks[2].cameraDirection = {0.1, -0.3, -1};
@@ -363,6 +431,8 @@ TEST(TurnedLook, GoesRoundTheCentre) {
       for (int i = 0; i < 3; ++i) expectNear(after.axes[i], turn(before.axes[i]), 16 * tight);
       EXPECT_EQ(after.orthographic, before.orthographic);
       EXPECT_NEAR(after.halfHeight, before.halfHeight, tight);
+      EXPECT_NEAR(after.aspect, before.aspect, tight);
+      expectNear({after.shift, 0}, {before.shift, 0}, tight);
       EXPECT_NEAR(after.near, before.near, 16 * tight);
       EXPECT_NEAR(after.far, before.far, 16 * tight);
     }

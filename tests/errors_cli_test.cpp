@@ -129,6 +129,10 @@ TEST(Usage, OptionsThatExcludeEachOther) {
   refused({"-o", folder / "a.exr", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
   refused({"-o", folder / "a.pfm", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
   refused({"-o", png, "--no-lights", "--light", "camera"}, "--light and --no-lights");
+  refused({"-o", png, "--camera-intrinsics", "9,9,5,5", "--camera-view-angle", "30"},
+          "--camera-intrinsics and --camera-view-angle");
+  refused({"-o", png, "--camera-intrinsics", "9,9,5,5", "--camera-orthographic"},
+          "--camera-intrinsics and --camera-orthographic");
   refused({"-o", png, "--sweep", "exponent=1:9:3", "--sweep", "exponent=1:9:2"},
           "--sweep: twice over exponent");
   refused({"-o", png, "--rendering-backend", "metal"}, "osmesa, reference");
@@ -159,14 +163,13 @@ TEST(Usage, OutputsThatCannotBeWritten) {
   const auto to = [&](const std::string& name) {
     return runGlint(quick({"render", sphere, "-o", name}));
   };
-  expectRefusal(to(folder / "a.bmp"), "a.bmp: the ending tells no known format");
-  expectRefusal(to(folder / "a"), "ending");
+  expectRefusal(to(folder / "a.bmp"), "a.bmp: BMP is not written: use .png");
   expectRefusal(to("/proc/none/a.png"), "/proc/none");
   expectRefusal(to("/proc/a.png"), "/proc/a.png");
   std::filesystem::create_directory(folder / "folder.png");
   expectRefusal(to(folder / "folder.png"), "folder.png");
   expectRefusal(to(folder / "{name}.png"), "unknown {name}");
-  expectRefusal(to(""), "ending");
+  expectRefusal(to(""), "-o: '' is empty");
   EXPECT_THAT(folder.names(), ElementsAre("folder.png"));
   EXPECT_THAT(std::filesystem::directory_iterator(folder / "folder.png"),
               std::filesystem::directory_iterator());

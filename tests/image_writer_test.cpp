@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -193,12 +194,157 @@ TEST_F(Writer, EndingsAndSizesThatDoNotWorkAreRefused) {
     options.bitDepth = depth;
     return messageOf([&] { glint::openPictureWriter(in(name), width, height, options); });
   };
-  EXPECT_THAT(open("a.jpg"), HasSubstr("use .png, .exr or .pfm"));
-  EXPECT_THAT(open("png"), HasSubstr("use .png, .exr or .pfm"));
+  EXPECT_THAT(open("a.bmp"), HasSubstr("BMP is not written: use .png, .jpg"));
+  EXPECT_THAT(open("png"), HasSubstr(".exr or .pfm"));
+  EXPECT_THAT(open("a.xyz"), HasSubstr("tells no known format"));
+  EXPECT_THAT(open("a.jpg", 65501), HasSubstr("JPEG has at most 65500 pixels a side"));
+  EXPECT_THAT(open("a.webp", 1, 16384), HasSubstr("WebP has at most 16383 pixels a side"));
+  for (const int quality : {0, 101, -1}) {
+    glint::PictureOptions options;
+    options.quality = quality;
+    EXPECT_THAT(messageOf([&] { glint::openPictureWriter(in("a.jpg"), 1, 1, options); }),
+                HasSubstr("from 1 to 100"));
+  }
   EXPECT_THAT(open("a.png", 0), HasSubstr("0 x 1"));
   EXPECT_THAT(open("a.png", 1, -5), HasSubstr("1 x -5"));
   EXPECT_THAT(open("a.png", 1, 1, 12), HasSubstr("8 or 16"));
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+// A smooth picture, as shading gives it.
+glint::Image smooth(int width, int height, bool alpha) {
+  glint::Image image{width, height, std::vector<float>(std::size_t(4) * width * height)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      float* pixel = image.row(y) + 4 * x;
+      const float u = float(x) / float(width), v = float(y) / float(height);
+      pixel[3] = alpha ? 0.25f + 0.75f * u : 1;
+      pixel[0] = pixel[3] * u;
+      pixel[1] = pixel[3] * v;
+      pixel[2] = pixel[3] * (1 - u) * v;
+    }
+  }
+  return image;
+}
+
+double meanDifference(const glint::Image& a, const glint::Image& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    sum += std::abs(double(a.values[i]) - double(b.values[i]));
+  return sum / double(a.values.size());
+}
+
+// What is read again is near: about a code and a half at the default quality, far more at the
+// lowest, and the file the smaller for it.
+TEST_F(Writer, JpegAndWebpAreNearThePicture) {
+  const glint::Image image = smooth(67, 45, false);
+  for (const std::string name : {"a.jpg", "a.JPEG", "a.webp"}) {
+    glint::PictureOptions options;
+    EXPECT_EQ(save(name, image, options), 0u);
+    const double near = meanDifference(glint::readImage(in(name)), image);
+    EXPECT_LT(near, 0.01) << name;
+    const auto size = fs::file_size(in(name));
+    options.quality = 1;
+    save(name, image, options);
+    EXPECT_GT(meanDifference(glint::readImage(in(name)), image), 2 * near) << name;
+    EXPECT_LT(fs::file_size(in(name)), size / 2) << name;
+  }
+  // NaN is counted; exposure is applied.
+  glint::Image one{1, 1, {NAN, 0, 0, 1}};
+  EXPECT_EQ(save("b.jpg", one), 1u);
+  EXPECT_EQ(save("b.webp", one), 1u);
+  glint::PictureOptions dark;
+  dark.exposureScale = 0.25f;
+  save("c.jpg", image, dark);
+  EXPECT_GT(meanDifference(glint::readImage(in("c.jpg")), image), 0.1);
+}
+
+TEST_F(Writer, WebpOfQuality100IsThePng) {
+  for (const bool alpha : {false, true}) {
+    glint::PictureOptions options;
+    options.quality = 100;
+    options.alpha = alpha;
+    const glint::Image image = example(33, 20, alpha);
+    save("a.webp", image, options);
+    save("a.png", image, options);
+    EXPECT_EQ(glint::readImage(in("a.webp")).values, glint::readImage(in("a.png")).values);
+  }
+}
+
+TEST_F(Writer, AlphaIsInTheWebpAndNotInTheJpeg) {
+  const glint::Image image = smooth(64, 32, true);
+  glint::PictureOptions options;
+  options.alpha = true;
+  save("a.webp", image, options);
+  EXPECT_LT(meanDifference(glint::readImage(in("a.webp")), image), 0.01);
+  save("a.jpg", image, options);
+  glint::Image overBlack = image;
+  for (std::size_t i = 3; i < overBlack.values.size(); i += 4) overBlack.values[i] = 1;
+  EXPECT_LT(meanDifference(glint::readImage(in("a.jpg")), overBlack), 0.01);
+}
+
+TEST_F(Writer, RawHasAHeaderAndTheFloats) {
+  glint::Image image = example(5, 9, true);
+  image.values[7] = -0.25f;
+  image.values[8] = 1e30f;
+  for (const bool alpha : {false, true}) {
+    glint::PictureOptions options;
+    options.alpha = alpha;
+    options.exposureScale = 8;  // is not applied
+    options.format = &glint::pictureFormat(glint::PictureFormat::Id::raw);
+    save("a.png", image, options, 4);
+    const auto bytes = glint::readFile(in("a.png"));
+    const std::size_t channels = alpha ? 4 : 3;
+    ASSERT_EQ(bytes.size(), 16 + 4 * channels * 45);
+    const auto word = [&](std::size_t i) {
+      std::uint32_t value = 0;
+      for (std::size_t k = 4; k-- > 0;) value = value << 8 | std::uint32_t(bytes[4 * i + k]);
+      return value;
+    };
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), 4), "GLNT");
+    EXPECT_EQ(word(1), 5u);
+    EXPECT_EQ(word(2), 9u);
+    EXPECT_EQ(word(3), channels);
+    for (std::size_t i = 0; i < 45; ++i)
+      for (std::size_t c = 0; c < channels; ++c)
+        ASSERT_EQ(std::bit_cast<float>(word(4 + channels * i + c)), image.values[4 * i + c]);
+  }
+}
+
+TEST(PictureFormats, AreToldByEndingsAndBytes) {
+  using glint::PictureFormat;
+  const auto of = [](const char* path) {
+    const PictureFormat* format = glint::pictureFormatOf(path);
+    return format ? std::string(format->name) : "none";
+  };
+  EXPECT_EQ(of("a/b.Png"), "PNG");
+  EXPECT_EQ(of("a.jpeg"), "JPEG");
+  EXPECT_EQ(of("a.JPG"), "JPEG");
+  EXPECT_EQ(of("a.png/b"), "none");
+  EXPECT_EQ(of("png"), "none");
+  EXPECT_EQ(of("a."), "none");
+  EXPECT_EQ(of("a.raw"), "none");
+  for (const PictureFormat& each : glint::pictureFormats()) {
+    EXPECT_EQ(glint::pictureFormatNamed(each.name), &each);
+    for (const std::string_view ending : each.endings)
+      if (!ending.empty()) EXPECT_EQ(glint::pictureFormatOf("x" + std::string(ending)), &each);
+  }
+  EXPECT_EQ(glint::pictureFormatNamed("jpg"), glint::pictureFormatNamed("jpeg"));
+  EXPECT_EQ(glint::pictureFormatNamed(""), nullptr);
+}
+
+// What is written is what its format's bytes say.
+TEST_F(Writer, WritesTheFormatThatIsAskedFor) {
+  const glint::Image image = example(8, 8);
+  for (const glint::PictureFormat& each : glint::pictureFormats()) {
+    if (!each.isWritten || each.id == glint::PictureFormat::Id::raw) continue;
+    glint::PictureOptions options;
+    options.format = &each;
+    save("a.gif", image, options);
+    EXPECT_EQ(glint::pictureFormatIn(glint::readFile(in("a.gif"))), &each) << each.name;
+  }
 }
 
 TEST_F(Writer, MinusIsAPngOnStandardOutput) {

@@ -229,6 +229,8 @@ const std::vector<Good>& goodTexts() {
       {"camera-focal-point", "0,0,0", [](Look& l) { l.cameraFocalPoint = glm::dvec3(0); }},
       {"camera-view-up", "0,0,1", [](Look& l) { l.cameraViewUp = glm::dvec3(0, 0, 1); }},
       {"camera-view-angle", "179.9", [](Look& l) { l.cameraViewAngle = 179.9; }},
+      {"camera-intrinsics", "800,801.5,-3,240.5",
+       [](Look& l) { l.cameraIntrinsics = glm::dvec4(800, 801.5, -3, 240.5); }},
       {"camera-direction", "0,0,-1", [](Look& l) { l.cameraDirection = glm::dvec3(0, 0, -1); }},
       {"camera-azimuth-angle", "-30", [](Look& l) { l.cameraAzimuthAngle = -30; }},
       {"camera-elevation-angle", "15", [](Look& l) { l.cameraElevationAngle = 15; }},
@@ -387,6 +389,9 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"camera-direction", {"", "0,0,0", "1,2", "inf,0,0"}},
       {"camera-azimuth-angle", {"", "x", "nan", "1e7"}},
       {"camera-elevation-angle", {"", "x", "inf"}},
+      {"camera-intrinsics",
+       {"", "800", "800,800,320", "0,800,320,240", "-800,800,320,240", "800,800,320,240,0",
+        "nan,800,320,240", "800,800,inf,240", "1e8,800,320,240", "800,800,x,240"}},
       {"camera-zoom-factor", {"", "0", "-1", "nan"}},
       {"camera-orthographic", {"", "maybe"}},
       {"camera-index", {"", "-1", "1.5", "x", "99999999999999999999"}},
@@ -446,6 +451,11 @@ class RandomLooks {
     l.cameraElevationAngle = number(-90, 90);
     l.cameraZoomFactor = number(1e-6, 1e6);
     l.cameraOrthographic = coin();
+    if (coin()) {  // in place of both
+      l.cameraIntrinsics = {number(1e-3, 1e7), number(1e-3, 1e7), number(-1e7, 1e7), 0};
+      l.cameraViewAngle.reset();
+      l.cameraOrthographic = false;
+    }
     if (coin()) l.cameraIndex = index(1 << 30);
     if (coin()) l.animationTime = number(0, 1e9);
     if (coin()) l.animation = "take 2";
@@ -650,6 +660,10 @@ TEST(LookFiles, WrongOnesAreRefusedByFileAndKey) {
       {R"({"glint-look": 1, "exposure": 1e999})", "a.json"},
       {R"({"glint-look": 1, "camera-index": 18446744073709551615})", "camera-index"},
       {R"({"glint-look": 1, "camera-view-up": [0, 0, 0]})", "camera-view-up"},
+      {R"({"glint-look": 1, "camera-intrinsics": [9, 9, 5, 5], "camera-view-angle": 30})",
+       "camera-view-angle"},
+      {R"({"glint-look": 1, "camera-intrinsics": [9, 9, 5, 5], "camera-orthographic": true})",
+       "camera-orthographic"},
   };
   for (const auto& [text, part] : files) {
     const std::string message = failure([&, t = text] { read(t); });

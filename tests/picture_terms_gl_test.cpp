@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "glint/reference/renderer.h"
 #include "glint/reference/terms.h"
@@ -152,9 +154,9 @@ TEST_P(Terms, NormalAndDepthAreThoseOfASphere) {
     look.cameraOrthographic = orthographic;
     const glint::Camera camera = cameraFor(scene, boundsOf(scene), look);
     const auto all = terms(scene, look);
-    const Image& normals = all[all.size() - 2].second;
-    const Image& depths = all.back().second;
-    ASSERT_EQ(all.back().first.name, "depth");
+    const Image& normals = all[all.size() - 3].second;
+    const Image& depths = all[all.size() - 2].second;
+    ASSERT_EQ(all[all.size() - 2].first.name, "depth");
     int hits = 0;
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 60; ++x) {
@@ -183,16 +185,46 @@ TEST_P(Terms, NormalAndDepthAreThoseOfASphere) {
   }
 }
 
+// Every pixel has the whole numbers of one opaque draw, or -1, also where the picture has several
+// samples; those of the reference, but at edges.
+TEST_P(Terms, IdsAreThoseOfOneSurface) {
+  Scene scene = everything();
+  scene.materials[0].alphaMode = glint::AlphaMode::mask;
+  scene.meshes[1].fileMesh = 7;
+  scene.objects.assign(9, {});
+  scene.instances[0].object = 8;
+  Look look = threeLights(Shading::phong);
+  look.antiAliasing = {AntiAliasing::Mode::msaa, 4};
+  const auto all = terms(scene, look);
+  ASSERT_EQ(all.back().first.name, "id");
+  const Image& ids = all.back().second;
+  const Image truth = drawReferenceTerm(scene, {}, boundsOf(scene), look, all.back().first);
+  std::map<std::array<float, 3>, int> seen;
+  int other = 0;
+  for (std::size_t i = 0; i < ids.values.size(); i += 4) {
+    const float* const p = ids.values.data() + i;
+    ++seen[{p[0], p[1], p[2]}];
+    EXPECT_EQ(p[3], p[0] >= 0 ? 1 : 0);
+    other += !std::equal(p, p + 4, truth.values.data() + i);
+  }
+  EXPECT_LE(other, 10);
+  // The blended one in front does not count.
+  using Ids = std::array<float, 3>;
+  ASSERT_EQ(seen.size(), 4u);
+  for (const Ids& expected : {Ids{-1, -1, -1}, Ids{8, 0, 0}, Ids{1, 7, 1}, Ids{2, 2, 2}})
+    EXPECT_GT(seen[expected], 100) << expected[0];
+}
+
 TEST_P(Terms, AreListedByTheLook) {
   const Scene scene = everything();
   Look look = threeLights(Shading::environment);
   EXPECT_EQ(names(terms(scene, look)),
             "ambient diffuse-0 specular-0 diffuse-1 specular-1 diffuse-2 specular-2 reflection "
-            "refraction emission background normal depth ");
+            "refraction emission background normal depth id ");
   look.shading = Shading::flat;
   look.noLights = true;
   look.noBackground = true;
-  EXPECT_EQ(names(terms(scene, look)), "ambient emission normal depth ");
+  EXPECT_EQ(names(terms(scene, look)), "ambient emission normal depth id ");
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Terms, testing::Values(glint::Backend::osmesa), nameOfBackend);

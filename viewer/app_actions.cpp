@@ -233,6 +233,7 @@ void App::executeCamera(Action command) {
       break;
     case Action::orthographic:
       d.a.cameraOrthographic = !d.a.cameraOrthographic;
+      if (d.a.cameraOrthographic) d.a.cameraIntrinsics.reset();
       break;
     case Action::fit:
       if (session_.model)

@@ -74,8 +74,9 @@ void setPose(Look& look, const Pose& pose) {
   look.cameraPosition = pose.position;
   look.cameraFocalPoint = pose.focalPoint;
   if (pose.up != glm::dvec3(0, 1, 0)) look.cameraViewUp = pose.up;
-  if (pose.viewAngle != 30 || look.cameraViewAngle) look.cameraViewAngle = pose.viewAngle;
   look.cameraOrthographic = pose.orthographic;
+  if (look.cameraIntrinsics) return;  // they say what the angle would
+  if (pose.viewAngle != 30 || look.cameraViewAngle) look.cameraViewAngle = pose.viewAngle;
 }
 
 Pose orbited(const Pose& pose, double right, double upwards) {
@@ -161,6 +162,7 @@ void fit(Look& look, const Scene& scene, const Bounds& bounds) {
 void resetCamera(Look& look) {
   clearCamera(look);
   look.cameraViewAngle.reset();
+  look.cameraIntrinsics.reset();
   look.cameraOrthographic = false;
   look.clippingRange.reset();
 }
@@ -168,7 +170,7 @@ void resetCamera(Look& look) {
 Ray rayThrough(const Camera& camera, glm::dvec2 pixel, glm::ivec2 resolution) {
   const glm::dvec2 at = pixel / glm::dvec2(resolution) * 2.0 - 1.0;
   const glm::dvec2 reach(camera.halfHeight * camera.aspect, camera.halfHeight);
-  const glm::dvec2 offset = glm::dvec2(at.x, -at.y) * reach;
+  const glm::dvec2 offset = (glm::dvec2(at.x, -at.y) + camera.shift) * reach;
   const double width = 2 * camera.halfHeight / resolution.y;
   if (camera.orthographic) {
     // From far enough back that the whole scene lies ahead.

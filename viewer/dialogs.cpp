@@ -134,7 +134,7 @@ void Dialogs::drawPicture(bool enter, bool escape) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(width);
   ImGui::InputText("##path", &text_, ImGuiInputTextFlags_AutoSelectAll);
-  ImGui::TextDisabled(".png (8 bits, sRGB), .exr or .pfm (32-bit float, linear)");
+  ImGui::TextDisabled(".png, .jpg, .webp (8 bits, sRGB), .exr, .pfm (32-bit float, linear)");
   ImGui::SetNextItemWidth(width * 0.5f);
   ImGui::InputInt2("pixels", &size_.x);
   ImGui::SameLine();

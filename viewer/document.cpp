@@ -49,6 +49,7 @@ Look withoutCamera(const Look& look) {
   rest.cameraDirection = none.cameraDirection;
   rest.cameraViewUp = none.cameraViewUp;
   rest.cameraViewAngle = none.cameraViewAngle;
+  rest.cameraIntrinsics = none.cameraIntrinsics;
   rest.cameraAzimuthAngle = none.cameraAzimuthAngle;
   rest.cameraElevationAngle = none.cameraElevationAngle;
   rest.cameraZoomFactor = none.cameraZoomFactor;

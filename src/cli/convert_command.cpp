@@ -14,6 +14,7 @@
 #include "glint/options/parameters.h"
 #include "glint/options/read_options.h"
 #include "glint/scene/material_key.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
@@ -59,10 +60,11 @@ std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
 }
 
 void checkKind(const ConvertOptions& options, bool glb) {
+  const std::string in = nameOf(options.in);
   if (options.out == "-") return;
   const std::string ending = fs::path(options.out).extension().string();
   if (ending == (glb ? ".glb" : ".gltf")) return;
-  throw InputError(options.out + ": " + options.in + " is a " + (glb ? "GLB" : "JSON") +
+  throw InputError(options.out + ": " + in + " is a " + (glb ? "GLB" : "JSON") +
                    " file and stays one: give a name that ends in " + (glb ? ".glb" : ".gltf"));
 }
 
@@ -97,33 +99,33 @@ bool sameBytes(const fs::path& path, const gltf::ByteSource& source) {
 
 // Files beside IN that OUT needs beside it too, where it lies in another folder. All is looked at
 // before anything is written.
-void copyReferred(const ConvertOptions& options, std::span<const std::byte> bytes) {
-  const fs::path from = fs::path(options.in).parent_path(),
-                 to = fs::path(options.out).parent_path();
+void copyReferred(const ConvertOptions& options, const std::string& in,
+                  std::span<const std::byte> bytes) {
+  const fs::path from = fs::path(in).parent_path(), to = fs::path(options.out).parent_path();
   const auto folder = [](const fs::path& p) { return fs::weakly_canonical(p.empty() ? "." : p); };
   if (options.out == "-" || folder(from) == folder(to)) return;
   std::vector<std::pair<std::string, gltf::ByteSource>> copies;
-  for (const std::string& uri : referredFiles(bytes, options.in)) {
+  for (const std::string& uri : referredFiles(bytes, in)) {
     const fs::path name = fs::path(gltf::percentDecoded(uri)).lexically_normal();
     if (name.is_absolute() || name.empty() || *name.begin() == "..")
-      throw InputError(options.in + ": refers to " + gltf::printableUri(uri) +
+      throw InputError(in + ": refers to " + gltf::printableUri(uri) +
                        ", outside of its folder: write " + options.out + " beside it");
     std::string error;
-    gltf::ByteSource content = gltf::openUri(uri, options.in, error);
+    gltf::ByteSource content = gltf::openUri(uri, in, error);
     if (!error.empty())
-      throw InputError(options.in + ": " + gltf::printableUri(uri) + ", which it refers to, " +
-                       error + ": write " + options.out + " beside it");
+      throw InputError(in + ": " + gltf::printableUri(uri) + ", which it refers to, " + error +
+                       ": write " + options.out + " beside it");
     const fs::path target = to / name;
     if (fs::weakly_canonical(target) == fs::weakly_canonical(options.out))
-      throw InputError(options.out + ": " + options.in +
+      throw InputError(options.out + ": " + in +
                        " refers to a file of this name: " + "give another name");
     const bool there = fs::exists(target);
     if (there && !sameBytes(target, content))
-      throw InputError(target.string() + ": is another file than the one of " + options.in +
+      throw InputError(target.string() + ": is another file than the one of " + in +
                        ": write to another folder");
     if (content.size() > mostCopied)
       throw InputError(target.string() + ": has more than 8 GiB: write " + options.out +
-                       " beside " + options.in);
+                       " beside " + in);
     if (!there) copies.emplace_back(target.string(), std::move(content));
   }
   for (const auto& [target, content] : copies) {
@@ -138,24 +140,26 @@ void copyReferred(const ConvertOptions& options, std::span<const std::byte> byte
   }
 }
 
-int convert(const ConvertOptions& options) {
+int convert(const ConvertOptions& options, const std::string& in) {
   std::error_code ignored;
-  if (!options.inPlace && fs::equivalent(options.in, options.out, ignored))
+  if (!options.inPlace && fs::equivalent(in, options.out, ignored))
     throw InputError("convert: " + options.out +
                      " is the model itself: give --in-place to edit it");
   const Look look = materialsOf(options);
-  const Scene scene = loadGltf(options.in);
-  for (const std::string& warning : scene.warnings) printWarning(options.in + ": " + warning);
+  Scene scene = loadGltf(in);
+  if (isStdin(options.in)) scene.name = "stdin";
+  for (const std::string& warning : scene.warnings)
+    printWarning(nameOf(options.in) + ": " + warning);
   checkMaterialNames(scene, look);
-  const std::vector<std::byte> bytes = readFile(options.in);
+  const std::vector<std::byte> bytes = readFile(in);
   checkKind(options, isGlb(bytes));
   const auto patches = patchesFor(scene, look);
   if (patches.empty())
     printWarning("convert: no --material is given and the look has none: the same file is written");
-  const auto patched = patchGltf(bytes, patches, options.in);
-  if (options.inPlace) forgetReadFile(options.in);
+  const auto patched = patchGltf(bytes, patches, in);
+  if (options.inPlace) forgetReadFile(in);
   OutputFile file(options.out);
-  copyReferred(options, bytes);
+  copyReferred(options, in, bytes);
   file.write(patched);
   file.commit();
   return done;
@@ -170,7 +174,7 @@ Command addConvert(CLI::App& app) {
                             "convert helmet.glb shiny.glb --material exponent=500,metalness=1",
                             "convert helmet.glb edited.glb --look a.json"}));
   auto options = std::make_shared<ConvertOptions>();
-  command->add_option("IN", options->in, "a glTF 2.0 model")->required();
+  command->add_option("IN", options->in, "a glTF 2.0 model; - is stdin")->required();
   command
       ->add_option(
           "OUT", options->out,
@@ -192,7 +196,11 @@ Command addConvert(CLI::App& app) {
       ->type_name("FILE");
   addConfineOption(*command);
   command->add_flag("--in-place", options->inPlace, "allow OUT to be IN");
-  return [options] { return convert(*options); };
+  return [options] {
+    options->in = localPath(options->in);
+    return readModelFile(options->in,
+                         [&](const std::string& path) { return convert(*options, path); });
+  };
 }
 
 }  // namespace glint

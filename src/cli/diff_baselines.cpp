@@ -1,7 +1,6 @@
 #include "diff_baselines.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 
@@ -9,26 +8,14 @@
 #include "diff_options.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/picture_format.h"
 #include "glint/image/read_files.h"
 
 namespace glint {
 
 namespace fs = std::filesystem;
 
-std::string endingOf(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& letter : ending)
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return ending;
-}
-
-bool isPictureName(const std::string& path) {
-  const std::string ending = endingOf(path);
-  for (const char* known : {".png", ".exr", ".pfm", ".hdr", ".jpg", ".jpeg", ".webp", ".tif",
-                            ".tiff", ".ppm", ".pgm", ".bmp", ".tga"})
-    if (ending == known) return true;
-  return false;
-}
+bool isPictureName(const std::string& path) { return pictureFormatOf(path) != nullptr; }
 
 void checkNames(const std::vector<std::string>& named, const std::vector<DiffEntry>& entries) {
   for (const std::string& name : named) {
@@ -46,9 +33,9 @@ void update(const std::vector<std::string>& named, DiffEntry& entry, const std::
   };
   if (!named.empty() && std::none_of(named.begin(), named.end(), means)) return;
   if (entry.status == done || !entry.readableB) return;
-  if (endingOf(target) != endingOf(entry.b))
-    throw InputError("--update: " + printablePath(entry.b) + " is no " + endingOf(target) +
-                     " file as " + printablePath(target) + " is: give one of that format");
+  if (pictureFormatOf(target) != pictureFormatOf(entry.b))
+    throw InputError("--update: " + printablePath(entry.b) + " is not of the format of " +
+                     printablePath(target) + ": give one that is");
   std::error_code ignored;
   const bool made = !fs::exists(target, ignored);
   fs::create_directories(fs::path(target).parent_path(), ignored);

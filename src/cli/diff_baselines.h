@@ -7,9 +7,6 @@
 
 namespace glint {
 
-/// The ending of a file's name in lower case, with its dot.
-std::string endingOf(const std::string& path);
-
 /// Whether the ending is that of a picture.
 bool isPictureName(const std::string& path);
 

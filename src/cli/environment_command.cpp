@@ -60,7 +60,7 @@ Command addEnvironment(CLI::App& app) {
   command->add_option("NAME", options->name, "studio, sky or white")->required();
   command
       ->add_option("-o,--output", options->output,
-                   "the picture: .exr or .pfm (linear float), .png (8 bit sRGB)")
+                   "the picture: .exr or .pfm (linear float), .png, .jpg or .webp (8 bit sRGB)")
       ->type_name("OUT")
       ->required()
       ->take_last();

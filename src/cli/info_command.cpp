@@ -4,12 +4,16 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "commands.h"
 #include "glint/budget/error_budget.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/error.h"
+#include "glint/image/picture_format.h"
 #include "glint/image/printable.h"
+#include "glint/image/texture.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/read_options.h"
@@ -27,8 +31,37 @@ using Json = nlohmann::ordered_json;
 
 Json vectorJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
+Json imageJson(const EncodedImage& image, bool read) {
+  Json json{{"name", image.name}, {"bytes", image.bytes.size()}};
+  if (const PictureFormat* format = pictureFormatIn(image.bytes)) json["format"] = format->name;
+  try {
+    const TextureHeader header = textureHeader(image.bytes, image.name);
+    json["width"] = header.width;
+    json["height"] = header.height;
+  } catch (const InputError&) {
+    // A picture that cannot be decoded has no size; what reads it says why.
+  }
+  json["read"] = read;
+  return json;
+}
+
+Json cameraJson(const FileCamera& c) {
+  Json json{{"name", c.name},
+            {"type", c.orthographic ? "orthographic" : "perspective"},
+            {"position", vectorJson(glm::dvec3(c.world[3]))},
+            {"direction", vectorJson(-glm::dvec3(c.world[2]))}};
+  if (c.orthographic)
+    json["halfHeight"] = c.halfHeight;
+  else
+    json["viewAngle"] = c.viewAngle * 180 / std::numbers::pi;
+  if (c.aspect > 0) json["aspect"] = c.aspect;
+  if (c.near > 0) json["near"] = c.near;
+  if (c.far > 0) json["far"] = c.far;
+  return json;
+}
+
 Json materialJson(const Material& m, const std::set<int>& read) {
-  Json json{{"name", m.name}};
+  Json json{{"name", m.name}, {"index", m.index}};
   for (const MaterialParameter& p : materialParameters())
     json[std::string(p.name)] = m.shading.*p.value;
   json["color"] = vectorJson(m.shading.color);
@@ -93,13 +126,12 @@ Json infoJson(const Scene& scene, const Look& look) {
         materialJson(editedMaterial(scene.materials[std::size_t(i)], look), read));
   json["images"] = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i)
-    json["images"].push_back({{"name", scene.images[i].name},
-                              {"bytes", scene.images[i].bytes.size()},
-                              {"read", read.contains(int(i))}});
+    json["images"].push_back(imageJson(scene.images[i], read.contains(int(i))));
   json["cameras"] = Json::array();
-  for (const FileCamera& c : scene.cameras)
-    json["cameras"].push_back(
-        {{"name", c.name}, {"type", c.orthographic ? "orthographic" : "perspective"}});
+  for (const FileCamera& c : scene.cameras) json["cameras"].push_back(cameraJson(c));
+  json["objects"] = Json::array();
+  for (const FileObject& o : scene.objects)
+    json["objects"].push_back({{"node", o.node}, {"mesh", o.mesh}});
   json["lights"] = Json::array();
   constexpr const char* lightTypes[] = {"directional", "point", "spot"};
   for (const FileLight& l : scene.lights)
@@ -168,6 +200,16 @@ void printList(std::size_t index, const std::string& name, const Json& names, co
   std::cout << "\n";
 }
 
+void printCamera(std::size_t index, const Json& camera) {
+  std::cout << "  " << index << ": " << oneLine(camera["type"]) << " " << oneLine(camera["name"])
+            << ", at " << camera["position"].dump();
+  if (camera.contains("viewAngle")) std::cout << ", view angle " << camera["viewAngle"];
+  if (camera.contains("halfHeight")) std::cout << ", half height " << camera["halfHeight"];
+  for (const char* key : {"aspect", "near", "far"})
+    if (camera.contains(key)) std::cout << ", " << key << " " << camera[key];
+  std::cout << "\n";
+}
+
 void print(const Json& json) {
   std::cout << oneLine(json["model"]) << ": " << json["triangles"] << " triangles, "
             << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
@@ -194,12 +236,15 @@ void print(const Json& json) {
   }
   if (!json["images"].empty()) std::cout << "\nImages\n";
   for (const Json& image : json["images"])
-    std::cout << "  " << oneLine(image["name"]) << ": " << image["bytes"] << " bytes, "
-              << (image["read"] ? "read" : "not read by this look") << "\n";
+    std::cout << "  " << oneLine(image["name"]) << ": "
+              << oneLine(image.value("format", "unknown format")) << ", "
+              << (image.contains("width")
+                      ? image["width"].dump() + " x " + image["height"].dump() + " pixels, "
+                      : "")
+              << image["bytes"] << " bytes, " << (image["read"] ? "read" : "not read by this look")
+              << "\n";
   if (!json["cameras"].empty()) std::cout << "\nCameras\n";
-  for (std::size_t i = 0; i < json["cameras"].size(); ++i)
-    std::cout << "  " << i << ": " << oneLine(json["cameras"][i]["type"]) << " "
-              << oneLine(json["cameras"][i]["name"]) << "\n";
+  for (std::size_t i = 0; i < json["cameras"].size(); ++i) printCamera(i, json["cameras"][i]);
   if (!json["lights"].empty())
     std::cout << "\nLights (multiplied by " << json["light-scale"] << ")\n";
   for (const Json& light : json["lights"])
@@ -259,6 +304,7 @@ Command addInfo(CLI::App& app) {
   addDecodeLimitOption(*command);
   auto makeLook = addLookOptions(*command);
   return [=] {
+    *model = localPath(*model);
     checkOutputs({{"--json", *jsonFile}, {"--save-look", makeLook.saveFile()}}, {*model});
     const Look look = makeLook();
     Scene scene = readModelFile(

@@ -7,15 +7,20 @@
 
 #include <cerrno>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/image/json_text.h"
 #include "glint/image/read_files.h"
 #include "interrupt.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longestLine = std::size_t(1) << 16;
 
@@ -60,7 +65,7 @@ void ModelList::lookThrough(const std::function<void(const ModelEntry&)>& visit)
   if (file_ >= 0 && !seekable_) return;
   while (const auto entry = next()) visit(*entry);
   count_ = number_;
-  number_ = 0;
+  number_ = line_ = 0;
   if (file_ < 0) return;
   ::lseek(file_, begin_, SEEK_SET);
   buffer_.clear();
@@ -74,25 +79,58 @@ std::optional<ModelEntry> ModelList::next() {
     if (number_ == models_.size() || Interrupt::signal() != 0) return {};
     entry.model = models_[number_];
   } else {
-    while (entry.model.empty()) {
-      if (!readLine(entry.model)) return {};
-      if (!entry.model.empty() && entry.model.back() == '\r') entry.model.pop_back();
+    std::string line;
+    while (line.empty()) {
+      if (!readLine(line)) return {};
+      if (!line.empty() && line.back() == '\r') line.pop_back();
       // Editors that save "UTF-8 with BOM" put U+FEFF at the beginning of a file.
-      if (number_ == 0 && entry.model.starts_with("\xEF\xBB\xBF")) entry.model.erase(0, 3);
+      if (line_++ == 0 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     }
-    if (const auto tab = entry.model.find('\t'); tab != std::string::npos) {
-      entry.output = entry.model.substr(tab + 1);
-      entry.model.erase(tab);
-      if (entry.model.empty() || entry.output.empty() ||
-          entry.output.find('\t') != std::string::npos)
-        throw InputError("--from-list: " + printablePath(path_) + ": model " +
-                         std::to_string(number_) +
-                         ": give a model, or a model, a TAB and the name "
-                         "of its picture");
+    try {
+      readEntry(line, entry);
+    } catch (const InputError& error) {
+      entry.error = "--from-list: " + printablePath(path_) + ": line " + std::to_string(line_) +
+                    ": " + error.what();
     }
   }
+  entry.model = localPath(entry.model);
   entry.number = number_++;
   return entry;
+}
+
+void ModelList::readEntry(const std::string& line, ModelEntry& entry) const {
+  if (!line.starts_with('{')) {
+    const auto tab = line.find('\t');
+    entry.model = line.substr(0, tab);
+    if (tab == std::string::npos) return;
+    entry.output = line.substr(tab + 1);
+    if (entry.model.empty() || entry.output.empty() || entry.output.find('\t') != std::string::npos)
+      throw InputError("give a model, or a model, a TAB and the name of its picture");
+    return;
+  }
+  std::string fault;
+  const std::optional<Json> json = parseJsonText<Json>(line, fault);
+  if (!json) throw InputError(fault + ": a path that begins with { goes as ./{");
+  const auto text = [](const std::string& key, const Json& value) {
+    if (!value.is_string() || value.get<std::string>().empty())
+      throw InputError("\"" + key + "\": give a string that is not empty");
+    return value.get<std::string>();
+  };
+  for (const auto& [key, value] : json->items()) {
+    if (key == "model")
+      entry.model = text(key, value);
+    else if (key == "output")
+      entry.output = text(key, value);
+    else if (key == "look" && value.is_object())
+      entry.look = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    else if (key == "look" && value.is_string())
+      entry.lookFile = text(key, value);
+    else if (key == "look")
+      throw InputError("\"look\": give an object of a look's keys, or the name of a look file");
+    else
+      throw InputError("unknown key \"" + key + "\": give model, output and look");
+  }
+  if (entry.model.empty()) throw InputError("no \"model\": give the path of one");
 }
 
 bool ModelList::readLine(std::string& line) {

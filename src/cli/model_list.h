@@ -11,8 +11,11 @@ namespace glint {
 /// A model to draw.
 struct ModelEntry {
   std::string model;
-  std::string output;      ///< a picture of its own name; empty: by the template
-  std::size_t number = 0;  ///< its place among all, from 0
+  std::string output;         ///< a picture of its own name; empty: by the template
+  std::string look = {};      ///< JSON of a look of its own, over that of the run; may be empty
+  std::string lookFile = {};  ///< likewise, a file with it
+  std::string error = {};     ///< what is wrong with its line; empty if all is well
+  std::size_t number = 0;     ///< its place among all, from 0
 };
 
 /// A share of the work: every `of`-th, beginning with number part - 1.
@@ -26,9 +29,11 @@ Shard parseShard(const std::string& text);
 
 /// The models of a run, one after the other: those of the command line, or the lines of a list.
 ///
-/// A line is the path of a model, or a path, a TAB and the name of its picture; empty lines are
-/// skipped. A list in a file is looked through once beforehand; one from a pipe is read line by
-/// line as they come.
+/// A line is the path of a model, or a path, a TAB and the name of its picture, or an object of
+/// JSON with the keys "model" and perhaps "output" (the name of its picture) and "look" (the keys
+/// of a look file, or the path of one); empty lines are skipped. A line that is neither is an entry
+/// with an error. A list in a file is looked through once beforehand; one from a pipe is read line
+/// by line as they come.
 class ModelList {
  public:
   explicit ModelList(std::vector<std::string> models);
@@ -48,6 +53,7 @@ class ModelList {
 
  private:
   bool readLine(std::string& line);
+  void readEntry(const std::string& line, ModelEntry& entry) const;
   bool fill();
 
   std::vector<std::string> models_;
@@ -58,7 +64,7 @@ class ModelList {
   std::vector<char> buffer_;
   std::size_t at_ = 0;
   bool ended_ = false;
-  std::size_t number_ = 0;
+  std::size_t number_ = 0, line_ = 0;
   std::optional<std::size_t> count_;
 };
 

@@ -9,7 +9,9 @@
 #include "glint/image/read_image.h"
 #include "glint/image/task.h"
 #include "glint/options/exit_status.h"
+#include "glint/options/parameters.h"
 #include "glint/options/picture_text.h"
+#include "glint/reference/renderer.h"
 #include "glint/render/left_out.h"
 #include "glint/scene/material_parameters.h"
 #include "interrupt.h"
@@ -96,12 +98,14 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
                               std::string error) const {
   LoadedModel model;
   model.entry = entry;
+  model.look = look_;
   model.pictures = std::move(pictures);
   model.present.assign(model.pictures.size(), false);
   model.error = std::move(error);
   if (!model.error.empty()) return model;
   try {
     const auto start = Clock::now();
+    readOwnLook(model);
     if (options_.list == "-" && isStdin(entry.model))
       throw InputError("--from-list -: " + entry.model + " in it: stdin is the list: give a file");
     const std::string path = modelFile(entry.model);
@@ -111,13 +115,13 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
       if (!options_.usesReference()) origin.gl.emplace();
       for (std::size_t i = 0; i < model.pictures.size(); ++i) {
         origin.variation = model.pictures[i].variation;
-        model.present[i] = isPresent(model.pictures[i].output, pictureKey(look_, origin));
+        model.present[i] = isPresent(model.pictures[i].output, pictureKey(model.look, origin));
       }
       if (std::find(model.present.begin(), model.present.end(), false) == model.present.end())
         return model;
     }
     model.file.emplace(path);
-    model.scene = model.file->take(poseOf(look_));
+    model.scene = model.file->take(poseOf(model.look));
     if (isStdin(entry.model)) model.scene.name = "stdin";
     model.bounds = model.allBounds = boundsOf(model.scene);
     if (options_.frames > 0)
@@ -125,10 +129,10 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     else
       model.file.reset();
     model.loadTime = since(start);
-    checkMaterialNames(model.scene, look_);
+    checkMaterialNames(model.scene, model.look);
     const auto decode = Clock::now();
-    model.images = decodeImages(model.scene, look_);
-    for (const LeftOut& each : leftOut(model.scene, look_))
+    model.images = decodeImages(model.scene, model.look);
+    for (const LeftOut& each : leftOut(model.scene, model.look))
       if (each.shows) model.scene.warnings.push_back(leftOutText(each));
     model.decodeTime = since(decode);
   } catch (const std::exception& failure) {
@@ -138,25 +142,36 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
   return model;
 }
 
+void ModelLoader::readOwnLook(LoadedModel& model) const {
+  const ModelEntry& entry = model.entry;
+  if (!entry.lookFile.empty())
+    readLookOver(model.look, lookTextIn(entry.lookFile), entry.lookFile);
+  else if (!entry.look.empty())
+    readLookOver(model.look, entry.look, printablePath(entry.model) + ": \"look\"");
+  else
+    return;
+  if (options_.usesReference()) checkReferenceAntiAliasing(model.look.antiAliasing);
+}
+
 // The camera stands still, so that it must see every pose.
 void ModelLoader::lookThroughFrames(LoadedModel& model) const {
   const auto& animations = model.scene.animations;
-  const bool all = look_.animation == "all" && !animations.empty();
+  const bool all = model.look.animation == "all" && !animations.empty();
   const auto chosen = [&](const FileAnimation& each) {
-    return all || look_.animation.empty() || each.name == look_.animation ||
-           std::to_string(&each - animations.data()) == look_.animation;
+    return all || model.look.animation.empty() || each.name == model.look.animation ||
+           std::to_string(&each - animations.data()) == model.look.animation;
   };
   const auto found = std::find_if(animations.begin(), animations.end(), chosen);
   if (found == animations.end())
     throw InputError("--frames: " + printablePath(model.entry.model) +
                      (animations.empty() ? " has no animation: leave the option out"
-                                         : " has no animation '" + look_.animation + "'"));
+                                         : " has no animation '" + model.look.animation + "'"));
   model.duration = found->duration;
   if (all)
     for (const FileAnimation& each : animations)
       model.duration = std::max(model.duration, each.duration);
   for (int frame = 0; frame < options_.frames; ++frame) {
-    PoseRequest pose = poseOf(look_);
+    PoseRequest pose = poseOf(model.look);
     pose.time = model.duration * frame / options_.frames;
     model.file->pose(model.scene, pose);
     const Bounds bounds = boundsOf(model.scene);

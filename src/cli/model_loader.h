@@ -21,6 +21,7 @@ struct LoadedModel {
   ModelEntry entry;
   std::vector<PlannedPicture> pictures;
   std::vector<bool> present;  ///< of each picture: it is there already
+  Look look;                  ///< the run's, with what the list says of this model
   std::string hash;
   Scene scene;
   Bounds bounds;
@@ -53,6 +54,7 @@ class ModelLoader {
   void readList();
   bool readModel();
   void lookThroughFrames(LoadedModel& model) const;
+  void readOwnLook(LoadedModel& model) const;
   LoadedModel load(const ModelEntry& entry, std::vector<PlannedPicture> pictures,
                    std::string error) const;
 

@@ -25,21 +25,27 @@ PicturePlan::PicturePlan(const RenderOptions& options, ModelList& list)
       shardsFrames_(!options.hasList() && options.models.size() == 1) {
   if (!options.reference.empty()) referencePattern_.emplace(options.reference, options.hasFrames());
   if (!options.shard.empty()) shard_ = parseShard(options.shard);
-  PictureOptions file;
-  file.bitDepth = options.bitDepth;
-  checkPictureName(options.output, file);
+  checkPictureName(options.output, pictureOptions(options, options.output));
   list.lookThrough([](const ModelEntry&) {});
   models_ = list.count();
   if (!models_) return;
   std::size_t count = 0;
   list.lookThrough([&](const ModelEntry& entry) {
     const auto pictures = named(entry);
-    if (!entry.output.empty()) checkPictureName(entry.output, file);
+    checkOwnName(entry);
     take(entry, pictures);
-    count += pictures.size();
+    count += entry.error.empty() ? pictures.size() : std::size_t(isMine(entry));
   });
   count_ = count;
   namesChecked_ = true;
+}
+
+bool PicturePlan::isMine(const ModelEntry& entry) const {
+  return shardsFrames_ || shard_.has(entry.number);
+}
+
+void PicturePlan::checkOwnName(const ModelEntry& entry) const {
+  if (!entry.output.empty()) checkPictureName(entry.output, pictureOptions(options_, entry.output));
 }
 
 void PicturePlan::forEachOutput(const std::function<void(const std::string&)>& visit) {
@@ -58,6 +64,8 @@ void PicturePlan::noteInputs(bool replaces) {
     replaces = replaces || std::filesystem::exists(output, error);
   });
   list_.lookThrough([&](const ModelEntry& entry) {
+    if (!entry.error.empty()) return;
+    if (!entry.lookFile.empty()) noteReadFile(entry.lookFile);
     if (replaces)
       noteModelFiles(entry.model);
     else
@@ -76,11 +84,10 @@ void PicturePlan::checkOutputs() {
 }
 
 std::vector<PlannedPicture> PicturePlan::picturesOf(const ModelEntry& entry) {
+  if (!entry.error.empty() && isMine(entry)) throw InputError(entry.error);
   auto pictures = named(entry);
   if (!namesChecked_) {
-    PictureOptions file;
-    file.bitDepth = options_.bitDepth;
-    if (!entry.output.empty()) checkPictureName(entry.output, file);
+    checkOwnName(entry);
     take(entry, pictures);
   }
   return pictures;
@@ -88,7 +95,7 @@ std::vector<PlannedPicture> PicturePlan::picturesOf(const ModelEntry& entry) {
 
 std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
   std::vector<PlannedPicture> pictures;
-  if (!shardsFrames_ && !shard_.has(entry.number)) return pictures;
+  if (!isMine(entry) || !entry.error.empty()) return pictures;
   const std::size_t frames = options_.frameCount(), models = models_.value_or(0);
   const OutputPattern own =
       entry.output.empty() ? pattern_ : OutputPattern(entry.output, options_.hasFrames());
@@ -117,6 +124,10 @@ void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture
     if (!picture.reference.empty() && isSameFile(picture.output, picture.reference))
       throw InputError("--reference " + printablePath(picture.reference) +
                        ": -o writes that file, it would be compared with itself: give another");
+    // Raw pictures tell where one ends and the next begins.
+    if (picture.output == "-" &&
+        pictureOptions(options_, picture.output).format->id == PictureFormat::Id::raw)
+      continue;
     const std::size_t* other = names_.take(picture.output, entry.number);
     if (options_.terms)
       for (const char* word : termWords) {

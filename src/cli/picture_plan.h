@@ -42,6 +42,10 @@ class PicturePlan {
   std::optional<std::size_t> count() const { return count_; }
 
  private:
+  /// Whether it falls to this shard.
+  bool isMine(const ModelEntry& entry) const;
+  /// Throws InputError for a name of a line's own that no picture can have.
+  void checkOwnName(const ModelEntry& entry) const;
   std::vector<PlannedPicture> named(const ModelEntry& entry) const;
   void take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures);
 

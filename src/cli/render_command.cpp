@@ -80,7 +80,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   report.begin(context ? backendName(context->backend()) : "reference", gl);
   report.expect(plan.count());
   PictureEncoder encoder;
-  RenderRun run{options, look, sweeps, renderer ? &*renderer : nullptr, gl, encoder, report, line};
+  RenderRun run{options, sweeps, renderer ? &*renderer : nullptr, gl, encoder, report, line};
   if (makeLook.savesResolved(look))
     run.saveResolved = [&](const Look& resolved) { makeLook.saveResolved(resolved); };
   run.contextTime = since(waited);

@@ -12,9 +12,10 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb; - is stdin");
   command
       .add_option("-o,--output", options.output,
-                  "the picture: .png (8 or 16 bits, sRGB), .exr or .pfm (linear float), - (PNG to "
-                  "stdout); {model} is replaced by the model's name, {folder} by that of its "
-                  "folder, {n} by its number, {frame} by the picture's number")
+                  "the picture: .png (8 or 16 bits, sRGB), .jpg or .webp (8 bits, sRGB), .exr or "
+                  ".pfm (linear float), - (PNG to stdout); another ending gives a PNG; {model} is "
+                  "replaced by the model's name, {folder} by that of its folder, {n} by its "
+                  "number, {frame} by the picture's number")
       ->type_name("OUT")
       ->required()
       ->take_last();
@@ -22,6 +23,19 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       .add_option("--bit-depth", options.bitDepth,
                   "bits per channel of a PNG, 8 or 16 [default: 8]")
       ->type_name("BITS");
+  command
+      .add_option("--quality", options.quality,
+                  "of a JPEG or WebP, 1 to 100; from 90 on a JPEG has colours at full resolution, "
+                  "at 100 a WebP is without loss [default: 90]")
+      ->type_name("Q")
+      ->check(CLI::Range(1, 100).description(""));
+  command
+      .add_option("--output-format", options.formatName,
+                  "the pictures' format, whatever their names; raw is for programs, several on "
+                  "stdout too: 32-bit words, little-endian: GLNT, width, height, channels (3, or "
+                  "4 with --no-background), then linear floats, rows from the top")
+      ->type_name("png|jpg|webp|exr|pfm|raw")
+      ->take_last();
   command
       .add_option("--rendering-backend", options.backend,
                   "what to draw with; auto tries egl, then osmesa; reference is double precision "
@@ -104,7 +118,26 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->group(batch);
 }
 
+PictureOptions pictureOptions(const RenderOptions& options, const std::string& output) {
+  PictureOptions file;
+  file.bitDepth = options.bitDepth;
+  if (options.quality) file.quality = *options.quality;
+  if (!options.formatName.empty())
+    file.format = pictureFormatNamed(options.formatName);
+  else if (output != "-")
+    file.format = pictureFormatOf(output);
+  if (!file.format) file.format = &pictureFormat(PictureFormat::Id::png);
+  return file;
+}
+
 void checkRenderOptions(const RenderOptions& options) {
+  if (options.output.empty()) throw InputError("-o: '' is empty: give the name of a picture");
+  using Id = PictureFormat::Id;
+  const PictureFormat* const named = pictureFormatNamed(options.formatName);
+  if (!options.formatName.empty() && (!named || !named->isWritten))
+    throw InputError("--output-format: '" + options.formatName +
+                     "' is no format that is written: give png, jpg, webp, exr, pfm or raw");
+  const PictureFormat& format = *pictureOptions(options, options.output).format;
   if (options.models.empty() && !options.hasList())
     throw InputError("render: no MODEL: give models, or a list of them with --from-list");
   if (!options.models.empty() && options.hasList())
@@ -115,6 +148,12 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError("-o - and --reference: a picture is compared in its file: give -o a name");
   if (options.output == "-" && options.terms)
     throw InputError("-o - and --terms: several pictures: give -o a name");
+  if (options.output == "-" && format.needsFile)
+    throw InputError("-o - and --output-format " + options.formatName +
+                     ": this format needs a regular file: give -o a name, or the format raw");
+  if (format.id == Id::raw && !options.reference.empty())
+    throw InputError(
+        "--output-format raw and --reference: raw pictures are not read: give another format");
   if (options.turntable > 0 && options.frames > 0 && options.turntable != options.frames)
     throw InputError("--turntable and --frames: give both the same number");
   if (options.sweeps.size() > 2) throw InputError("--sweep: more than two: give one or two");
@@ -123,16 +162,17 @@ void checkRenderOptions(const RenderOptions& options) {
   };
   if (options.sweeps.size() == 2 && key(0) == key(1))
     throw InputError("--sweep: twice over " + key(0) + ": give one sweep, or two numbers");
-  if (options.bitDepth == 16 &&
-      (options.output.ends_with(".exr") || options.output.ends_with(".pfm")))
-    throw InputError("--bit-depth: of PNG alone, and " + options.output +
-                     " has 32 bit floats: leave it out");
+  if (options.bitDepth == 16 && format.id != Id::png)
+    throw InputError("--bit-depth: of PNG alone, and " + options.output + " is " +
+                     std::string(format.name) + ": leave it out");
+  if (options.quality && format.id != Id::jpeg && format.id != Id::webp)
+    throw InputError("--quality: of JPEG and WebP alone, and " + options.output + " is " +
+                     std::string(format.name) + ": leave it out");
   if (!options.sweeps.empty() && options.terms)
     throw InputError("--sweep and --terms: give one of them");
   if (options.referenceThreshold && options.reference.empty())
     throw InputError("--reference-threshold: needs --reference FILE");
-  const bool holdsText = options.output.ends_with(".png") || options.output.ends_with(".exr");
-  if (options.resume && !holdsText)
+  if (options.resume && !format.holdsText)
     throw InputError("--resume: " + options.output +
                      " does not hold what a picture was made from: use .png or .exr");
 }

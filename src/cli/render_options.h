@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "glint/image/picture_writer.h"
+
 namespace CLI {
 class App;
 }
@@ -16,9 +18,11 @@ struct RenderOptions {
   std::string list;  ///< of models, instead of them
   std::string output, backend = "auto", json, glsl, shard;
   int bitDepth = 8;
-  int turntable = 0;  ///< pictures of it; 0: none
-  int frames = 0;     ///< of the animation; 0: one picture, of the look's moment
-  int jobs = 0;       ///< models in the works at once; 0: by the machine
+  std::optional<int> quality;  ///< of JPEG and WebP
+  std::string formatName;      ///< in place of what the pictures' names say
+  int turntable = 0;           ///< pictures of it; 0: none
+  int frames = 0;              ///< of the animation; 0: one picture, of the look's moment
+  int jobs = 0;                ///< models in the works at once; 0: by the machine
   bool resume = false, terms = false;
   std::vector<std::string> sweeps;
   std::string reference;
@@ -32,6 +36,10 @@ struct RenderOptions {
     return turntable > 0 ? std::size_t(turntable) : frames > 0 ? std::size_t(frames) : 1;
   }
 };
+
+/// How a picture of this name is written, but for what its look says: in the format of its ending,
+/// PNG where that tells none.
+PictureOptions pictureOptions(const RenderOptions& options, const std::string& output);
 
 /// Adds the options to the command, which fill in `options` when it is parsed.
 void addRenderOptions(CLI::App& command, RenderOptions& options);

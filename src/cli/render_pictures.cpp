@@ -102,7 +102,7 @@ class ModelDrawing {
 
   void drawInto(const PlannedPicture& planned, Clock::time_point start) {
     pose(planned);
-    const Look asked = lookOf(planned, run_.options, run_.look, model_);
+    const Look asked = lookOf(planned, run_.options, model_.look, model_);
     checkMaterialNames(model_.scene, asked);
     const auto choosing = Clock::now();
     const ResolvedLook& resolved = choiceFor(planned, asked);
@@ -112,11 +112,10 @@ class ModelDrawing {
     const auto source = run_.sweeps.empty()
                             ? stage_->picture(look)
                             : std::make_unique<ContactSheet>(*stage_, run_.sweeps, look);
-    PictureOptions file;
-    file.bitDepth = run_.options.bitDepth;
-    file.alpha = look.noBackground;
+    PictureOptions file = pictureOptions(run_.options, planned.output);
+    file.alpha = look.noBackground && file.format->hasAlpha;
     file.exposureScale = float(std::exp2(look.exposure));
-    file.text = pictureText(look, run_.look,
+    file.text = pictureText(look, model_.look,
                             {model_.hash, run_.gl, run_.options.bitDepth, planned.variation});
     const auto out = std::make_shared<OutgoingPicture>();
     PictureResult result = resultFor(model_, planned);
@@ -129,9 +128,13 @@ class ModelDrawing {
       result.news.push_back(model_.entry.model + ": " + warning);
       result.warnings.push_back(std::move(warning));
     }
+    for (std::string& remark : formatRemarks(planned, look)) {
+      if (!told_) result.news.push_back(planned.output + ": " + remark);
+      result.warnings.push_back(planned.output + ": " + remark);
+    }
     const RenderTimes times = source->times();
     result.entry["triangles"] = triangleCount(model_.scene, source->list());
-    result.entry["draws"] = source->list().items.size();
+    result.entry["draws"] = drawCalls(source->list().items).size();
     result.entry["samples"] = source->samples();
     result.entry["variants"] = variantsJson(model_.scene, source->list(), look);
     if (asked.maxError || !resolved.programReason.empty())
@@ -157,6 +160,20 @@ class ModelDrawing {
     });
   }
 
+  // Where a picture's format is not what its name or its look would have.
+  std::vector<std::string> formatRemarks(const PlannedPicture& planned, const Look& look) const {
+    std::vector<std::string> remarks;
+    const PictureFormat& format = *pictureOptions(run_.options, planned.output).format;
+    if (run_.options.formatName.empty() && planned.output != "-" &&
+        !pictureFormatOf(planned.output))
+      remarks.push_back("its ending tells no format of pictures: this is a " +
+                        std::string(format.name));
+    if (look.noBackground && !format.hasAlpha)
+      remarks.push_back("a " + std::string(format.name) +
+                        " has no transparency: what is transparent is black");
+    return remarks;
+  }
+
   // One choice for all pictures of a sequence: neither forms nor program change between them. Other
   // shards of it come to the same.
   const ResolvedLook& choiceFor(const PlannedPicture& planned, const Look& asked) {
@@ -168,14 +185,14 @@ class ModelDrawing {
       PlannedPicture each = planned;
       each.frame = frame;
       if (model_.file) poseScene(each);
-      return {model_.scene, model_.bounds, lookOf(each, run_.options, run_.look, model_)};
+      return {model_.scene, model_.bounds, lookOf(each, run_.options, model_.look, model_)};
     });
     if (model_.file) pose(planned);
     return *choice_;
   }
 
   void poseScene(const PlannedPicture& planned) {
-    PoseRequest request = poseOf(run_.look);
+    PoseRequest request = poseOf(model_.look);
     request.time = model_.duration * double(planned.frame) / run_.options.frames;
     model_.file->pose(model_.scene, request);
     model_.bounds = boundsOf(model_.scene);
@@ -219,7 +236,7 @@ class ModelDrawing {
       if (Interrupt::signal() != 0) return;
       run_.line.show(planned.output + ": " + term.name);
       drawn->terms.emplace_back(term, stage_->term(look, term));
-      names[term.name] = termOutput(planned.output, term);
+      names[term.name] = termOutput(planned.output, *file.format, term);
     }
     out.whole = [drawn, file, output = planned.output] { return writeTerms(output, *drawn, file); };
   }

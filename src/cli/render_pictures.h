@@ -15,7 +15,6 @@ namespace glint {
 /// What the pictures of a run have in common.
 struct RenderRun {
   const RenderOptions& options;
-  const Look& look;
   const std::vector<Sweep>& sweeps;
   Renderer* renderer = nullptr;  ///< without: the reference
   std::optional<GlStrings> gl;

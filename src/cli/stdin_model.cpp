@@ -5,9 +5,11 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "glint/gltf/file.h"
 #include "interrupt.h"
 
 namespace glint {
@@ -52,6 +54,14 @@ const std::string& spoolPath() {
 }
 
 }  // namespace
+
+std::string localPath(const std::string& model) {
+  constexpr std::string_view scheme = "file://", here = "localhost";
+  if (!model.starts_with(scheme)) return model;
+  std::string_view rest = std::string_view(model).substr(scheme.size());
+  if (rest.starts_with(here)) rest.remove_prefix(here.size());
+  return rest.starts_with('/') ? gltf::percentDecoded(rest) : model;
+}
 
 bool isStdin(const std::string& model) { return model == "-" || model == "/dev/stdin"; }
 

@@ -7,8 +7,14 @@
 
 namespace glint {
 
+/// The path that a URI "file:///..." names, as desktops give it; any other text as it is.
+std::string localPath(const std::string& model);
+
 /// Whether a model's name means standard input: "-" and "/dev/stdin".
 bool isStdin(const std::string& model);
+
+/// What a model is called in messages: "stdin", or as it was given.
+inline std::string nameOf(const std::string& model) { return isStdin(model) ? "stdin" : model; }
 
 /// The path of a file that holds the model: `model` itself, or of standard input a file in memory
 /// that all of it is read into, once. What the model refers to is then found in it alone (GLB, data

@@ -20,6 +20,7 @@
 #include "glint/study/results.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "stdin_model.h"
 
 namespace glint {
 namespace {
@@ -99,7 +100,10 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   auto opening = openContextAsync(backend);
   // Levels of refinement: triangles of some ten pixels, as models have them.
   Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial())
-                                    : loadGltf(given.model, poseOf(options.look));
+                                    : readModelFile(given.model, [&](const std::string& path) {
+                                        return loadGltf(path, poseOf(options.look));
+                                      });
+  if (isStdin(given.model)) scene.name = "stdin";
   checkMaterialNames(scene, options.look);
   const StudyScene prepared(std::move(scene), options.look);
   const auto context = opening.get();
@@ -126,10 +130,10 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
                    [&](std::string_view what, double share) { progress.show(share, what); });
   }
   for (const std::string& warning : prepared.scene.warnings)  // none before an error
-    printWarning((given.model.empty() ? "sphere" : given.model) + ": " + warning);
+    printWarning((given.model.empty() ? "sphere" : nameOf(given.model)) + ": " + warning);
   StudyHead head;
   head.version = GLINT_VERSION;
-  head.model = given.model.empty() ? "sphere (built in)" : given.model;
+  head.model = given.model.empty() ? "sphere (built in)" : nameOf(given.model);
   head.backend = backendName(context->backend());
   head.quick = given.quick;
   head.look = options.look;
@@ -202,7 +206,8 @@ Command addStudy(CLI::App& app) {
   command->footer(examples({"study --quick --output report", "study helmet.glb --output report",
                             "study --measure-costs costs.json"}));
   auto given = std::make_shared<StudyArguments>();
-  command->add_option("MODEL", given->model, "a glTF 2.0 model, .gltf or .glb [default: a sphere]");
+  command->add_option("MODEL", given->model,
+                      "a glTF 2.0 model, .gltf or .glb; - is stdin [default: a sphere]");
   command->add_flag("--quick", given->quick,
                     "512 x 512 pixels, fewer forms and frames: less than a minute on two cores");
   command
@@ -249,6 +254,7 @@ Command addStudy(CLI::App& app) {
         {"--json", given->json}, {"--markdown", given->markdown}, {"--save-look", look.saveFile()}};
     for (const char* name : {"/study.json", "/study.csv", "/study.svg", "/study.html"})
       if (!given->output.empty()) outputs.push_back({"--output", given->output + name});
+    given->model = localPath(given->model);
     checkOutputs(outputs, {given->model});
     for (const std::string& path : {given->json, given->markdown, look.saveFile()})
       given->stdoutTaken = given->stdoutTaken || path == "-";

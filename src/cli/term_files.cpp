@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "glint/image/exr_writer.h"
 #include "output_names.h"
@@ -17,7 +18,22 @@ float linearOf(double x) {
   return float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
 }
 
+// Instances in colours of their own: bright ones, spread by the golden ratio, and those of no
+// surface black.
+void colorIds(Image& image) {
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    float* const p = image.values.data() + i;
+    const double turn = double(p[0]) * 0.6180339887498949;
+    const bool none = p[0] < 0;
+    for (int c = 0; c < 3; ++c) {
+      const double wave = std::cos(2 * std::numbers::pi * (turn + c / 3.0));
+      p[c] = none ? 0.0f : linearOf(0.6 + 0.35 * wave);
+    }
+  }
+}
+
 void makeVisible(const PictureTerm& term, Image& image) {
+  if (term.kind == Kind::ids) return colorIds(image);
   float nearest = INFINITY, farthest = 0;
   for (std::size_t i = 0; i < image.values.size(); i += 4)
     if (std::isfinite(image.values[i])) {
@@ -36,13 +52,6 @@ void makeVisible(const PictureTerm& term, Image& image) {
   }
 }
 
-bool endsWith(const std::string& path, const char* ending) {
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return lower.ends_with(ending);
-}
-
 std::size_t nanPixels(const Image& image) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < image.values.size(); i += 4)
@@ -59,19 +68,22 @@ std::size_t writeFile(const std::string& path, const Image& image, const Picture
 
 }  // namespace
 
-std::string termOutput(const std::string& output, const PictureTerm& term) {
-  return endsWith(output, ".exr") ? output : withWord(output, term.name);
+std::string termOutput(const std::string& output, const PictureFormat& format,
+                       const PictureTerm& term) {
+  return format.id == PictureFormat::Id::exr ? output : withWord(output, term.name);
 }
 
 std::size_t writeTerms(const std::string& output, DrawnTerms& drawn,
                        const PictureOptions& options) {
-  if (endsWith(output, ".exr")) {
+  if (options.format->id == PictureFormat::Id::exr) {
     std::vector<ExrLayer> layers{{"", &drawn.picture, options.alpha ? "RGBA" : "RGB"}};
-    for (const auto& [term, image] : drawn.terms)
+    for (const auto& [term, image] : drawn.terms) {
       layers.push_back({term.name, &image,
                         term.kind == Kind::normal  ? "XYZ"
                         : term.kind == Kind::depth ? "Z"
                                                    : "RGB"});
+      if (term.kind == Kind::ids) layers.back().words = {"instance", "mesh", "material"};
+    }
     writeExr(output, layers, {options.text.begin(), options.text.end()});
     return nanPixels(drawn.picture);
   }
@@ -81,11 +93,11 @@ std::size_t writeTerms(const std::string& output, DrawnTerms& drawn,
     // Its key is the picture's alone, which is written last.
     std::erase_if(own.text, [](const auto& each) { return each.first == "glint-key"; });
     own.text.emplace_back("glint-term", term.name);
-    if (!term.isLight() && endsWith(output, ".png")) {
+    if (!term.isLight() && !options.format->isFloat) {
       makeVisible(term, image);
       own.exposureScale = 1;
     }
-    writeFile(termOutput(output, term), image, own);
+    writeFile(termOutput(output, *options.format, term), image, own);
   }
   return writeFile(output, drawn.picture, options);
 }

@@ -217,6 +217,7 @@ const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& ke
     // What was found out about its texels holds in every pose with the same coordinates.
     built->mesh.opaqueTexels = made.opaqueTexels && made.texcoords == built->mesh.texcoords;
     made = std::move(built->mesh);
+    made.fileMesh = mesh;
     changed.push_back(part.mesh);
   }
   return result.parts;
@@ -235,6 +236,8 @@ void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& s
   const Key key(node.mesh, node.skin, moves ? static_cast<int>(index) : -1,
                 moves ? std::vector<double>() : pose.weights);
   const std::vector<glm::dmat4> places = placesOf(document, index, budget, messages);
+  const int first = static_cast<int>(scene.objects.size());
+  int placed = 0;
   for (const Part& part : shape(key, std::move(pose), graph, scene, budget)) {
     if (!part.drawn) continue;
     if (scene.instances.size() + places.size() > maxInstances) {
@@ -242,12 +245,18 @@ void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& s
     }
     // What a skin moves stands where its joints are, whatever its node says.
     if (part.skinned) {
-      scene.instances.push_back({part.mesh, glm::dmat4(1)});
+      scene.instances.push_back({part.mesh, glm::dmat4(1), first});
+      placed = std::max(placed, 1);
       continue;
     }
-    for (const glm::dmat4& place : places)
-      scene.instances.push_back({part.mesh, graph.world[index] * place});
+    placed = static_cast<int>(places.size());
+    for (int i = 0; i < placed; ++i) {
+      const glm::dmat4 world = graph.world[index] * places[static_cast<std::size_t>(i)];
+      scene.instances.push_back({part.mesh, world, first + i});
+    }
   }
+  scene.objects.resize(scene.objects.size() + static_cast<std::size_t>(placed),
+                       {static_cast<int>(index), node.mesh});
 }
 
 void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
@@ -299,6 +308,7 @@ void SceneFile::State::build(const PoseRequest& request, Scene& scene) {
     const NodeGraph graph = readNodes(document, findScene(request.scene), request.up, messages);
     scene.cameras = readCameras(document, graph, messages);
     scene.instances.clear();
+    scene.objects.clear();
     for (const std::size_t node : graph.visible) place(node, graph, scene, budget);
     if (scene.instances.empty()) messages.warn("nothing to draw");
     placeLights(graph, scene);

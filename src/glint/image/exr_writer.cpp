@@ -14,7 +14,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/image/picture_formats.h"
+#include "glint/image/format_writers.h"
 
 namespace glint {
 namespace {
@@ -148,13 +148,16 @@ void writeExr(const std::string& path, std::span<const ExrLayer> layers,
     Imf::FrameBuffer frame;
     for (const ExrLayer& layer : layers) {
       const Image& image = *layer.pixels;
-      if (image.width != width || image.height != height || layer.channels.size() > 4 ||
+      const std::size_t channels = layer.words.empty() ? layer.channels.size() : layer.words.size();
+      if (image.width != width || image.height != height || channels > 4 ||
           image.values.size() != std::size_t(4) * width * height) {
         throw Error(printablePath(path) + ": the layer '" + printablePath(layer.name) +
                     "' does not fit the others");
       }
-      for (std::size_t c = 0; c < layer.channels.size(); ++c) {
-        const std::string name = (layer.name.empty() ? "" : layer.name + ".") + layer.channels[c];
+      for (std::size_t c = 0; c < channels; ++c) {
+        const std::string name =
+            (layer.name.empty() ? "" : layer.name + ".") +
+            (layer.words.empty() ? std::string(1, layer.channels[c]) : layer.words[c]);
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
         frame.insert(name, slice(image.values.data(), c, width, 0));
       }

@@ -3,6 +3,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "glint/image/image.h"
 
@@ -14,6 +15,7 @@ struct ExrLayer {
   const Image* pixels;  ///< all layers have one size
   /// The channels' names for the values of a pixel, up to four: "RGB", "RGBA", "XYZ", "Z".
   std::string channels = "RGB";
+  std::vector<std::string> words = {};  ///< in place of those letters: longer names, up to four
 };
 
 /// Writes a whole OpenEXR file: 32-bit float, one part, layers as channel prefixes ("diffuse.R"),

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "glint/image/file.h"
-#include "glint/image/picture_formats.h"
+#include "glint/image/format_writers.h"
 
 namespace glint::detail {
 namespace {

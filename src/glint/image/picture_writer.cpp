@@ -1,23 +1,17 @@
 #include "glint/image/picture_writer.h"
 
-#include <cctype>
-
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/image/picture_formats.h"
+#include "glint/image/format_writers.h"
 
 namespace glint {
 namespace {
 
-/// The ending of the file's name in lower case, with its dot; empty if there is none.
-std::string endingOf(const std::string& path) {
-  const auto dot = path.find_last_of("./");
-  if (dot == std::string::npos || path[dot] != '.') return "";
-  std::string ending = path.substr(dot);
-  for (char& letter : ending) {
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  }
-  return ending;
+using Id = PictureFormat::Id;
+
+const PictureFormat* formatOf(const std::string& path, const PictureOptions& options) {
+  if (options.format) return options.format;
+  return path == "-" ? &pictureFormat(Id::png) : pictureFormatOf(path);
 }
 
 }  // namespace
@@ -43,13 +37,29 @@ void PictureWriter::finish() {
 }
 
 void checkPictureName(const std::string& path, const PictureOptions& options) {
-  const std::string name = printablePath(path), ending = endingOf(path);
+  const std::string name = printablePath(path);
   if (options.bitDepth != 8 && options.bitDepth != 16) {
     throw InputError(name + ": " + std::to_string(options.bitDepth) +
                      " bits per channel: give 8 or 16");
   }
-  if (path == "-" || ending == ".png" || ending == ".pfm" || ending == ".exr") return;
-  throw InputError(name + ": the ending tells no known format: use .png, .exr or .pfm");
+  if (options.quality < 1 || options.quality > 100) {
+    throw InputError(name + ": a quality of " + std::to_string(options.quality) +
+                     ": give one from 1 to 100");
+  }
+  const PictureFormat* format = formatOf(path, options);
+  if (format && format->isWritten) return;
+  throw InputError(name + ": " +
+                   (format ? std::string(format->name) + " is not written"
+                           : "the ending tells no known format") +
+                   ": use " + writtenEndings());
+}
+
+void detail::checkFormatSides(const std::string& path, int width, int height, int most,
+                              const char* formatName) {
+  if (width <= most && height <= most) return;
+  throw InputError(printablePath(path) + ": " + formatName + " has at most " +
+                   std::to_string(most) + " pixels a side: use " +
+                   std::string(pictureFormat(Id::png).endings[0]));
 }
 
 std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int width, int height,
@@ -59,9 +69,20 @@ std::unique_ptr<PictureWriter> openPictureWriter(const std::string& path, int wi
     throw InputError(printablePath(path) + ": a picture of " + std::to_string(width) + " x " +
                      std::to_string(height) + " pixels: give a width and a height of at least 1");
   }
-  if (endingOf(path) == ".pfm") return detail::openPfm(path, width, height);
-  if (endingOf(path) == ".exr") return detail::openExr(path, width, height, options);
-  return detail::openPng(path, width, height, options);
+  switch (formatOf(path, options)->id) {
+    case Id::jpeg:
+      return detail::openJpeg(path, width, height, options);
+    case Id::webp:
+      return detail::openWebp(path, width, height, options);
+    case Id::exr:
+      return detail::openExr(path, width, height, options);
+    case Id::pfm:
+      return detail::openPfm(path, width, height);
+    case Id::raw:
+      return detail::openRaw(path, width, height, options);
+    default:
+      return detail::openPng(path, width, height, options);
+  }
 }
 
 }  // namespace glint

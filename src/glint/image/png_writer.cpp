@@ -11,7 +11,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/image/picture_formats.h"
+#include "glint/image/format_writers.h"
 #include "glint/image/srgb.h"
 #include "glint/image/task.h"
 

@@ -4,6 +4,7 @@
 #include "glint/image/file.h"
 #include "glint/image/json_text.h"
 #include "glint/image/read_image.h"
+#include "glint/options/look_options.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
 
@@ -40,16 +41,25 @@ void readMaterials(Look& look, const Json& value) {
   }
 }
 
-}  // namespace
-
-void readLook(Look& look, const std::string& text, const std::string& source) {
+Json parsedLook(const std::string& text, const std::string& source) {
   std::string fault;
-  const std::optional<Json> parsed = parseJsonText<Json>(text, fault);
-  if (!parsed) throw InputError(source + ": not a look file: " + fault);
-  const Json& json = *parsed;
-  if (!json.is_object()) throw InputError(source + ": not a look file: it must be a JSON object");
+  std::optional<Json> json = parseJsonText<Json>(text, fault);
+  if (!json) throw InputError(source + ": not a look file: " + fault);
+  if (!json->is_object()) throw InputError(source + ": not a look file: it must be a JSON object");
+  return std::move(*json);
+}
+
+void checkVersion(const Json& json, const std::string& source) {
   if (json.value("glint-look", Json()) != Json(1))
     throw InputError(source + ": not a look file of this version: it must hold \"glint-look\": 1");
+}
+
+void setKeys(Look& look, const Json& json, const std::string& source) {
+  const bool orthographic = json.value("camera-orthographic", Json()) == Json(true);
+  if (json.contains("camera-intrinsics") && (orthographic || json.contains("camera-view-angle")))
+    throw InputError(source + ": \"camera-intrinsics\" and \"" +
+                     (orthographic ? "camera-orthographic" : "camera-view-angle") +
+                     "\": give one of them");
   for (const auto& [key, value] : json.items()) {
     if (key == "glint-look") continue;
     const auto parameters = lookParameters();
@@ -74,20 +84,42 @@ void readLook(Look& look, const std::string& text, const std::string& source) {
   }
 }
 
-void readLookFile(Look& look, const std::string& path) {
+}  // namespace
+
+void readLook(Look& look, const std::string& text, const std::string& source) {
+  const Json json = parsedLook(text, source);
+  checkVersion(json, source);
+  setKeys(look, json, source);
+}
+
+void readLookOver(Look& look, const std::string& text, const std::string& source) {
+  const Json json = parsedLook(text, source);
+  if (json.contains("glint-look")) checkVersion(json, source);
+  Look over = look;
+  over.material.clear();
+  setKeys(over, json, source);
+  if (json.contains("light") && !json.contains("no-lights")) over.noLights = false;
+  if (json.contains("environment") && !json.contains("hdri-file")) over.hdriFile.clear();
+  const Look materials = over;
+  over.material = look.material;
+  mergeMaterials(over, materials);
+  look = std::move(over);
+}
+
+std::string lookTextIn(const std::string& path) {
   const auto bytes = readFile(path);
-  if (!mayHoldText(bytes)) {
-    readLook(look, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path);
-    return;
-  }
+  if (!mayHoldText(bytes))
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto texts = pictureTextIn(bytes, path);
   const auto found = texts.find("glint-look");
   if (found == texts.end())
     throw InputError(path +
                      ": a picture that does not say how it was made: give a look file, or a "
                      "PNG or EXR that glint has written");
-  readLook(look, found->second, path);
+  return found->second;
 }
+
+void readLookFile(Look& look, const std::string& path) { readLook(look, lookTextIn(path), path); }
 
 std::string saveLook(const Look& look) {
   Json json{{"glint-look", 1}};

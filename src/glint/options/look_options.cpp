@@ -96,8 +96,11 @@ Look LookSource::operator()() const {
       return each.first->name == name && each.second->count() > 0;
     });
   };
-  if (given("light") && given("no-lights"))
-    throw InputError("--light and --no-lights: give one of them");
+  for (const auto& [one, other] :
+       {std::pair("light", "no-lights"), std::pair("camera-intrinsics", "camera-view-angle"),
+        std::pair("camera-intrinsics", "camera-orthographic")})
+    if (given(one) && given(other))
+      throw InputError("--" + std::string(one) + " and --" + other + ": give one of them");
   for (const auto& [p, option] : options_->options) {
     if (option->count() == 0) continue;
     if (p->name == "light") {  // in place of the file's, and of its having none

@@ -272,6 +272,34 @@ Parameter maxError() {
   return slider(std::move(p), 1e-5, 1, true);
 }
 
+Parameter intrinsics() {
+  Parameter p = custom(
+      "camera-intrinsics", "FX,FY,CX,CY",
+      "the lens of a calibrated camera in pixels of the picture, in place of the view angle: focal "
+      "lengths across and down, and the principal point from the picture's top left corner (the "
+      "first pixel's centre is at 0.5,0.5; OpenCV calls it 0,0, so add 0.5 to its CX and CY)",
+      [](Look& look, const std::string& text) {
+        look.cameraIntrinsics = parseIntrinsics(text);
+        look.cameraViewAngle.reset();
+        look.cameraOrthographic = false;
+      },
+      [](const Look& look) {
+        if (!look.cameraIntrinsics) return Json();
+        const glm::dvec4& v = *look.cameraIntrinsics;
+        return Json::array({v.x, v.y, v.z, v.w});
+      });
+  return resetting(std::move(p), &Look::cameraIntrinsics);
+}
+
+// What takes the place of a lens that a look has: the last that is said of the two counts.
+Parameter withoutIntrinsics(Parameter p) {
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    read(look, text);
+    if (text != "false") look.cameraIntrinsics.reset();
+  };
+  return p;
+}
+
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
 
 std::vector<Parameter> makeTable() {
@@ -338,9 +366,11 @@ std::vector<Parameter> makeTable() {
        vector("camera-focal-point", 1e30, &Look::cameraFocalPoint,
               "the point that the camera looks at [default: the model's centre]"),
        direction("camera-view-up", &Look::cameraViewUp, "up direction [default: 0,1,0]"),
-       slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
-                     "vertical angle of view [default: 30]"),
-              1, 120, false, 30),
+       withoutIntrinsics(
+           slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
+                         "vertical angle of view [default: 30]"),
+                  1, 120, false, 30)),
+       intrinsics(),
        direction(
            "camera-direction", &Look::cameraDirection,
            "direction in which the camera looks, where position and focal point do not say it"),
@@ -354,9 +384,10 @@ std::vector<Parameter> makeTable() {
                      "how much of the picture the model's bounding sphere fills, unless "
                      "--camera-position is given"),
               0.05, 20, true),
-       flag("camera-orthographic", &Look::cameraOrthographic,
-            "parallel projection; half the picture's height is the distance to the focal point "
-            "times tan(view angle / 2)"),
+       withoutIntrinsics(
+           flag("camera-orthographic", &Look::cameraOrthographic,
+                "parallel projection; half the picture's height is the distance to the focal "
+                "point times tan(view angle / 2)")),
        resetting(custom(
                      "camera-index", "N", "use camera N of the file, counted from 0",
                      [](Look& look, const std::string& text) {

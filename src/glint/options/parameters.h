@@ -59,7 +59,15 @@ void setParameter(Look&, std::string_view name, const std::string& text);
 /// name `source`.
 void readLook(Look& look, const std::string& json, const std::string& source);
 
-/// The same from a look file, or from a picture (PNG or EXR) that glint has written.
+/// What a look file's text holds beats all that `look` says, as options on the command line do: its
+/// lights those of the file, a material of all those by name. The key "glint-look" may be missing.
+void readLookOver(Look& look, const std::string& json, const std::string& source);
+
+/// The text of a look in a look file, or in a picture (PNG or EXR) that glint has written.
+/// Throws InputError if the file cannot be read or holds no look.
+std::string lookTextIn(const std::string& path);
+
+/// readLook() of a look file, or from a picture (PNG or EXR) that glint has written.
 /// Throws InputError if the file cannot be read or holds no look.
 void readLookFile(Look& look, const std::string& path);
 

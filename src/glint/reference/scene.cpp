@@ -214,7 +214,8 @@ Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& li
 
 glm::dvec3 Stage::ray(double x, double y) const {
   if (camera.orthographic) return {0, 0, -1};
-  const double up = 2 * y / grid.y - 1, right = 2 * x / grid.x - 1;
+  const double up = 2 * y / grid.y - 1 + camera.shift.y;
+  const double right = 2 * x / grid.x - 1 + camera.shift.x;
   return {right * camera.halfHeight * camera.aspect, up * camera.halfHeight, -1};
 }
 

@@ -29,6 +29,9 @@ Image drawReferenceTerm(const Scene& scene, const DecodedImages& images, const B
       const reference::Surface& surface = renderer.stage().items[std::size_t(a.item)].surface;
       if (!surface.unlit) value = camera.axes * reference::shadingNormal(surface, a);
     }
+    if (term.kind == Kind::ids)
+      value = a.item < 0 ? glm::dvec3(-1.0)
+                         : glm::dvec3(idsOf(scene, renderer.list().items[std::size_t(a.item)]));
     for (int c = 0; c < 3; ++c) image.values.push_back(float(value[c]));
     image.values.push_back(a.item >= 0 ? 1.0f : 0.0f);
   }

@@ -117,9 +117,9 @@ std::string defines(const Variant& v) {
   text += define("TEXTURES", textures);
   if (textures || v.textured != 0) text += textureDefines(v);
   text += define("LEVELS_OF_DETAIL", textures || image);
-  constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
-                                     "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
-                                     "REFLECTION", "REFRACTION"};
+  constexpr const char* outputs[] = {"RADIANCE", "POSITION",   "NORMAL",         "COLOR",
+                                     "EMISSION", "DEPTH",      "SHADING_NORMAL", "IDS",
+                                     "SUM",      "REFLECTION", "REFRACTION"};
   int number = 0;
   for (const char* output : outputs)
     text += std::string("#define OUTPUT_") + output + " " + std::to_string(number++) + "\n";
@@ -218,7 +218,8 @@ std::string join(const std::string& head, const std::vector<Part>& parts,
 
 }  // namespace
 
-ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileNames) {
+ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileNames,
+                        int instances) {
   const std::string name(v.unlit ? "unlit" : shadingName(v.program));
   std::vector<Part> files{{"vector.glsl"}, {"blocks.glsl"}};
   if (!v.unlit) {
@@ -235,7 +236,7 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
     files.push_back({file, reflectanceFunction(v)});
   }
   const std::string head = header(fileNames) + multisampleText(v.multisampled);
-  const std::string features = defines(v);
+  const std::string features = define("INSTANCES", instances) + defines(v);
   std::vector<Part> vertex = files, fragment = files;
   const auto blocks = std::ranges::find(fragment, "blocks.glsl", &Part::file);
   fragment.insert(blocks + 1, {"sampling.glsl"});
@@ -258,7 +259,8 @@ ComposedProgram composeBackground(Environment environment, const GlslSources& so
                                    {"background.glsl"}};
   // The background covers every sample.
   const std::string head = header(fileNames) + multisampleText(false);
-  const std::string features = define("LIGHTS", 0) + define("TEXTURES", 0) +
+  const std::string features = define("INSTANCES", 1) + define("LIGHTS", 0) +
+                               define("TEXTURES", 0) +
                                define("LEVELS_OF_DETAIL", environment == Environment::image) +
                                environmentDefines(environment);
   return {"background", join(head + stageDefines(true) + features, vertex, sources, fileNames),
@@ -268,7 +270,8 @@ ComposedProgram composeBackground(Environment environment, const GlslSources& so
 ComposedProgram composeLayer(bool multisampled, bool reversedDepth, const GlslSources& sources,
                              bool fileNames) {
   const std::vector<Part> files{{"blocks.glsl"}, {"layer.glsl"}};
-  const std::string features = define("LIGHTS", 0) + define("MULTISAMPLED", multisampled) +
+  const std::string features = define("INSTANCES", 1) + define("LIGHTS", 0) +
+                               define("MULTISAMPLED", multisampled) +
                                define("REVERSED_DEPTH", reversedDepth);
   const std::string head = header(fileNames);
   const std::string samples =

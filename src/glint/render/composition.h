@@ -16,8 +16,8 @@ struct ComposedProgram {
 /// The GLSL of a variant: #version, one #define for each feature, then the files it needs. A pure
 /// function of its arguments. With `fileNames`, #line directives name the files (needs the
 /// extension that fileNamesInLines() asks for), otherwise they number them in the order of
-/// composition.
-ComposedProgram compose(const Variant&, const GlslSources&, bool fileNames);
+/// composition. `instances`: how many places of a mesh one call may draw.
+ComposedProgram compose(const Variant&, const GlslSources&, bool fileNames, int instances = 1);
 
 /// The program that draws the environment behind the model.
 ComposedProgram composeBackground(Environment, const GlslSources&, bool fileNames);

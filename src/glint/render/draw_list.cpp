@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 
@@ -218,6 +219,27 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     return a.blended && a.depth > b.depth;
   });
   return list;
+}
+
+std::vector<DrawCall> drawCalls(const std::vector<DrawItem>& items) {
+  // Fewer are drawn one by one, by the program that all others use: one for instances costs more to
+  // compile than it saves.
+  constexpr std::size_t fewest = 8;
+  const auto alike = [](const DrawItem& a, const DrawItem& b) {
+    return !a.blended && !b.blended && a.mesh == b.mesh && a.material == b.material &&
+           a.mirrored == b.mirrored && a.faces == b.faces && a.variant == b.variant &&
+           std::memcmp(&a.materialBlock, &b.materialBlock, sizeof a.materialBlock) == 0 &&
+           a.draw.normalMatrix[3] == b.draw.normalMatrix[3];
+  };
+  std::vector<DrawCall> calls;
+  for (std::size_t i = 0; i < items.size();) {
+    std::size_t end = i + 1;
+    while (end < items.size() && end - i < mostInstances && alike(items[i], items[end])) ++end;
+    if (end - i < fewest) end = i + 1;
+    calls.push_back({i, end - i});
+    i = end;
+  }
+  return calls;
 }
 
 std::vector<int> imagesRead(const Scene& scene, const Look& given) {

@@ -37,6 +37,18 @@ struct DrawList {
   std::shared_ptr<const EnvironmentImage> environment;
 };
 
+/// What one call of GL draws: items of a list in a row that differ in their places alone.
+struct DrawCall {
+  std::size_t first = 0, count = 1;
+};
+
+/// The most places that one call draws: as many as the least uniform block of GL holds.
+inline constexpr std::size_t mostInstances = 128;
+static_assert(mostInstances * sizeof(DrawBlock) <= 16384);
+
+/// The calls that draw a list, in its order. What is blended is drawn piece by piece.
+std::vector<DrawCall> drawCalls(const std::vector<DrawItem>& items);
+
 /// `bounds` are those of the scene. Throws InputError for a camera or a material that the scene
 /// does not have.
 DrawList makeDrawList(const Scene&, const Bounds& bounds, const Look&);

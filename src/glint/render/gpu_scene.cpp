@@ -183,10 +183,15 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   return g;
 }
 
-void GpuScene::draw(int mesh, bool faces) {
+void GpuScene::draw(int mesh, bool faces, std::size_t times, const Buffer* indices) {
   const Geometry& g = geometry(mesh, faces);
   glBindVertexArray(g.array.id());
-  glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
+  if (indices) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices->id());
+  if (times == 1)
+    glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
+  else
+    glDrawElementsInstanced(g.mode, g.count, GL_UNSIGNED_INT, nullptr, GLsizei(times));
+  if (indices) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
 }
 
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {

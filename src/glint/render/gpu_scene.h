@@ -32,8 +32,9 @@ class GpuScene {
   /// The mesh, or for the program `flat` its faces.
   const Geometry& geometry(int mesh, bool faces);
 
-  /// Draws it as the state stands.
-  void draw(int mesh, bool faces);
+  /// Draws it, so many times, as the state stands; with other indices, as many as its own, if there
+  /// are any.
+  void draw(int mesh, bool faces, std::size_t times = 1, const Buffer* indices = nullptr);
 
   /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);

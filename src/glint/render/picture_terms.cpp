@@ -85,8 +85,8 @@ void keepGeometry(DrawItem& item, const PictureTerm& term) {
   Variant& v = item.variant;
   v.multisampled = false;
   v.dropEmission();
-  if (term.kind == Kind::depth) {
-    v.output = PixelOutput::depth;
+  if (term.kind != Kind::normal) {
+    v.output = term.kind == Kind::depth ? PixelOutput::depth : PixelOutput::ids;
     return;
   }
   v.output = PixelOutput::shadingNormal;
@@ -98,11 +98,15 @@ void keepGeometry(DrawItem& item, const PictureTerm& term) {
   v.twoSided = item.faces != FaceSide::front;
 }
 
-DrawList termList(DrawList list, const PictureTerm& term) {
+DrawList termList(const Scene& scene, DrawList list, const PictureTerm& term) {
   const LightPlace place(list, term);
   if (!term.isLight()) {
     std::erase_if(list.items, [](const DrawItem& item) { return item.blended; });
-    for (DrawItem& item : list.items) keepGeometry(item, term);
+    for (DrawItem& item : list.items) {
+      keepGeometry(item, term);
+      glm::vec4& carrier = item.materialBlock.emission;
+      if (term.kind == Kind::ids) carrier = glm::vec4(idsOf(scene, item), carrier.a);
+    }
     return list;
   }
   for (DrawItem& item : list.items) keepLight(item, place, term);
@@ -120,6 +124,11 @@ void toWorld(Image& normals, const Camera& camera) {
     const glm::dvec3 world = camera.axes * glm::dvec3(n[0], n[1], n[2]);
     for (int c = 0; c < 3; ++c) n[c] = float(world[c]);
   }
+}
+
+void markBackground(Image& ids) {
+  for (std::size_t i = 0; i < ids.values.size(); i += 4)
+    if (!(ids.values[i + 3] > 0)) std::fill_n(ids.values.begin() + std::ptrdiff_t(i), 3, -1.0f);
 }
 
 void toDistance(Image& depths, const Camera& camera, bool reversed) {
@@ -155,7 +164,14 @@ std::vector<PictureTerm> termsOf(const DrawList& list, const Look& look) {
   if (!look.noBackground) terms.push_back({Kind::background, 0, "background"});
   terms.push_back({Kind::normal, 0, "normal"});
   terms.push_back({Kind::depth, 0, "depth"});
+  terms.push_back({Kind::ids, 0, "id"});
   return terms;
+}
+
+glm::vec3 idsOf(const Scene& scene, const DrawItem& item) {
+  const int object = scene.instances[std::size_t(item.instance)].object;
+  const int mesh = scene.meshes[std::size_t(item.mesh)].fileMesh;
+  return {object >= 0 ? object : item.instance, mesh >= 0 ? mesh : item.mesh, item.material};
 }
 
 Look termLook(const PictureTerm& term, Look look) {
@@ -169,7 +185,7 @@ Image drawTerm(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const 
   const DrawList list = makeDrawList(scene.scene(), bounds, look);
   const Camera camera = list.camera;
   const Look own = termLook(term, look);
-  auto picture = renderer.begin(scene, termList(list, term), own);
+  auto picture = renderer.begin(scene, termList(scene.scene(), list, term), own);
   Image image{look.resolution.x, look.resolution.y, {}}, band;
   image.values.reserve(std::size_t(4) * image.width * image.height);
   for (int i = 0; i < picture.bandCount(); ++i) {
@@ -177,6 +193,7 @@ Image drawTerm(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const 
     image.values.insert(image.values.end(), band.values.begin(), band.values.end());
   }
   if (term.kind == Kind::normal) toWorld(image, camera);
+  if (term.kind == Kind::ids) markBackground(image);
   if (term.kind == Kind::depth) toDistance(image, camera, renderer.reversedDepth());
   return image;
 }

@@ -14,12 +14,7 @@ namespace glint {
 namespace {
 
 constexpr GLuint environmentUnit = 3;
-constexpr GLuint behindUnit = 4;
 constexpr GLuint parameterUnit = 5;  // and the three after it
-
-// More layers than a picture shows anything of: the nearest are then left out. A driver that tests
-// other depths than its shaders see would go on for ever.
-constexpr int mostLayers = 1024;
 
 enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding, curveBinding };
 
@@ -43,7 +38,7 @@ void connect(const Program& program) {
   program.bindSampler("emissionTexture", 1);
   program.bindSampler("normalTexture", 2);
   program.bindSampler("environmentImage", environmentUnit);
-  program.bindSampler("behind", behindUnit);
+  program.bindSampler("behind", layerDepthUnit);
   GLint unit = parameterUnit;
   for (const char* name :
        {"metallicRoughnessTexture", "occlusionTexture", "specularTexture", "transmissionTexture"})
@@ -58,21 +53,35 @@ Program build(const ComposedProgram& text) {
   return program;
 }
 
-// One uniform buffer with a block for each item at the alignment that the driver asks for; returns
-// the distance from one to the next.
-template <typename Block, typename Get>
-GLsizeiptr uploadBlocks(const Buffer& buffer, const std::vector<DrawItem>& items, Get get) {
-  GLint alignment = 256;
-  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-  const std::size_t step = std::size_t(std::max(alignment, 1));
-  const std::size_t stride = (sizeof(Block) + step - 1) / step * step;
-  std::vector<char> bytes(stride * items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-    std::memcpy(bytes.data() + stride * i, &get(items[i]), sizeof(Block));
-  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes.size()), bytes.data(), GL_STREAM_DRAW);
-  return GLsizeiptr(stride);
-}
+// Blocks one behind the other in one uniform buffer, each where the driver may find it.
+class BlockBuffer {
+ public:
+  BlockBuffer() {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    step_ = std::size_t(std::max(alignment, 1));
+  }
+  /// Where the next one begins.
+  GLintptr begin() {
+    bytes_.resize((bytes_.size() + step_ - 1) / step_ * step_);
+    return GLintptr(bytes_.size());
+  }
+  template <typename Block>
+  void add(const Block& block) {
+    const auto* from = reinterpret_cast<const char*>(&block);
+    bytes_.insert(bytes_.end(), from, from + sizeof block);
+  }
+  /// Room behind all: a block that is not full is bound in its whole length.
+  void upload(const Buffer& buffer, std::size_t room = 0) {
+    bytes_.resize(bytes_.size() + room);
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
+    glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes_.size()), bytes_.data(), GL_STREAM_DRAW);
+  }
+
+ private:
+  std::size_t step_ = 1;
+  std::vector<char> bytes_;
+};
 
 void setFaces(const DrawItem& item) {
   glFrontFace(item.mirrored ? GL_CW : GL_CCW);
@@ -82,16 +91,6 @@ void setFaces(const DrawItem& item) {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
   }
-}
-
-void setBlending(bool blended) {
-  if (blended) {
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  } else {
-    glDisable(GL_BLEND);
-  }
-  glDepthMask(blended ? GL_FALSE : GL_TRUE);
 }
 
 // The pixels that boxes may cover, of a picture with this projection: x, y, width, height. Whole if
@@ -153,10 +152,13 @@ Renderer::Renderer(GlslSources sources)
       noVertices_(VertexArray::make()),
       frame_(Buffer::make()) {}
 
-const Program& Renderer::programFor(const Variant& variant) {
-  const auto found = programs_.find(variant);
+const Program& Renderer::programFor(const Variant& variant, bool instanced) {
+  const std::pair key(variant, instanced);
+  const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
-  return programs_.emplace(variant, build(compose(variant, sources_, fileNames_))).first->second;
+  const int instances = instanced ? int(mostInstances) : 1;
+  return programs_.emplace(key, build(compose(variant, sources_, fileNames_, instances)))
+      .first->second;
 }
 
 const Program& Renderer::backgroundFor(Environment environment) {
@@ -226,11 +228,12 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
       layout_(tilesFor(look.resolution, look.antiAliasing)),
       lights_(Buffer::make()),
       draws_(Buffer::make()),
-      materials_(Buffer::make()) {
+      materials_(Buffer::make()),
+      calls_(drawCalls(list_.items)) {
   {
     const Stopwatch time(times_.compile);
-    for (const DrawItem& item : list_.items)
-      programs_.push_back(&renderer.programFor(item.variant));
+    for (const DrawCall& call : calls_)
+      programs_.push_back(&renderer.programFor(list_.items[call.first].variant, call.count > 1));
     if (look_.environmentBackground) renderer.backgroundFor(environmentOf(look_));
   }
   const Stopwatch time(times_.draw);
@@ -244,14 +247,22 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
   glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
   glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
                list_.lights.data(), GL_STREAM_DRAW);
-  drawStride_ = uploadBlocks<DrawBlock>(
-      draws_, list_.items, [](const DrawItem& i) -> const DrawBlock& { return i.draw; });
-  materialStride_ = uploadBlocks<MaterialBlock>(
-      materials_, list_.items,
-      [](const DrawItem& i) -> const MaterialBlock& { return i.materialBlock; });
+  uploadDraws();
   for (const DrawItem& item : list_.items)
     scene.geometry(item.mesh, item.variant.program == Shading::flat);
   checkGl("upload");
+}
+
+void Renderer::Picture::uploadDraws() {
+  BlockBuffer draws, materials;
+  for (const DrawCall& call : calls_) {
+    drawOffsets_.push_back(draws.begin());
+    for (std::size_t i = 0; i < call.count; ++i) draws.add(list_.items[call.first + i].draw);
+    materialOffsets_.push_back(materials.begin());
+    materials.add(list_.items[call.first].materialBlock);
+  }
+  draws.upload(draws_, mostInstances * sizeof(DrawBlock));
+  materials.upload(materials_);
 }
 
 int Renderer::Picture::samples() const { return renderer_.target_->samples(); }
@@ -288,7 +299,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       const glm::dvec2 reach =
           glm::dvec2(list_.camera.halfHeight * list_.camera.aspect, list_.camera.halfHeight);
       frame.rayScale = (upper - lower) * reach;
-      frame.rayOffset = (upper + lower - 1.0) * reach;
+      frame.rayOffset = (upper + lower - 1.0 + list_.camera.shift) * reach;
     }
     glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
     glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
@@ -322,11 +333,11 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
       glEnable(GL_DEPTH_TEST);
     }
     used_ = nullptr;
-    setBlending(false);
+    renderer_.setBlending(false);
     std::size_t next = 0;
-    for (; next < list_.items.size() && !list_.items[next].blended; ++next) drawItem(next);
-    if (next < list_.items.size()) {
-      const auto first = list_.items.begin() + std::ptrdiff_t(next);
+    for (; next < calls_.size() && !list_.items[calls_[next].first].blended; ++next) drawCall(next);
+    if (next < calls_.size()) {
+      const auto first = list_.items.begin() + std::ptrdiff_t(calls_[next].first);
       const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width, height);
       glEnable(GL_SCISSOR_TEST);
       glScissor(box.x, box.y, box.z, box.w);
@@ -346,17 +357,19 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
 }
 
 void Renderer::Picture::bindDraw(std::size_t i) {
-  glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawStride_ * GLsizeiptr(i),
-                    sizeof(DrawBlock));
-  setFaces(list_.items[i]);
+  const DrawCall& call = calls_[i];
+  const std::size_t places = call.count > 1 ? mostInstances : 1;
+  glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawOffsets_[i],
+                    GLsizeiptr(places * sizeof(DrawBlock)));
+  setFaces(list_.items[call.first]);
 }
 
-void Renderer::Picture::drawItem(std::size_t i) {
-  const DrawItem& item = list_.items[i];
+void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
+  const DrawItem& item = list_.items[calls_[i].first];
   if (programs_[i] != used_) (used_ = programs_[i])->use();
   bindDraw(i);
-  glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(),
-                    materialStride_ * GLsizeiptr(i), sizeof(MaterialBlock));
+  glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(), materialOffsets_[i],
+                    sizeof(MaterialBlock));
   const Material& material = scene_.scene().materials[std::size_t(item.material)];
   if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
   if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);
@@ -368,39 +381,7 @@ void Renderer::Picture::drawItem(std::size_t i) {
     for (GLuint k = 0; k < 4; ++k)
       if (read[k]) scene_.bindTexture(**textures[k], parameterUnit + k);
   }
-  scene_.draw(item.mesh, item.variant.program == Shading::flat);
-}
-
-void Renderer::Picture::drawLayers(std::size_t first) {
-  const DepthLayers* layers = renderer_.layersFor();
-  if (!layers) {  // in the list's order, from back to front by their centres
-    setBlending(true);
-    for (std::size_t i = first; i < list_.items.size(); ++i) drawItem(i);
-    return;
-  }
-  const bool reversed = renderer_.clipControl_;
-  for (int layer = 0; layer < mostLayers; ++layer) {
-    layers->bindDepths(layer, behindUnit);
-    setBlending(false);
-    glDepthFunc(reversed ? GL_LESS : GL_GREATER);
-    glClearDepth(reversed ? 1.0 : 0.0);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    renderer_.layerProgram().use();
-    used_ = nullptr;
-    glBeginQuery(GL_ANY_SAMPLES_PASSED, renderer_.layerQuery_.id());
-    for (std::size_t i = first; i < list_.items.size(); ++i) {
-      bindDraw(i);
-      scene_.draw(list_.items[i].mesh, list_.items[i].variant.program == Shading::flat);
-    }
-    glEndQuery(GL_ANY_SAMPLES_PASSED);
-    GLuint any = 0;
-    glGetQueryObjectuiv(renderer_.layerQuery_.id(), GL_QUERY_RESULT, &any);
-    if (any == 0) break;
-    layers->bindColors(layer);
-    setBlending(true);
-    glDepthFunc(GL_EQUAL);
-    for (std::size_t i = first; i < list_.items.size(); ++i) drawItem(i);
-  }
+  scene_.draw(item.mesh, item.variant.program == Shading::flat, calls_[i].count, indices);
 }
 
 Image Renderer::draw(GpuScene& scene, const Bounds& bounds, const Look& look) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "glint/gl/framebuffer.h"
@@ -16,6 +18,9 @@
 #include "glint/render/tiles.h"
 
 namespace glint {
+
+/// The unit of the depths of the layer before, while layers are drawn.
+inline constexpr GLuint layerDepthUnit = 4;
 
 /// Milliseconds that parts of a picture took.
 struct RenderTimes {
@@ -49,10 +54,15 @@ class Renderer {
     Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
     /// Without `rows` nothing is read back.
     void drawTile(const Tile& tile, Image* rows);
-    void drawItem(std::size_t item);
-    /// What is blended, from this item on, layer by layer from the back.
+    /// In the order of other indices, if there are any.
+    void drawCall(std::size_t call, const Buffer* indices = nullptr);
+    /// What is blended, from this call on, layer by layer from the back.
     void drawLayers(std::size_t first);
-    void bindDraw(std::size_t item);
+    bool drawInOrder(const DepthLayers&, int last, std::size_t first);
+    void orderTriangles(std::size_t first);
+    void drawDepths(std::size_t first, bool inOrder);
+    void bindDraw(std::size_t call);
+    void uploadDraws();
 
     Renderer& renderer_;
     GpuScene& scene_;
@@ -61,9 +71,11 @@ class Renderer {
     TileLayout layout_;
     std::size_t nextBand_ = 0;
     Buffer lights_, draws_, materials_;
-    GLsizeiptr drawStride_ = 0, materialStride_ = 0;
-    std::vector<const Program*> programs_;  ///< of each item
-    const Program* used_ = nullptr;         ///< by the item before
+    std::vector<Buffer> ordered_;  ///< indices of what is blended, farthest first; empty until used
+    std::vector<DrawCall> calls_;
+    std::vector<GLintptr> drawOffsets_, materialOffsets_;  ///< of each call
+    std::vector<const Program*> programs_;                 ///< of each call
+    const Program* used_ = nullptr;                        ///< by the call before
     std::vector<float> scratch_;
     RenderTimes times_;
   };
@@ -88,25 +100,30 @@ class Renderer {
   Image draw(GpuScene&, const Bounds&, const Look&);
 
  private:
-  const Program& programFor(const Variant&);
+  const Program& programFor(const Variant&, bool instanced);
   const Program& backgroundFor(Environment);
   RenderTarget& targetFor(int width, int height, int samples);
   /// Of the target, or null if this driver cannot tell the layers of its samples apart.
   const DepthLayers* layersFor();
   const Program& layerProgram();
   void needCurve();
+  static void setBlending(bool blended);
+  /// Whether any sample that `draw` draws passes the tests, and how many do.
+  bool any(const std::function<void()>& draw);
+  GLuint samplesPassed(const std::function<void()>& draw);
 
   GlslSources sources_;
   bool fileNames_;
   bool clipControl_;
-  std::map<Variant, Program> programs_;
-  std::vector<std::map<Variant, Program>> former_;
+  using Programs = std::map<std::pair<Variant, bool>, Program>;  ///< true: of instanced calls
+  Programs programs_;
+  std::vector<Programs> former_;
   std::map<Environment, Program> backgrounds_;
   EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;
   std::unique_ptr<DepthLayers> layers_;    ///< of the target; dies first
   std::map<bool, Program> layerPrograms_;  ///< by whether there are samples
-  Query layerQuery_;
+  Query layerQuery_, countQuery_;
   int askedSamples_ = 0;
   VertexArray noVertices_;
   Buffer frame_;

@@ -21,6 +21,7 @@ enum class PixelOutput {
   emission,       ///< rgb, w: 1
   depth,          ///< x: the depth buffer's, y: 1 / w of clip space
   shadingNormal,  ///< xyz: eye space, unit, turned as shading turns it; w: 1
+  ids,            ///< xyz: three numbers of the draw (MaterialBlock::emission), w: 1
   // Parts of what the program environment shows; alpha as in the picture:
   sum,         ///< (1 - t) times the sum over the lights, and emission
   reflection,  ///< F E(reflect), where there are neither lights nor ambient light

@@ -63,6 +63,18 @@ struct View {
   double near = 0, far = 0;       // of a file's camera, or 0
 };
 
+// Half the angle at which a sphere around the focal point may be seen.
+double smallerHalf(const Look& look, double angle, double aspect) {
+  if (!look.cameraIntrinsics)
+    return aspect >= 1 ? angle / 2 : std::atan(std::tan(angle / 2) * aspect);
+  const glm::dvec4& lens = *look.cameraIntrinsics;
+  const glm::dvec2 size(look.resolution), focal(lens.x, lens.y), point(lens.z, lens.w);
+  const glm::dvec2 sides = glm::min(point, size - point) / focal, halves = size / 2.0 / focal;
+  // A principal point beside the picture: as if it were in its middle.
+  const double inside = std::min(sides.x, sides.y);
+  return std::atan(inside > 0 ? inside : std::min(halves.x, halves.y));
+}
+
 View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double aspect) {
   View view{{}, bounds.center, {0, 1, 0}, 30 * radians, look.cameraOrthographic, 0};
   const double radius = bounds.radius > 0 ? bounds.radius : 1;
@@ -109,8 +121,7 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
     placed = true;
   }
   if (!placed) {
-    const double smaller =
-        aspect >= 1 ? view.angle / 2 : std::atan(std::tan(view.angle / 2) * aspect);
+    const double smaller = smallerHalf(look, view.angle, aspect);
     view.position =
         view.focalPoint - direction * (radius / (look.cameraZoomFactor * std::sin(smaller)));
   }
@@ -173,6 +184,17 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   if (camera.orthographic)
     camera.halfHeight = view.orthographicHalfHeight > 0 ? view.orthographicHalfHeight
                                                         : camera.halfHeight * distance;
+  if (look.cameraIntrinsics) {
+    if (camera.orthographic)
+      throw InputError(
+          "--camera-intrinsics: a parallel projection has none: leave the option out, or " +
+          std::string(look.cameraOrthographic ? "--camera-orthographic" : "--camera-index"));
+    const glm::dvec4& lens = *look.cameraIntrinsics;
+    const glm::dvec2 size(look.resolution);
+    camera.halfHeight = size.y / (2 * lens.y);
+    camera.aspect = size.x / lens.x / (size.y / lens.y);
+    camera.shift = {1 - 2 * lens.z / size.x, 2 * lens.w / size.y - 1};
+  }
 
   const double center = glm::dot(camera.eye - bounds.center, camera.axes[2]);
   const double reach = std::max(glm::length(camera.eye - bounds.center), bounds.radius);
@@ -219,7 +241,7 @@ Look definite(Look look, const Scene& scene, const Camera& camera, const Bounds&
   look.cameraAzimuthAngle = look.cameraElevationAngle = 0;
   look.cameraOrthographic = camera.orthographic;
   const double half = camera.orthographic ? camera.halfHeight / distance : camera.halfHeight;
-  look.cameraViewAngle = 2 * std::atan(half) / radians;
+  if (!look.cameraIntrinsics) look.cameraViewAngle = 2 * std::atan(half) / radians;
   return look;
 }
 
@@ -267,6 +289,8 @@ glm::dmat4 projection(const Camera& camera, glm::dvec2 lower, glm::dvec2 upper, 
     m[2][2] = reversed ? near / (far - near) : -(far + near) / (far - near);
     m[3][2] = reversed ? far * near / (far - near) : -2 * far * near / (far - near);
     m[2][3] = -1;
+    m[2][0] = camera.shift.x;
+    m[2][1] = camera.shift.y;
   }
   // The part of the picture becomes the whole of clip space.
   const glm::dvec2 scale = 1.0 / (upper - lower), offset = (1.0 - lower - upper) * scale;

@@ -26,7 +26,10 @@ struct Camera {
   bool orthographic = false;
   double halfHeight =
       1.0;              ///< of the picture at distance 1 (perspective), or anywhere (orthographic)
-  double aspect = 1.0;  ///< width / height
+  double aspect = 1.0;  ///< width / height of what is seen
+  /// Where the middle of the picture lies off the view's axis, to the right and up, in halves of
+  /// its width and height (perspective).
+  glm::dvec2 shift{0.0};
   double near = 1.0, far = 2.0;  ///< along the view, world units; 0 < near < far
   /// Eye space is measured in units of `unit` world units, a power of two near the distance of what
   /// is looked at: a scene scaled by any factor then gives the same floats.
@@ -34,8 +37,9 @@ struct Camera {
 };
 
 /// The camera of a look at a scene. Throws InputError for a camera index the file does not have.
-/// Every other input gives a finite camera: where the eye is at the focal point, or the view is
-/// along the way up, another axis takes the place of the undefined one.
+/// and for a look with intrinsics whose camera is orthographic. Every other input gives a finite
+/// camera: where the eye is at the focal point, or the view is along the way up, another axis takes
+/// the place of the undefined one.
 Camera cameraFor(const Scene&, const Bounds&, const Look&);
 
 /// The look with its camera turned by `degrees` about +Y through the centre of the bounds, to the

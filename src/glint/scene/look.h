@@ -119,7 +119,11 @@ struct Look {
 
   std::optional<glm::dvec3> cameraPosition, cameraFocalPoint, cameraDirection;
   std::optional<glm::dvec3> cameraViewUp;
-  std::optional<double> cameraViewAngle;                        ///< degrees, vertical
+  std::optional<double> cameraViewAngle;  ///< degrees, vertical
+  /// A lens in pixels of the picture, in place of the view angle: focal lengths across and down,
+  /// then the principal point from the picture's top left corner, where the first pixel's centre
+  /// is at (0.5, 0.5). Not of parallel projections.
+  std::optional<glm::dvec4> cameraIntrinsics;
   double cameraAzimuthAngle = 0.0, cameraElevationAngle = 0.0;  ///< degrees
   double cameraZoomFactor = 0.9;
   bool cameraOrthographic = false;

@@ -120,6 +120,21 @@ glm::dvec2 parseRange(const std::string& text) {
   return v;
 }
 
+glm::dvec4 parseIntrinsics(const std::string& text) {
+  constexpr double least = 1e-3, most = 1e7;
+  const auto parts = split(text, ',');
+  glm::dvec4 v(0.0);
+  bool good = parts.size() == 4;
+  for (std::size_t i = 0; good && i < 4; ++i)
+    good = readAll(parts[i], v[int(i)]) && std::abs(v[int(i)]) <= most &&
+           (i > 1 || v[int(i)] >= least);
+  if (!good)
+    refuse("--camera-intrinsics", text,
+           "FX,FY,CX,CY in pixels, FX and FY " + rangeText(least, most) + ", CX and CY " +
+               rangeText(-most, most));
+  return v;
+}
+
 glm::ivec2 parseResolution(const std::string& text) {
   const auto parts = split(text, ',');
   glm::ivec2 v;

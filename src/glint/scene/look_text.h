@@ -23,6 +23,7 @@ glm::dvec3 parseVector(const std::string& text, double min, double max, const st
 /// `what` begins the message of the InputError.
 glm::dvec3 parseColor(const std::string& text, const std::string& what);
 glm::dvec2 parseRange(const std::string& text);
+glm::dvec4 parseIntrinsics(const std::string& text);
 glm::ivec2 parseResolution(const std::string& text);
 AntiAliasing parseAntiAliasing(const std::string& text);
 std::string antiAliasingText(const AntiAliasing&);

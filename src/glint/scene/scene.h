@@ -40,7 +40,8 @@ struct Mesh {
   /// Alpha is 1 in all texels that it shows of its material's colour texture: known once that is
   /// decoded, and found out only where the material blends.
   bool opaqueTexels = false;
-  int material = 0;  ///< index into Scene::materials
+  int material = 0;   ///< index into Scene::materials
+  int fileMesh = -1;  ///< place of the mesh it is a primitive of in its file; -1: of none
 };
 
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
@@ -146,6 +147,12 @@ struct Material {
 struct Instance {
   int mesh = 0;
   glm::dmat4 world{1.0};  ///< model to world; the last row is 0 0 0 1
+  int object = -1;        ///< index into Scene::objects; -1: it is none of them
+};
+
+/// A mesh of the file that stands somewhere: all of its primitives together.
+struct FileObject {
+  int node = 0, mesh = 0;  ///< places in the file
 };
 
 /// A camera of the file. It looks along -Z of its own space, +Y up; `world` is a rigid motion.
@@ -204,6 +211,7 @@ struct Scene {
   std::string name;  ///< file name without folder and ending
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<FileObject> objects;  ///< of a file; empty where a scene was made otherwise
   std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
   std::vector<EncodedImage> images;
   std::vector<FileCamera> cameras;

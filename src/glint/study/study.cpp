@@ -58,7 +58,7 @@ class Study {
           ": no pixel shows a lit surface away from its edges: give a nearer camera or "
           "a larger --resolution");
     const DrawList list = makeDrawList(scene_.scene, scene_.bounds, options_.look);
-    result_.draws = list.items.size();
+    result_.draws = drawCalls(list.items).size();
     for (const DrawItem& item : list.items) {
       const Mesh& mesh = scene_.scene.meshes[std::size_t(item.mesh)];
       if (mesh.topology == Topology::triangles) result_.triangles += mesh.indices.size() / 3;
