@@ -9,7 +9,7 @@
 #include "glint/image/stored_image.h"
 
 namespace glint::test {
-namespace {
+namespace max_error_cli_test {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
@@ -104,5 +104,5 @@ TEST_F(MaxErrorInCodes, IsReportedAndSavedAsForms) {
   EXPECT_EQ(of, as);
 }
 
-}  // namespace
+}  // namespace max_error_cli_test
 }  // namespace glint::test

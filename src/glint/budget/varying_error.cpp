@@ -16,7 +16,7 @@ namespace {
 using rounding::u;
 
 // A corner as the driver gets it: in pixels from the picture's middle, with w of clip space.
-struct Corner {
+struct DrawnCorner {
   glm::dvec2 place{0};
   double w = 1;
   glm::dvec3 eye{0};  // right, up, back
@@ -36,20 +36,20 @@ class Measure {
         pixels_(half_.y / camera.halfHeight),
         reach_(layout.scale * std::hypot(layout.tileWidth, layout.bandHeight)) {}
 
-  Corner cornerAt(const glm::dvec3& eye, const glm::dvec3& normal) const {
-    Corner c{{}, camera_.orthographic ? 1.0 : -eye.z, eye, normal};
+  DrawnCorner cornerAt(const glm::dvec3& eye, const glm::dvec3& normal) const {
+    DrawnCorner c{{}, camera_.orthographic ? 1.0 : -eye.z, eye, normal};
     c.place = pixels_ * glm::dvec2(eye) / c.w;
     return c;
   }
 
   // Whether all corners lie beyond one side of what the camera sees.
-  bool isOutside(const Corner& a, const Corner& b, const Corner& c) const {
+  bool isOutside(const DrawnCorner& a, const DrawnCorner& b, const DrawnCorner& c) const {
     const auto all = [&](auto beyond) { return beyond(a) && beyond(b) && beyond(c); };
     const glm::dvec2 edge = half_ / pixels_;
-    if (all([&](const Corner& each) { return -each.eye.z < camera_.near; })) return true;
+    if (all([&](const DrawnCorner& each) { return -each.eye.z < camera_.near; })) return true;
     for (int axis = 0; axis < 2; ++axis)
       for (const double side : {-1.0, 1.0})
-        if (all([&](const Corner& each) {
+        if (all([&](const DrawnCorner& each) {
               return side * each.eye[axis] >
                      edge[axis] * (camera_.orthographic ? 1.0 : -each.eye.z);
             }))
@@ -58,15 +58,15 @@ class Measure {
   }
 
   // `shortest`: of the normals that a triangle's interpolate to.
-  void add(const std::array<Corner, 3>& t, double shortest, bool twoSided, bool mirrored) {
-    if (std::ranges::all_of(t, [&](const Corner& c) { return -c.eye.z >= camera_.near; })) {
+  void add(const std::array<DrawnCorner, 3>& t, double shortest, bool twoSided, bool mirrored) {
+    if (std::ranges::all_of(t, [&](const DrawnCorner& c) { return -c.eye.z >= camera_.near; })) {
       addShown(t[0], t[1], t[2], shortest, twoSided, mirrored);
       return;
     }
     // What lies before the near plane: three or four corners.
-    std::vector<Corner> shown;
+    std::vector<DrawnCorner> shown;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Corner &from = t[i], &to = t[(i + 1) % 3];
+      const DrawnCorner &from = t[i], &to = t[(i + 1) % 3];
       const double a = -from.eye.z - camera_.near, b = -to.eye.z - camera_.near;
       if (a >= 0) shown.push_back(from);
       if ((a >= 0) == (b >= 0)) continue;
@@ -81,8 +81,8 @@ class Measure {
   VaryingError error;
 
  private:
-  void addShown(const Corner& a, const Corner& b, const Corner& c, double shortest, bool twoSided,
-                bool mirrored) {
+  void addShown(const DrawnCorner& a, const DrawnCorner& b, const DrawnCorner& c, double shortest,
+                bool twoSided, bool mirrored) {
     const glm::dvec2 ab = b.place - a.place, ac = c.place - a.place, bc = c.place - b.place;
     const double area = cross(ab, ac);  // twice
     if (!(twoSided ? area != 0 : (mirrored ? -area : area) > 0)) return;
@@ -135,15 +135,15 @@ VaryingError varyingError(const Mesh& mesh, const glm::dmat4& world, bool twoSid
   const glm::dvec3 offset = glm::transpose(camera.axes) *
                             (glm::dmat3(world) * mesh.origin + glm::dvec3(world[3]) - camera.eye);
   const glm::dmat3 toNormals = normalMatrix(glm::dmat3(world));
-  std::vector<Corner> corners;
+  std::vector<DrawnCorner> corners;
   corners.reserve(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     corners.push_back(measure.cornerAt(toEye * glm::dvec3(mesh.positions[i]) + offset,
                                        safeNormalize(toNormals * glm::dvec3(mesh.normals[i]))));
   const bool mirrored = glm::determinant(glm::dmat3(world)) < 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Corner &a = corners[mesh.indices[i]], &b = corners[mesh.indices[i + 1]],
-                 &c = corners[mesh.indices[i + 2]];
+    const DrawnCorner &a = corners[mesh.indices[i]], &b = corners[mesh.indices[i + 1]],
+                      &c = corners[mesh.indices[i + 2]];
     if (measure.isOutside(a, b, c)) continue;
     const glm::dvec3 ab = b.normal - a.normal, ac = c.normal - a.normal;
     const double chord2 =

@@ -229,7 +229,7 @@ std::vector<DrawCall> drawCalls(const std::vector<DrawItem>& items) {
     return !a.blended && !b.blended && a.mesh == b.mesh && a.material == b.material &&
            a.mirrored == b.mirrored && a.faces == b.faces && a.variant == b.variant &&
            std::memcmp(&a.materialBlock, &b.materialBlock, sizeof a.materialBlock) == 0 &&
-           a.draw.normalMatrix[3] == b.draw.normalMatrix[3];
+           a.draw.normalScale == b.draw.normalScale;
   };
   std::vector<DrawCall> calls;
   for (std::size_t i = 0; i < items.size();) {

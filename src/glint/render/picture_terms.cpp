@@ -104,8 +104,7 @@ DrawList termList(const Scene& scene, DrawList list, const PictureTerm& term) {
     std::erase_if(list.items, [](const DrawItem& item) { return item.blended; });
     for (DrawItem& item : list.items) {
       keepGeometry(item, term);
-      glm::vec4& carrier = item.materialBlock.emission;
-      if (term.kind == Kind::ids) carrier = glm::vec4(idsOf(scene, item), carrier.a);
+      if (term.kind == Kind::ids) item.materialBlock.emission = idsOf(scene, item);
     }
     return list;
   }
