@@ -46,7 +46,7 @@ JpegMaker& makerOf(void* clientData) { return *static_cast<JpegMaker*>(clientDat
   std::longjmp(maker.failed, 1);
 }
 
-void onMessage(j_common_ptr) {}
+void ignoreMessage(j_common_ptr) {}
 
 /// Exceptions must not pass through the library.
 bool put(JpegMaker& maker, std::size_t count) {
@@ -83,7 +83,7 @@ bool begin(JpegMaker& maker, int width, int height, int quality) {
   if (setjmp(maker.failed) != 0) return false;
   maker.info.err = jpeg_std_error(&maker.errors);
   maker.errors.error_exit = onError;
-  maker.errors.output_message = onMessage;
+  maker.errors.output_message = ignoreMessage;
   maker.info.client_data = &maker;
   jpeg_create_compress(&maker.info);
   maker.target.init_destination = onBegin;
