@@ -3,7 +3,7 @@
 out vec2 vPicture;  // x and y of the ray at distance 1, eye space
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  vPicture = corner * frame.rays.xy + frame.rays.zw;
+  vPicture = corner * frame.rayScale + frame.rayOffset;
   gl_Position = vec4(corner, 0.0, 1.0);
 }
 #else

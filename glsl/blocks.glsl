@@ -4,17 +4,23 @@
 layout(std140) uniform FrameBlock {
   mat4 projection;       // eye to clip space of this tile
   mat4 worldFromEye;     // rotation to the environment's space (its own rotation included)
-  vec4 view;             // xyz: to the viewer, where that is one direction; w: Schlick's exponent
-  vec4 ambientLight;     // rgb: A; a: samples of a pixel
-  vec4 rays;             // tile's x, y in [-1, 1] to the ray's x, y at distance 1: scale, offset
+  vec3 toViewer;         // where that is one direction
+  float schlickExponent;
+  vec3 ambientLight;     // A
+  float sampleCount;     // of a pixel
+  vec2 rayScale, rayOffset;  // tile's x, y in [-1, 1] to the ray's x, y at distance 1
   vec4 samples[32];      // xy: where in a pixel they lie, from its middle
 } frame;
 
 struct Light {
-  vec4 position;         // xyz: to the light (directional) or where it is, eye space; w: 1 / range or 0
-  vec4 intensity;        // rgb: I_m; w: 1 if it falls off with distance, else 0
-  vec4 axis;             // spot: xyz along its axis, w: cosine of the outer angle
-  vec4 constant;         // directional and constant view: xyz: L + V, or H; w: spot's 1 / (cos inner - cos outer)
+  vec3 position;         // to the light (directional) or where it is, eye space
+  float inverseRange;    // 1 / range, 0 without one
+  vec3 intensity;        // I_m
+  float fallsOff;        // 1 if it falls off with distance, else 0
+  vec3 axis;             // spot: along its axis
+  float cosOuter;        // spot: cosine of the outer angle
+  vec3 halfway;          // directional and constant view: L + V (Phong) or H (Blinn-Phong)
+  float coneScale;       // spot: 1 / (cos inner - cos outer)
 };
 
 #if LIGHTS > 0
@@ -26,7 +32,8 @@ layout(std140) uniform LightBlock {
 #if INSTANCES > 1
 struct Draw {
   mat4 eyeFromModel;
-  mat4 normalMatrix;     // as below; the 4th columns of all are the same
+  mat3 normalMatrix;     // as below
+  float normalScale, handedness;  // the same for all
 };
 layout(std140) uniform DrawBlock {
   Draw draws[INSTANCES];  // the places of one call
@@ -39,19 +46,24 @@ layout(std140) uniform DrawBlock {
 #else
 layout(std140) uniform DrawBlock {
   mat4 eyeFromModel;
-  mat4 normalMatrix;     // cofactors of eyeFromModel, scaled; its columns' xyz; 4th: scale of the normal map, 0, 0, -1 if mirrored
+  mat3 normalMatrix;     // cofactors of eyeFromModel, scaled
+  float normalScale;     // of the normal map's x and y
+  float handedness;      // -1 if eyeFromModel mirrors, else 1
 } draw;
 #endif
 
 layout(std140) uniform MaterialBlock {
-  vec4 color;            // rgb: C, a: alpha
-  vec4 emission;         // rgb; a: alpha cutoff
-  vec4 strength;         // m_a, m_d, m_s, exponent of the lobe
-  vec4 surface;          // metalness, transmission, R0, k of the rational reflectance
-  vec4 entering;         // Boundary of front faces
-  vec4 leaving;          // Boundary of back faces
-  vec4 lobe;             // xy: constants of the lobe's form; zw: of the second form in use
-  vec4 dimmerLobe;       // of the third and the fourth
-  vec4 textured;         // what textures multiply: metallic, roughness, reflectance, strength of occlusion
-  vec4 detail;           // x: the lobe's exponent over Phong's
+  vec3 color;            // C
+  float alpha;
+  vec3 emission;
+  float alphaCutoff;
+  float ambient, diffuse, specular, exponent;  // m_a, m_d, m_s; of the lobe
+  float metalness, transmission;               // m_sm, t
+  float normalReflectance;                     // R0, at normal incidence
+  float rationalSlope;                         // k of the rational reflectance
+  vec4 entering, leaving;                      // Boundary of front and of back faces
+  vec2 lobe, secondLobe, thirdLobe, fourthLobe;  // constants of the forms of the lobe in use
+  // What textures multiply; and the lobe's exponent over Phong's.
+  float metallic, roughness, reflectance, occlusionStrength;
+  float blinnFactor;
 } material;

@@ -20,21 +20,21 @@ void main() {
 #if SHADES_AT_OFFSET
   findShadingPlace();
 #endif
-  vec4 base = material.color;
+  vec4 base = vec4(material.color, material.alpha);
 #if VERTEX_COLORS
   base *= arrived(AT_PLACE(vColor));
 #endif
 #if COLOR_TEXTURE
-  base *= TEXTURE_AT(colorTexture, vColorTexcoord);
+  base *= TEXTURE_AT(colorTexture, COLOR_RULE, vColorTexcoord);
 #endif
 #if ALPHA_MASK
-  if (base.a < material.emission.a) discard;
+  if (base.a < material.alphaCutoff) discard;
 #endif
   vec3 emission = vec3(0.0);
 #if !UNLIT && EMISSION
-  emission = material.emission.rgb;
+  emission = material.emission;
 #if EMISSION_TEXTURE
-  emission *= TEXTURE_AT(emissionTexture, vEmissionTexcoord).rgb;
+  emission *= TEXTURE_AT(emissionTexture, EMISSION_RULE, vEmissionTexcoord).rgb;
 #endif
 #endif
 #if OUTPUT == OUTPUT_COLOR
@@ -44,7 +44,7 @@ void main() {
 #elif OUTPUT == OUTPUT_DEPTH
   fragment = vec4(gl_FragCoord.z, gl_FragCoord.w, 0.0, 1.0);
 #elif OUTPUT == OUTPUT_IDS
-  fragment = vec4(material.emission.rgb, 1.0);
+  fragment = vec4(material.emission, 1.0);
 #elif OUTPUT != OUTPUT_RADIANCE && UNLIT
   fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
 #elif OUTPUT == OUTPUT_NORMAL

@@ -4,10 +4,10 @@
 // lobe.glsl that stands before this file.
 
 // Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
-// and stands before anything that would be 0/0 behind it. `constant` is L + V (Phong) or H
+// and stands before anything that would be 0/0 behind it. `halfway` is L + V (Phong) or H
 // (Blinn-Phong) where those are constant, and is not read otherwise. `even`: the exponent is 0, where
 // every form is 1 up to 90 degrees.
-void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 constant,
+void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 halfway,
                bool isConstant, vec2 shape, bool even) {
   float cosLight = dot(n, l);
   if (!(cosLight > 0.0)) return;
@@ -15,7 +15,7 @@ void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 
   sum.diffuse += intensity * cosLight;
 #endif
 #if LOBE
-  vec3 between = isConstant ? constant : l + v;
+  vec3 between = isConstant ? halfway : l + v;
 #if BLINN
   // Where L = -V the half vector is undefined and the light grazes: no highlight.
   float square = dot(between, between);
@@ -44,27 +44,27 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v, Parameters p)
   bool even = LOBE_EVEN;
 #if DIRECTIONAL_END > DIRECTIONAL_FROM
   for (int i = DIRECTIONAL_FROM; i < DIRECTIONAL_END; ++i)
-    ADD_LIGHT(sum, n, v, lights[i].position.xyz, lights[i].intensity.rgb, lights[i].constant.xyz,
+    ADD_LIGHT(sum, n, v, lights[i].position, lights[i].intensity, lights[i].halfway,
               bool(CONSTANT_VIEW), shape, even);
 #endif
 #if POINT_END > POINT_FROM
   for (int i = POINT_FROM; i < POINT_END; ++i)
   {
-    vec3 way = lights[i].position.xyz - position, intensity = lights[i].intensity.rgb;
+    vec3 way = lights[i].position - position, intensity = lights[i].intensity;
 #if LIGHT_FALLOFF
-    if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
+    if (lights[i].fallsOff > 0.0) intensity *= lightFalloff(way, lights[i].inverseRange);
 #endif
     ADD_LIGHT(sum, n, v, safeUnit(way), intensity, vec3(0.0), false, shape, even);
   }
 #endif
 #if SPOT_END > SPOT_FROM
   for (int i = SPOT_FROM; i < SPOT_END; ++i) {
-    vec3 way = lights[i].position.xyz - position, l = safeUnit(way);
+    vec3 way = lights[i].position - position, l = safeUnit(way);
     // glTF's cone: full inside the inner angle, the square of a ramp in the cosine to the outer one.
-    float cone = clamp((dot(-l, lights[i].axis.xyz) - lights[i].axis.w) * lights[i].constant.w, 0.0, 1.0);
-    vec3 intensity = lights[i].intensity.rgb * (cone * cone);
+    float cone = clamp((dot(-l, lights[i].axis) - lights[i].cosOuter) * lights[i].coneScale, 0.0, 1.0);
+    vec3 intensity = lights[i].intensity * (cone * cone);
 #if LIGHT_FALLOFF
-    if (lights[i].intensity.w > 0.0) intensity *= lightFalloff(way, lights[i].position.w);
+    if (lights[i].fallsOff > 0.0) intensity *= lightFalloff(way, lights[i].inverseRange);
 #endif
     ADD_LIGHT(sum, n, v, l, intensity, vec3(0.0), false, shape, even);
   }

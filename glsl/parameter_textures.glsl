@@ -15,18 +15,16 @@ uniform sampler2D transmissionTexture;
 
 // A vertex or a face has no neighbours to tell how much of the picture it stands for.
 #if VERTEX_STAGE
-#define TEXEL(image, place) textureLod(image, place, 0.0)
+#define TEXEL(image, rule, place) textureAtLevel(image, rule, place, 0.0)
 #else
-#define TEXEL(image, place) TEXTURE_AT(image, place)
+#define TEXEL(image, rule, place) TEXTURE_AT(image, rule, place)
 #endif
 
 Parameters parametersHere() {
-  vec4 strength = material.strength;
-  Parameters p = Parameters(strength.x, strength.y, strength.z, strength.w, material.surface.x,
-                            material.surface.y);
-  float metallic = material.textured.x, roughness = material.textured.y;
+  Parameters p = materialParameters();
+  float metallic = material.metallic, roughness = material.roughness;
 #if METALLIC_ROUGHNESS_TEXTURE
-  vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_PLACE);
+  vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_RULE, METALLIC_ROUGHNESS_PLACE);
   metallic *= texel.b;
   roughness *= texel.g;
 #endif
@@ -42,12 +40,12 @@ Parameters parametersHere() {
   float exponent = max(0.5 / (square * square) - 0.5, 0.0);
 #endif
 #if TEXTURED_EXPONENT
-  p.exponent = material.detail.x * exponent;
+  p.exponent = material.blinnFactor * exponent;
 #endif
 #if TEXTURED_SPECULAR
-  float reflectance = material.textured.z;
+  float reflectance = material.reflectance;
 #if SPECULAR_TEXTURE
-  reflectance *= TEXEL(specularTexture, SPECULAR_PLACE).a;
+  reflectance *= TEXEL(specularTexture, SPECULAR_RULE, SPECULAR_PLACE).a;
 #endif
   // The peaks of the lobes of a dielectric and of a metal.
   float blinn = 4.0 * exponent, metal = (blinn / 8.0) * (blinn / (blinn + 8.0));
@@ -55,10 +53,11 @@ Parameters parametersHere() {
   p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);
 #endif
 #if TEXTURED_AMBIENT
-  p.ambient *= 1.0 + material.textured.w * (TEXEL(occlusionTexture, OCCLUSION_PLACE).r - 1.0);
+  float occlusion = TEXEL(occlusionTexture, OCCLUSION_RULE, OCCLUSION_PLACE).r;
+  p.ambient *= 1.0 + material.occlusionStrength * (occlusion - 1.0);
 #endif
 #if TEXTURED_TRANSMISSION
-  p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_PLACE).r;
+  p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_RULE, TRANSMISSION_PLACE).r;
 #endif
   return p;
 }

@@ -5,12 +5,15 @@ struct Parameters {
   float metalness, transmission;     // m_sm, t
 };
 
+Parameters materialParameters() {
+  return Parameters(material.ambient, material.diffuse, material.specular, material.exponent,
+                    material.metalness, material.transmission);
+}
+
 #if PARAMETER_TEXTURES
 Parameters parametersHere();  // parameter_textures.glsl
 #else
 Parameters parametersHere() {
-  vec4 strength = material.strength;
-  return Parameters(strength.x, strength.y, strength.z, strength.w, material.surface.x,
-                    material.surface.y);
+  return materialParameters();
 }
 #endif

@@ -12,8 +12,8 @@ uniform sampler2D normalTexture;
 #if VERTEX_STAGE
 #if NORMAL_TEXTURE
 void passTangent(vec4 tangent, vec2 texcoord) {
-  // A mirroring transform, whose sign stands in the corner, turns the handedness.
-  vTangent = vec4(safeUnit(mat3(draw.eyeFromModel) * tangent.xyz), tangent.w * draw.normalMatrix[3][3]);
+  // A mirroring transform turns the handedness.
+  vTangent = vec4(safeUnit(mat3(draw.eyeFromModel) * tangent.xyz), tangent.w * draw.handedness);
   vNormalTexcoord = texcoord;
 }
 #endif
@@ -49,7 +49,7 @@ Inputs inputsAtPlace() {
   at.normal = AT_PLACE(vNormal);
 #if NORMAL_TEXTURE
   at.tangent = AT_PLACE(vTangent);
-  at.texel = TEXTURE_AT(normalTexture, vNormalTexcoord);
+  at.texel = TEXTURE_AT(normalTexture, NORMAL_RULE, vNormalTexcoord);
 #endif
   return at;
 }
@@ -65,7 +65,8 @@ Inputs inputsInMiddle() {
   at.normal = vNormal;
 #if NORMAL_TEXTURE
   at.tangent = vTangent;
-  at.texel = textureAt(normalTexture, vNormalTexcoord, dFdx(vNormalTexcoord), dFdy(vNormalTexcoord));
+  at.texel = textureAt(normalTexture, NORMAL_RULE, vNormalTexcoord, dFdx(vNormalTexcoord),
+                       dFdy(vNormalTexcoord));
 #endif
   return at;
 }
@@ -83,7 +84,7 @@ vec3 surfaceNormal(Inputs at) {
 #endif
 #if NORMAL_TEXTURE
   vec3 m = 2.0 * at.texel.xyz - 1.0;
-  m.xy *= draw.normalMatrix[3][0];
+  m.xy *= draw.normalScale;
   vec3 mapped = m.x * at.tangent.xyz + m.y * at.tangent.w * cross(n, at.tangent.xyz) + m.z * n;
   if (dot(mapped, mapped) > 1e-12) n = mapped;
 #endif

@@ -52,7 +52,7 @@ vec3 shade(vec4 base) {
 #if TEXTURED_METALNESS
   float metalness = clamp(CARRIED_AT(vMetalness), 0.0, 1.0);
 #else
-  float metalness = material.surface.x;
+  float metalness = material.metalness;
 #endif
   return surfaceColor(LightSum(arrived(vec4(sum.diffuse, 0.0)).rgb, arrived(vec4(sum.specular, 0.0)).rgb),
                       base.rgb, metalness);

@@ -14,7 +14,7 @@ LightSum sumLights(vec3 position, vec3 n, vec3 v, Parameters p) {
 #if LOBE_FORMS > 3
   addLights3(sum, position, n, v, p);
 #endif
-  sum.diffuse = p.ambient * frame.ambientLight.rgb + p.diffuse * sum.diffuse;
+  sum.diffuse = p.ambient * frame.ambientLight + p.diffuse * sum.diffuse;
   sum.specular *= p.specular;
   return sum;
 }
@@ -29,7 +29,7 @@ vec3 surfaceColor(LightSum sum, vec3 color, float metalness) {
 // overflows: towards +Z.
 vec3 toViewer(vec3 position) {
 #if CONSTANT_VIEW
-  return frame.view.xyz;
+  return frame.toViewer;
 #else
   float square = dot(position, position);
   return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);

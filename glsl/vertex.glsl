@@ -35,7 +35,7 @@ out float vDistance;  // w of clip space
 // Cofactors keep normals perpendicular under any transform; where the transform is a rotation with
 // one scale they stay unit and need no division.
 vec3 eyeNormal() {
-  vec3 n = mat3(draw.normalMatrix) * normal;
+  vec3 n = draw.normalMatrix * normal;
 #if UNEVEN_SCALE
   n = safeUnit(n);
 #endif

@@ -13,6 +13,8 @@
 #include "glint/image/read_image.h"
 #include "scenes.h"
 
+namespace batch_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::quick;
@@ -23,8 +25,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
 
 using Json = nlohmann::json;
 
@@ -127,8 +127,6 @@ class Running {
   int in_ = -1, out_ = -1;
   std::string text_;
 };
-
-}  // namespace
 
 // A model from a pipe is the picture of its file, and its faults are told as stdin's.
 TEST(Stdin, IsAModel) {
@@ -724,3 +722,5 @@ TEST(Batch, OptionsThatExcludeEachOther) {
   }
   EXPECT_THAT(folder.names(), ElementsAre("list"));
 }
+
+}  // namespace batch_cli_test

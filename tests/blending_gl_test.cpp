@@ -11,7 +11,7 @@
 #include "textures.h"
 
 namespace glint::test {
-namespace {
+namespace blending_gl_test {
 
 class Blending : public OnStage {};
 
@@ -49,8 +49,6 @@ std::vector<AntiAliasing> kinds() {
   return {
       {AntiAliasing::Mode::none, 1}, {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::ssaa, 2}};
 }
-
-}  // namespace
 
 // Binary fractions, so that every sum is exact; nearest first in the list of triangles.
 TEST_P(Blending, PanesOfOneMeshLieOverOneAnother) {
@@ -220,4 +218,5 @@ TEST_P(Blending, TexelsThatAreUsedDecide) {
 
 INSTANTIATE_TEST_SUITE_P(Software, Blending, softwareBackends(), nameOfBackend);
 
+}  // namespace blending_gl_test
 }  // namespace glint::test

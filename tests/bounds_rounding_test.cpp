@@ -12,9 +12,9 @@
 
 #include "glint/shading/bounds.h"
 
-using namespace glint;
+namespace bounds_rounding_test {
 
-namespace {
+using namespace glint;
 
 int draws(int usual) {
   const char* more = std::getenv("GLINT_BOUND_DRAWS");
@@ -135,4 +135,4 @@ TEST(Bounds, OfRoundingCoverReflectancesInSinglePrecision) {
   EXPECT_GT(nearest, 0.2);
 }
 
-}  // namespace
+}  // namespace bounds_rounding_test

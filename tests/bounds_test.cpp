@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <random>
 
-using namespace glint;
+namespace bounds_test {
 
-namespace {
+using namespace glint;
 
 int draws(int usual) {
   const char* more = std::getenv("GLINT_BOUND_DRAWS");
@@ -184,4 +184,4 @@ TEST(Bounds, OfEnvironments) {
   }
 }
 
-}  // namespace
+}  // namespace bounds_test

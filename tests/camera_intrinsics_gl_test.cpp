@@ -6,12 +6,12 @@
 #include "glint/reference/renderer.h"
 #include "stage.h"
 
+namespace camera_intrinsics_gl_test {
+
 using glint::Image;
 using glint::Look;
 using glint::Scene;
 using namespace glint::test;
-
-namespace {
 
 constexpr int left = 37, top = 11, width = 80, height = 60;  // the part, of 160 x 120
 
@@ -22,8 +22,6 @@ class Intrinsics : public OnStage {
     return glint::ReferenceRenderer(scene, {}, boundsOf(scene), look).draw();
   }
 };
-
-}  // namespace
 
 TEST_P(Intrinsics, SeeAPartOfALargerPicture) {
   glint::Material glass = materialOf(1, 0.7, 0.5, 40, 0, {0.9, 0.5, 0.3});
@@ -64,3 +62,5 @@ TEST_P(Intrinsics, SeeAPartOfALargerPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Intrinsics, softwareBackends(), nameOfBackend);
+
+}  // namespace camera_intrinsics_gl_test

@@ -9,14 +9,14 @@
 #include "glint/scene/camera.h"
 #include "scenes.h"
 
+namespace camera_test {
+
 using glint::Bounds;
 using glint::Camera;
 using glint::cameraFor;
 using glint::Look;
 using glint::Scene;
 using glint::test::degrees;
-
-namespace {
 
 // Double arithmetic of some ten operations on numbers of about 1.
 constexpr double tight = 1e-14;
@@ -55,8 +55,6 @@ glm::dvec3 ndc(const glm::dmat4& m, const glm::dvec3& eye) {
   const glm::dvec4 clip = m * glm::dvec4(eye, 1);
   return glm::dvec3(clip) / clip.w;
 }
-
-}  // namespace
 
 TEST(Bounds, AreTheBoxesCentreAndTheFarthestVertex) {
   const glm::dvec3 center(1, -2, 3);
@@ -439,3 +437,5 @@ TEST(TurnedLook, GoesRoundTheCentre) {
       EXPECT_NEAR(after.far, before.far, 16 * tight);
     }
 }
+
+}  // namespace camera_test

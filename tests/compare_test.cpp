@@ -12,7 +12,7 @@
 
 #include "glint/image/error.h"
 
-namespace {
+namespace compare_test {
 
 using glint::AlphaUse;
 using glint::compare;
@@ -399,4 +399,4 @@ TEST(StructuralSimilarity, ClosedCases) {
   }
 }
 
-}  // namespace
+}  // namespace compare_test

@@ -14,14 +14,14 @@
 #include "glint/render/glsl_builtin.h"
 #include "variants.h"
 
+namespace composition_test {
+
 using glint::compose;
 using glint::ComposedProgram;
 using glint::GlslSources;
 using glint::Variant;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 // Runs the conditions of a text: what is left is what the driver compiles. Fails on an #if that
 // reads a name nobody defines (it would be 0 in silence), on unbalanced #ifs and on a name defined
@@ -142,8 +142,6 @@ class Preprocessor {
 std::string fragmentOf(const Variant& v) {
   return Preprocessor().run(compose(v, GlslSources(), false).fragment);
 }
-
-}  // namespace
 
 TEST(Composition, ComposesEveryVariantOfABroadSample) {
   for (const Variant& v : glint::test::sampledVariants())
@@ -272,3 +270,5 @@ TEST(GlslSources, AreThoseOfTheFolder) {
     EXPECT_EQ(GlslSources().text(entry.path().filename().string()), text.str()) << entry.path();
   }
 }
+
+}  // namespace composition_test

@@ -4,25 +4,21 @@
 
 #include <cmath>
 #include <cstring>
-#include <ostream>
 #include <thread>
 #include <vector>
 
+#include "backend_name.h"
 #include "glint/gl/check.h"
 #include "glint/gl/context.h"
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/program.h"
 #include "glint/image/error.h"
 
-namespace glint {
-void PrintTo(Backend backend, std::ostream* out) { *out << backendName(backend); }
-}  // namespace glint
-
 using glint::Backend;
 using testing::AllOf;
 using testing::HasSubstr;
 
-namespace {
+namespace context_gl_test {
 
 TEST(NoContext, IsAnErrorInWords) {
   const auto open = [] { return glint::RenderTarget(8, 8, 1); };
@@ -122,8 +118,6 @@ class OnBackend : public testing::TestWithParam<Backend> {
   }
   std::unique_ptr<glint::Context> context_;
 };
-
-}  // namespace
 
 TEST_P(OnBackend, IsSoftwareOfAtLeast33) {
   const glint::GlStrings gl = glint::glStrings();
@@ -286,3 +280,5 @@ TEST(Contexts, ProbeReportsEachBackend) {
     EXPECT_THAT(report.detail, HasSubstr("OpenGL 4"));
   }
 }
+
+}  // namespace context_gl_test

@@ -7,11 +7,11 @@
 
 #include "stage.h"
 
+namespace context_lost_gl_test {
+
 using glint::Backend;
 using glint::Error;
 using namespace glint::test;
-
-namespace {
 
 constexpr GLenum contextLost = 0x0507;
 
@@ -35,8 +35,6 @@ class FailingDriver {
 };
 
 class ContextLost : public OnStage {};
-
-}  // namespace
 
 TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
   const glint::Scene scene = sceneOf(sphere(8, 4), materialOf(1, 1, 0.5, 20));
@@ -72,3 +70,5 @@ TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, ContextLost, softwareBackends(), nameOfBackend);
+
+}  // namespace context_lost_gl_test

@@ -8,6 +8,8 @@
 #include "command.h"
 #include "scenes.h"
 
+namespace convert_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::quick;
@@ -17,8 +19,6 @@ using glint::test::shipped;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
 
 using Json = nlohmann::json;
 
@@ -66,8 +66,6 @@ std::string peculiar(const Folder& folder, const std::string& name = "model") {
   std::ofstream(path) << text;
   return path;
 }
-
-}  // namespace
 
 TEST(Convert, WhatIsWrittenIsWhatTheEditDraws) {
   Folder folder("convert");
@@ -188,3 +186,5 @@ TEST(Convert, WhatCannotBe) {
   EXPECT_THAT(nothing.err, HasSubstr("warning"));
   EXPECT_EQ(contents(in), contents(folder / "a.glb"));
 }
+
+}  // namespace convert_cli_test

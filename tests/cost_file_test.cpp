@@ -10,7 +10,7 @@
 #include "gltf_text.h"
 
 namespace glint {
-namespace {
+namespace cost_file_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -96,5 +96,5 @@ TEST(CostFile, RefusesWhatIsNoTable) {
   EXPECT_THROW(readCostFile("/no/such/costs.json"), InputError);
 }
 
-}  // namespace
+}  // namespace cost_file_test
 }  // namespace glint

@@ -7,7 +7,7 @@
 #include "glint/study/cost_measurement.h"
 
 namespace glint {
-namespace {
+namespace cost_measurement_gl_test {
 
 TEST(CostMeasurementOnGl, FillsATable) {
   const auto context = openContext(Backend::automatic);
@@ -53,5 +53,5 @@ TEST(CostMeasurement, RoundsToMultiplesOfTheNoiseAwayFromTheExactForm) {
   EXPECT_EQ(roundedCost(31.2, 0), 31.2);
 }
 
-}  // namespace
+}  // namespace cost_measurement_gl_test
 }  // namespace glint

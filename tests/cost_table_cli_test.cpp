@@ -8,7 +8,7 @@
 #include "command.h"
 
 namespace glint::test {
-namespace {
+namespace cost_table_cli_test {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
@@ -117,5 +117,5 @@ TEST_F(CostTableCommand, AnotherTableIsAnotherPictureForResume) {
   EXPECT_FALSE(skipped());
 }
 
-}  // namespace
+}  // namespace cost_table_cli_test
 }  // namespace glint::test

@@ -8,6 +8,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
+namespace diff_cli_test {
+
 using glint::Image;
 using glint::test::contents;
 using glint::test::Folder;
@@ -18,8 +20,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using Json = nlohmann::json;
-
-namespace {
 
 /// Writes a ramp of grey whose pixels (0, 0) to (differing - 1, 0) are brighter by `more`.
 void write(const std::string& path, int differing = 0, float more = 0.25f, int width = 24,
@@ -354,4 +354,4 @@ TEST(DiffJobs, DoNotChangeTheResult) {
   EXPECT_THAT(pages[0], Not(HasSubstr("https:")));
 }
 
-}  // namespace
+}  // namespace diff_cli_test

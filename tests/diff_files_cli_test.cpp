@@ -9,6 +9,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
+namespace diff_files_cli_test {
+
 using glint::ExrLayer;
 using glint::Image;
 using glint::test::contents;
@@ -18,8 +20,6 @@ using glint::test::runGlint;
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
-
-namespace {
 
 Image filled(int width, int height, std::initializer_list<float> pixel) {
   Image image{width, height, {}};
@@ -243,4 +243,4 @@ TEST(DiffReports, PicturesBesideThePage) {
   EXPECT_EQ(files.diff({"x", "y", "--pictures-beside"}).status, 2);
 }
 
-}  // namespace
+}  // namespace diff_files_cli_test

@@ -12,6 +12,8 @@
 #include "glint/render/draw_list.h"
 #include "scenes.h"
 
+namespace draw_list_test {
+
 using glint::DrawItem;
 using glint::DrawList;
 using glint::FaceSide;
@@ -19,8 +21,6 @@ using glint::Light;
 using glint::Look;
 using glint::Scene;
 using glint::test::degrees;
-
-namespace {
 
 constexpr double half = 1.0 / (1 << 24);  // rounding to float: half an ulp, relative
 
@@ -70,7 +70,7 @@ void expectNormalMatrix(const glm::dmat4& world) {
   const Scene scene = glint::test::sceneOf(glint::test::quad(), {}, world);
   const DrawList list = listOf(scene, look);
   ASSERT_EQ(list.items.size(), 1u);
-  const glm::mat4& matrix = list.items[0].draw.normalMatrix;
+  const glm::mat3x4& matrix = list.items[0].draw.normalMatrix;
   const Matrix exact = inverseTranspose(
       product(fromGlm(glm::transpose(list.camera.axes)), fromGlm(glm::dmat3(world))));
   for (const glm::dvec3& n : normals) {
@@ -106,8 +106,6 @@ glint::Material blended(const char* name) {
   return m;
 }
 
-}  // namespace
-
 TEST(NormalMatrix, IsTheInverseTransposeUnderEveryTransform) {
   using glint::test::rotation, glint::test::scaling, glint::test::translation;
   glm::dmat4 shear(1);
@@ -140,7 +138,7 @@ TEST(NormalMatrix, OfSingularTransformsIsFinite) {
   const DrawList list =
       listOf(glint::test::sceneOf(glint::test::quad(), {}, glint::test::scaling({1, 1, 0})),
              glint::test::parallelLook());
-  const glm::mat4& m = list.items.at(0).draw.normalMatrix;
+  const glm::mat3x4& m = list.items.at(0).draw.normalMatrix;
   EXPECT_EQ(glm::vec3(m[2]), glm::vec3(0, 0, 1));
   EXPECT_EQ(glm::vec3(m[0]), glm::vec3(0));
 }
@@ -313,11 +311,16 @@ TEST(MaterialBlocks, HoldTheEditedNumbers) {
     const glint::MaterialBlock block = listOf(scene, look).items.at(0).materialBlock;
     const bool blinn =
         shading == glint::Shading::blinnPhong || shading == glint::Shading::environment;
-    EXPECT_EQ(block.strength, glm::vec4(0.9f, 0.8f, 0.125f, blinn ? 60 : 20));
-    EXPECT_EQ(block.color, glm::vec4(0.1f, 0.2f, 0.3f, 0.5f));
-    EXPECT_EQ(block.emission, glm::vec4(1, 2, 3, 0.75f));
-    EXPECT_EQ(block.surface.x, 0.25f);
-    EXPECT_EQ(block.surface.y, 0.625f);
+    EXPECT_EQ(block.ambient, 0.9f);
+    EXPECT_EQ(block.diffuse, 0.8f);
+    EXPECT_EQ(block.specular, 0.125f);
+    EXPECT_EQ(block.exponent, blinn ? 60.0f : 20.0f);
+    EXPECT_EQ(block.color, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(block.alpha, 0.5f);
+    EXPECT_EQ(block.emission, glm::vec3(1, 2, 3));
+    EXPECT_EQ(block.alphaCutoff, 0.75f);
+    EXPECT_EQ(block.metalness, 0.25f);
+    EXPECT_EQ(block.transmission, 0.625f);
   }
 }
 
@@ -360,20 +363,20 @@ TEST(LightEntries, AreInEyeSpaceInTheOrderOfTheShaders) {
   const DrawList list = listOf(glint::test::sceneOf(glint::test::quad()), look);
   ASSERT_EQ(list.lights.size(), 4u);  // the black one is left out
   const double unit = list.camera.unit;
-  const auto expectVector = [](const glm::vec4& v, const glm::dvec3& w) {
+  const auto expectVector = [](const glm::vec3& v, const glm::dvec3& w) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(v[i], w[i], 4 * half * (1 + std::abs(w[i])));
   };
   expectVector(list.lights[0].position, {0, 1, 0});
-  expectVector(list.lights[0].constant, {0, 1, 1});  // L + V
+  expectVector(list.lights[0].halfway, {0, 1, 1});  // L + V
   expectVector(list.lights[1].position, {0, 0, 1});
-  expectVector(list.lights[1].constant, {0, 0, 2});
+  expectVector(list.lights[1].halfway, {0, 0, 2});
   // The eye stands at (4, 0, 0), its right is -Z, its back +X.
   expectVector(list.lights[2].position, glm::dvec3(8, 0, -4) / unit);
   expectVector(list.lights[3].position, glm::dvec3(0, 3, 0) / unit);
   expectVector(list.lights[3].axis, {0, -1, 0});
-  EXPECT_NEAR(list.lights[3].axis.w, 0.5, half);
-  EXPECT_NEAR(list.lights[3].constant.w, 1 / (std::cos(20 * degrees) - 0.5), 4 * half);
-  EXPECT_EQ(glm::vec3(list.lights[3].intensity), glm::vec3(1, 2, 3));
+  EXPECT_NEAR(list.lights[3].cosOuter, 0.5, half);
+  EXPECT_NEAR(list.lights[3].coneScale, 1 / (std::cos(20 * degrees) - 0.5), 4 * half);
+  EXPECT_EQ(list.lights[3].intensity, glm::vec3(1, 2, 3));
 }
 
 TEST(LightEntries, HoldTheHalfVectorForBlinnAndNothingWhereItIsUndefined) {
@@ -381,9 +384,9 @@ TEST(LightEntries, HoldTheHalfVectorForBlinnAndNothingWhereItIsUndefined) {
   look.shading = glint::Shading::blinnPhong;
   look.light = {glint::test::directional({1, 0, 0}), glint::test::directional({0, 0, -1})};
   const DrawList list = listOf(glint::test::sceneOf(glint::test::quad()), look);
-  EXPECT_NEAR(list.lights.at(0).constant.x, std::sqrt(0.5), half);
-  EXPECT_NEAR(list.lights.at(0).constant.z, std::sqrt(0.5), half);
-  EXPECT_EQ(glm::vec3(list.lights.at(1).constant), glm::vec3(0));
+  EXPECT_NEAR(list.lights.at(0).halfway.x, std::sqrt(0.5), half);
+  EXPECT_NEAR(list.lights.at(0).halfway.z, std::sqrt(0.5), half);
+  EXPECT_EQ(list.lights.at(1).halfway, glm::vec3(0));
 }
 
 TEST(LightEntries, ExtremeDistancesKeepTheirDirection) {
@@ -424,3 +427,5 @@ TEST(Frame, EnvironmentTurnsAboutY) {
   EXPECT_NEAR(seen.z, 1, half);
   EXPECT_NEAR(seen.x, 0, half);
 }
+
+}  // namespace draw_list_test

@@ -11,7 +11,7 @@
 #include "glint/render/environment_image.h"
 #include "gltf_text.h"
 
-namespace {
+namespace environment_image_test {
 
 using glint::EnvironmentImage;
 using glint::makeEnvironmentImage;
@@ -191,4 +191,4 @@ TEST(EnvironmentImage, IsReadOnceAndOnlyWhereItShows) {
   }
 }
 
-}  // namespace
+}  // namespace environment_image_test

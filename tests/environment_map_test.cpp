@@ -8,11 +8,11 @@
 #include <numbers>
 #include <random>
 
+namespace environment_map_test {
+
 using glint::BuiltinEnvironment;
 using glint::environmentRadiance;
 using glm::dvec3;
-
-namespace {
 
 constexpr BuiltinEnvironment all[] = {BuiltinEnvironment::white, BuiltinEnvironment::sky,
                                       BuiltinEnvironment::studio};
@@ -158,4 +158,4 @@ TEST(EnvironmentMap, IsTotalAndAsksForNoUnitDirection) {
   }
 }
 
-}  // namespace
+}  // namespace environment_map_test

@@ -19,10 +19,10 @@
 #include "random.h"
 #include "stage.h"
 
+namespace error_budget_chain_gl_test {
+
 using namespace glint;
 using namespace glint::test;
-
-namespace {
 
 class BudgetOfTheWholeChain : public OnStage {};
 
@@ -110,8 +110,6 @@ bool inside(const std::vector<reference::Attributes>& seen, int x, int y) {
   return true;
 }
 
-}  // namespace
-
 TEST_P(BudgetOfTheWholeChain, KeepsItsBound) {
   Random r(57);
   const int draws = drawsOf("GLINT_BUDGET_DRAWS", 60);
@@ -189,3 +187,5 @@ TEST_P(BudgetOfTheWholeChain, KeepsItsBound) {
 
 INSTANTIATE_TEST_SUITE_P(Software, BudgetOfTheWholeChain, testing::Values(Backend::osmesa),
                          nameOfBackend);
+
+}  // namespace error_budget_chain_gl_test

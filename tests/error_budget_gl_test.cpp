@@ -19,7 +19,7 @@
 #include "scenes.h"
 
 namespace glint {
-namespace {
+namespace error_budget_gl_test {
 
 class BudgetOnDriver : public testing::TestWithParam<Backend> {};
 
@@ -162,5 +162,5 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
 INSTANTIATE_TEST_SUITE_P(Software, BudgetOnDriver, testing::Values(Backend::osmesa),
                          [](const auto&) { return "osmesa"; });
 
-}  // namespace
+}  // namespace error_budget_gl_test
 }  // namespace glint

@@ -14,6 +14,8 @@
 #include "random.h"
 #include "scenes.h"
 
+namespace error_budget_sequence_test {
+
 using namespace glint;
 using namespace glint::test;
 
@@ -130,3 +132,5 @@ TEST(LobeTurnBound, HoldsForEveryTurn) {
         << "exponent " << alpha << " at " << angle << " turned by " << turn;
   }
 }
+
+}  // namespace error_budget_sequence_test

@@ -22,9 +22,9 @@
 #include "random.h"
 #include "scenes.h"
 
-using namespace glint;
+namespace error_budget_test {
 
-namespace {
+using namespace glint;
 
 int draws(int usual) { return test::drawsOf("GLINT_BUDGET_DRAWS", usual); }
 
@@ -95,8 +95,6 @@ std::string describe(const Draw& d, const ResolvedLook& r) {
   return saveLook(d.look) + saveLook(r.look) + " exponent " +
          std::to_string(d.scene.materials[0].shading.exponent);
 }
-
-}  // namespace
 
 TEST(ErrorBudget, PicturesKeepWithinIt) {
   Random random(21);
@@ -449,3 +447,5 @@ TEST(ActiveIntensity, CountsOnlyLightsThatOneNormalSees) {
     }
   }
 }
+
+}  // namespace error_budget_test

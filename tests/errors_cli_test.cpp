@@ -7,6 +7,8 @@
 #include "command.h"
 #include "scenes.h"
 
+namespace errors_cli_test {
+
 using glint::test::Folder;
 using glint::test::quick;
 using glint::test::Ran;
@@ -18,8 +20,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-namespace {
-
 const std::string sphere = shipped + "sphere.glb";
 
 void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
@@ -30,8 +30,6 @@ void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
   EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
   EXPECT_THAT(ran.out, IsEmpty());
 }
-
-}  // namespace
 
 TEST(Usage, CommandsAndOptionsThatDoNotExist) {
   expectRefusal(runGlint({}), "see glint --help");
@@ -356,11 +354,7 @@ TEST(Usage, OneBrokenModelDoesNotStopTheOthers) {
   EXPECT_THAT(report["pictures"][1]["error"].get<std::string>(), HasSubstr("broken.glb"));
 }
 
-namespace {
-
 class FakeDrivers : public testing::TestWithParam<const char*> {};
-
-}  // namespace
 
 // No context: status 3, and for each backend the reason in a line. libOSMesa.so.6, an older name,
 // may be the real one: then `auto` draws by it, and is not asked.
@@ -406,3 +400,5 @@ INSTANTIATE_TEST_SUITE_P(Cases, FakeDrivers,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+}  // namespace errors_cli_test

@@ -10,11 +10,11 @@
 #include "glint/render/face_mesh.h"
 #include "scenes.h"
 
+namespace face_mesh_test {
+
 using glint::FaceMesh;
 using glint::makeFaceMesh;
 using glint::Mesh;
-
-namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -72,8 +72,6 @@ Mesh randomMesh(unsigned seed, int vertices, int triangles) {
   return mesh;
 }
 
-}  // namespace
-
 TEST(FaceMesh, EveryTriangleOwnsItsLastVertexAndKeepsItsShape) {
   expectFaces(glint::test::quad());
   expectFaces(glint::test::sphere(16, 8));
@@ -103,3 +101,5 @@ TEST(FaceMesh, KeepsTinyAndHugeFacesNormals) {
 }
 
 TEST(FaceMesh, OfNothingIsNothing) { EXPECT_TRUE(makeFaceMesh(Mesh{}).indices.empty()); }
+
+}  // namespace face_mesh_test

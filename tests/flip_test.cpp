@@ -11,7 +11,7 @@
 #include "flip_reference.h"
 #include "glint/image/error.h"
 
-namespace {
+namespace flip_test {
 
 using glint::FlipOptions;
 using glint::FlipResult;
@@ -184,4 +184,4 @@ TEST(HdrFlip, IsTheLargestOverExposures) {
   EXPECT_EQ(glint::hdrFlip(black.rows(), black.rows()).mean, 0);
 }
 
-}  // namespace
+}  // namespace flip_test

@@ -7,7 +7,7 @@
 
 #include "glint/shading/fresnel.h"
 
-namespace {
+namespace fresnel_approximations_test {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -152,4 +152,4 @@ TEST(FresnelApproximations, RationalIsExactAtBothEndsAndInSlope) {
   }
 }
 
-}  // namespace
+}  // namespace fresnel_approximations_test

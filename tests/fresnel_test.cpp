@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
+namespace fresnel_test {
+
 using glint::fresnelExact;
 using glm::dvec3;
-
-namespace {
 
 using Real = boost::multiprecision::cpp_dec_float_100;
 
@@ -359,4 +359,4 @@ TEST(Refraction, FollowsSnellInUnitLength) {
   EXPECT_EQ(glint::refract(I, dvec3(0, 1, 0), 1.5, 1.5), I);  // K1
 }
 
-}  // namespace
+}  // namespace fresnel_test

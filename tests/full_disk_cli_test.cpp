@@ -6,6 +6,8 @@
 
 #include "command.h"
 
+namespace full_disk_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::Ran;
@@ -13,8 +15,6 @@ using glint::test::runGlint;
 using glint::test::shipped;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
@@ -78,8 +78,6 @@ std::vector<std::string> leftIn(const std::string& folder) {
   return left;
 }
 
-}  // namespace
-
 TEST(FullDisk, OfEachOutputLeavesNothing) {
   const Folder folder("full");
   prepare(folder);
@@ -134,3 +132,5 @@ TEST(FullDisk, UnderAReportOfAListIsNoReaderThatWentAway) {
   EXPECT_THAT(ran.err, HasSubstr("No space left on device"));
   EXPECT_THAT(ran.err, Not(HasSubstr("went away")));
 }
+
+}  // namespace full_disk_cli_test

@@ -20,7 +20,7 @@
 #include "random.h"
 #include "textures.h"
 
-namespace {
+namespace fuzz_test {
 
 using Bytes = std::vector<std::byte>;
 
@@ -183,8 +183,6 @@ class Mutations : public glint::test::Random {
   }
 };
 
-}  // namespace
-
 TEST(Fuzz, DamagedInputsAreReadOrRefused) {
   Sample sample;
   const auto seeds = seedsIn(sample);
@@ -200,3 +198,5 @@ TEST(Fuzz, DamagedInputsAreReadOrRefused) {
     }
   }
 }
+
+}  // namespace fuzz_test

@@ -5,14 +5,14 @@
 #include "glint/gl/backends.h"
 #include "glint/gl/context.h"
 
+namespace gl_failure_test {
+
 using glint::Backend;
 using glint::ContextError;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-namespace {
 
 std::string fake(const char* folder, const char* library) {
   return std::string(GLINT_BINARY_DIR "/tests/fake/") + folder + "/" + library;
@@ -45,8 +45,6 @@ std::unique_ptr<glint::Context> openMissing() {
   const char* const names[] = {"libNoEGL.so.1", "libNoEGL.so.0"};
   return glint::backends::openEgl(names, false);
 }
-
-}  // namespace
 
 TEST(GlFailure, MissingLibraryNamesThePackages) {
   EXPECT_EQ(failure(openMissing),
@@ -139,3 +137,5 @@ TEST(GlFailure, BackendNames) {
     EXPECT_EQ(glint::backendFromName(glint::backendName(backend)), backend);
   EXPECT_THROW(glint::backendFromName("vulkan"), glint::InputError);
 }
+
+}  // namespace gl_failure_test

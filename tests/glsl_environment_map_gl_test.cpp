@@ -9,9 +9,9 @@
 #include "glint/shading/environment_map.h"
 #include "glsl_probe.h"
 
-using namespace glint;
+namespace glsl_environment_map_gl_test {
 
-namespace {
+using namespace glint;
 
 struct Map {
   const char* name;
@@ -120,8 +120,6 @@ class GlslEnvironmentMap : public GlslTest {
   }
 };
 
-}  // namespace
-
 TEST_P(GlslEnvironmentMap, UnitDirections) {
   for (const Map& map : maps) expectRadiance(map, directions(0, 0, 150000), "");
 }
@@ -178,3 +176,5 @@ TEST_P(GlslEnvironmentMap, HuntedWorstInput) {
 }
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslEnvironmentMap);
+
+}  // namespace glsl_environment_map_gl_test

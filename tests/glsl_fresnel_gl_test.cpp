@@ -11,9 +11,9 @@
 #include "glint/shading/fresnel.h"
 #include "glsl_probe.h"
 
-using namespace glint;
+namespace glsl_fresnel_gl_test {
 
-namespace {
+using namespace glint;
 
 struct Indices {
   double n1, n2;
@@ -87,8 +87,6 @@ class GlslFresnel : public GlslTest {
                        {c, boundary(fresnelConstants(i.n1, i.n2))});
   }
 };
-
-}  // namespace
 
 TEST_P(GlslFresnel, Exact) {
   for (const Indices& i : indices()) {
@@ -342,3 +340,5 @@ TEST_P(GlslFresnel, HuntedWorstInput) {
 }
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslFresnel);
+
+}  // namespace glsl_fresnel_gl_test

@@ -12,9 +12,9 @@
 #include "glint/shading/lobe.h"
 #include "glsl_probe.h"
 
-using namespace glint;
+namespace glsl_lobe_gl_test {
 
-namespace {
+using namespace glint;
 
 constexpr double exponents[] = {0, 0.5, 1, 2, 10, 40, 100, 1e3, 1e4, 1e5, 1e6};
 
@@ -143,8 +143,6 @@ class GlslLobe : public GlslTest {
     expectWithin(record, name + " alpha " + std::to_string(alpha), columns, {3, 3, 3, 1});
   }
 };
-
-}  // namespace
 
 TEST_P(GlslLobe, Log1mIsRelativelyExact) {
   // Below 1/2: s is off by 2 roundings and the division's (2.5 in 2^-23, GLSL; 0.5 here), the
@@ -397,3 +395,5 @@ TEST_P(GlslLobe, Gaussian) {
 }
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslLobe);
+
+}  // namespace glsl_lobe_gl_test

@@ -8,21 +8,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <ostream>
 #include <random>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "backend_name.h"
 #include "glint/gl/context.h"
 #include "glint/render/probe.h"
 #include "glint/render/probe_error.h"
 #include "glint/render/probe_search.h"
 
 namespace glint {
-
-inline void PrintTo(Backend backend, std::ostream* out) { *out << backendName(backend); }
 
 using Column = std::vector<float>;
 using Columns = std::vector<std::span<const float>>;

@@ -9,10 +9,10 @@
 #include "glint/image/error.h"
 #include "glsl_probe.h"
 
+namespace glsl_probe_gl_test {
+
 using testing::HasSubstr;
 using namespace glint;
-
-namespace {
 
 class GlslProbe : public GlslTest {};
 
@@ -24,8 +24,6 @@ std::string errorOf(Probe& probe, std::string_view function, const Columns& colu
   }
   return "no error";
 }
-
-}  // namespace
 
 TEST_P(GlslProbe, PassesFloatsBitByBit) {
   Probe probe;
@@ -158,3 +156,5 @@ TEST(ProbeSearch, OrdersFloats) {
   EXPECT_EQ(stepFloat(1.0f, 1), std::nextafter(1.0f, 2.0f));
   EXPECT_EQ(stepFloat(3e38f, 1 << 30), INFINITY);
 }
+
+}  // namespace glsl_probe_gl_test

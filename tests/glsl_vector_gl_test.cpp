@@ -9,9 +9,9 @@
 #include "glint/shading/safe.h"
 #include "glsl_probe.h"
 
-using namespace glint;
+namespace glsl_vector_gl_test {
 
-namespace {
+using namespace glint;
 
 // The square of the length is off by 3 roundings of 2^-24, relative, its root by half as much and
 // one of its own, the quotient by one more: 3.5 roundings or 2.1e-7 where the driver rounds
@@ -50,8 +50,6 @@ class GlslVector : public GlslTest {
         [](std::size_t, std::size_t) { return tolerance; });
   }
 };
-
-}  // namespace
 
 TEST_P(GlslVector, UnitOfLengthsWithUsableSquares) {
   // Squares below 1.2e-38 are subnormal and may vanish: of 1e-30, the square of the largest
@@ -115,3 +113,5 @@ TEST_P(GlslVector, HuntedWorstInput) {
 }
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslVector);
+
+}  // namespace glsl_vector_gl_test

@@ -7,7 +7,7 @@
 #include "glint/shading/pbr_conversion.h"
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_allowed_test {
 
 using Json = Sample::Json;
 using testing::Contains;
@@ -260,4 +260,4 @@ TEST(GltfAllowed, WhatIsNotSeenDoesNotCountForTheView) {
   EXPECT_GT(glint::boundsOf(sample.load()).radius, 10);
 }
 
-}  // namespace
+}  // namespace gltf_allowed_test

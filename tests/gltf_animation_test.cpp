@@ -6,7 +6,7 @@
 
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_animation_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -325,4 +325,4 @@ TEST(GltfNodes, HiddenNodesHideWhatIsBelowThem) {
   EXPECT_THAT(sample.error(), HasSubstr("visible"));
 }
 
-}  // namespace
+}  // namespace gltf_animation_test

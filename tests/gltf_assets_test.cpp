@@ -10,7 +10,7 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 
-namespace {
+namespace gltf_assets_test {
 
 namespace fs = std::filesystem;
 
@@ -131,4 +131,4 @@ TEST(GltfAssets, DamagedModelsLoadOrFailInOneLine) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_assets_test

@@ -3,7 +3,7 @@
 
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_check_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -206,4 +206,4 @@ TEST(GltfCheck, WarningsAreCounted) {
   EXPECT_EQ(scene.warnings.back(), "and 51 more warnings");  // 150 and "nothing to draw"
 }
 
-}  // namespace
+}  // namespace gltf_check_test

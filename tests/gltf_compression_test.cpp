@@ -10,7 +10,7 @@
 #include "glint/image/texture.h"
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_compression_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -270,4 +270,4 @@ TEST(Webp, DamagedDataAreRefusedInOneLine) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_compression_test

@@ -9,7 +9,7 @@
 #include "glint/image/texture.h"
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_extensions_test {
 
 using glint::FileExtension;
 using ::testing::ElementsAre;
@@ -148,4 +148,4 @@ TEST(GltfExtensions, NamesOfTargetsOfAnyFormAreSuffered) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_extensions_test

@@ -5,7 +5,7 @@
 #include "glint/gltf/messages.h"
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_file_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -136,4 +136,4 @@ TEST(GltfFile, MessagesAreOneCleanLine) {
   EXPECT_EQ(printable("a\xc3\xbc", 2), "a...");
 }
 
-}  // namespace
+}  // namespace gltf_file_test

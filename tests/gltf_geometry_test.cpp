@@ -6,7 +6,7 @@
 
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_geometry_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -336,4 +336,4 @@ TEST(GltfGeometry, MoreVerticesThanFloatCanCount) {
   EXPECT_EQ(mesh.positions.at(2), glm::vec3(7, 8, 9));
 }
 
-}  // namespace
+}  // namespace gltf_geometry_test

@@ -3,7 +3,7 @@
 
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_material_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -252,4 +252,4 @@ TEST(GltfTexture, MeshWithoutTheCoordinatesIsDrawnWithout) {
   EXPECT_THAT(sample.load().warnings, ElementsAre(HasSubstr("beyond 15")));
 }
 
-}  // namespace
+}  // namespace gltf_material_test

@@ -10,7 +10,7 @@
 #include "glint/shading/pbr_conversion.h"
 
 namespace glint {
-namespace {
+namespace gltf_patch_test {
 
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
@@ -157,5 +157,5 @@ TEST(PatchGltf, KnowsWhetherOtherFilesAreNeeded) {
   EXPECT_FALSE(refersToFiles(bytesOf(R"({"buffers":[{"byteLength":4}]})"), "m"));
 }
 
-}  // namespace
+}  // namespace gltf_patch_test
 }  // namespace glint

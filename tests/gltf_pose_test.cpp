@@ -7,7 +7,7 @@
 
 #include "gltf_sample.h"
 
-namespace {
+namespace gltf_pose_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST(GltfCamera, UnusableCamerasAreLeftOut) {
   EXPECT_THAT(sample.error(), HasSubstr("cameras[0].perspective must be an object"));
 }
 
-}  // namespace
+}  // namespace gltf_pose_test

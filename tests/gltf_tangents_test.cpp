@@ -8,7 +8,7 @@
 #include "gltf_sample.h"
 #include "scenes.h"
 
-namespace {
+namespace gltf_tangents_test {
 
 using glint::Mesh;
 using glint::gltf::makeTangents;
@@ -174,4 +174,4 @@ TEST(TextureTransform, MovesTurnsAndScalesCoordinates) {
   EXPECT_THAT(sample.error(), HasSubstr("KHR_texture_transform.scale"));
 }
 
-}  // namespace
+}  // namespace gltf_tangents_test

@@ -7,6 +7,8 @@
 
 #include "command.h"
 
+namespace help_cli_test {
+
 using glint::test::Folder;
 using glint::test::Ran;
 using glint::test::runGlint;
@@ -15,8 +17,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-namespace {
 
 const std::vector<std::string> commands{"render",  "view", "diff",        "study",   "stability",
                                         "convert", "info", "environment", "backends"};
@@ -53,8 +53,6 @@ std::vector<std::string> shellWords(const std::string& line) {
   }
   return words;
 }
-
-}  // namespace
 
 TEST(Help, IsWithin80ColumnsAndHasExamples) {
   for (const std::string& command : commands) {
@@ -174,3 +172,5 @@ TEST(Help, ATypoIsAnsweredEvenWhereSomethingElseIsMissing) {
   EXPECT_THAT(answer({"view", "--qqqqqq"}), HasSubstr("see glint view --help"));
   EXPECT_THAT(answer({"rendre", "a.glb", "-o", "a.png"}), HasSubstr("did you mean 'render'?"));
 }
+
+}  // namespace help_cli_test

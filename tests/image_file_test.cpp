@@ -11,7 +11,7 @@
 
 #include "glint/image/error.h"
 
-namespace {
+namespace image_file_test {
 
 namespace fs = std::filesystem;
 using glint::OutputFile;
@@ -234,4 +234,4 @@ TEST_P(File, MessagesStayOneLine) {
               ::testing::AllOf(HasSubstr("a\\nb\\x1b[1m"), Not(HasSubstr("\n"))));
 }
 
-}  // namespace
+}  // namespace image_file_test

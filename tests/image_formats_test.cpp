@@ -22,7 +22,7 @@
 #include "glint/image/read_image.h"
 #include "gltf_text.h"
 
-namespace {
+namespace image_formats_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -262,4 +262,4 @@ TEST(Formats, DamagedFilesAreSurvived) {
   glint::test::expectHdrSurvived(200);
 }
 
-}  // namespace
+}  // namespace image_formats_test

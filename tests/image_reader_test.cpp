@@ -16,7 +16,7 @@
 #include "glint/image/srgb.h"
 #include "glint/image/texture.h"
 
-namespace {
+namespace image_reader_test {
 
 using Bytes = std::vector<std::byte>;
 using ::testing::HasSubstr;
@@ -303,4 +303,4 @@ TEST(Image, DamagedPfmIsRefused) {
   EXPECT_THAT(message("PF\n4000000000 4000000000\n-1\n"), HasSubstr("too many"));
 }
 
-}  // namespace
+}  // namespace image_reader_test

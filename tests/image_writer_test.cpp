@@ -16,7 +16,7 @@
 #include "glint/image/read_image.h"
 #include "glint/image/srgb.h"
 
-namespace {
+namespace image_writer_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -364,4 +364,4 @@ TEST_F(Writer, MinusIsAPngOnStandardOutput) {
   EXPECT_EQ(glint::readFile(in("out")), glint::readFile(in("a.png")));
 }
 
-}  // namespace
+}  // namespace image_writer_test

@@ -7,6 +7,8 @@
 #include "random.h"
 #include "stage.h"
 
+namespace instancing_gl_test {
+
 using glint::drawCalls;
 using glint::DrawList;
 using glint::Image;
@@ -14,8 +16,6 @@ using glint::Look;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 // Spheres in a row in depth, so that places and normals of each count.
 Scene crowd(int count) {
@@ -34,8 +34,6 @@ DrawList listOf(const Scene& scene, const Look& look) {
 }
 
 class Instancing : public OnStage {};
-
-}  // namespace
 
 TEST(DrawCalls, TakeWhatDiffersInItsPlaceAlone) {
   const auto sizes = [](const Scene& scene, const Look& look = {}) {
@@ -95,3 +93,5 @@ TEST_P(Instancing, LooksAsPieceByPiece) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Instancing, softwareBackends(), nameOfBackend);
+
+}  // namespace instancing_gl_test

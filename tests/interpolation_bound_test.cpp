@@ -20,9 +20,9 @@
 #include "random.h"
 #include "scenes.h"
 
-using namespace glint;
+namespace interpolation_bound_test {
 
-namespace {
+using namespace glint;
 
 int draws(int usual) { return test::drawsOf("GLINT_BOUND_DRAWS", usual); }
 
@@ -419,4 +419,4 @@ TEST(InterpolationBound, IsInfiniteWithNormalMaps) {
     EXPECT_EQ(boundOf(d, program), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace interpolation_bound_test

@@ -11,7 +11,7 @@
 #include "gltf_sample.h"
 #include "scenes.h"
 
-namespace {
+namespace lights_test {
 
 using glint::FileLight;
 using glint::Light;
@@ -206,4 +206,4 @@ TEST(FileLights, TheScaleIsThatOfTheRestPoseAtEveryTime) {
   EXPECT_EQ(late.lightScale, rest.lightScale);
 }
 
-}  // namespace
+}  // namespace lights_test

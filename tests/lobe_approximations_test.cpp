@@ -8,7 +8,7 @@
 #include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
 
-namespace {
+namespace lobe_approximations_test {
 
 using Form = std::function<double(double lambda)>;
 
@@ -209,4 +209,4 @@ TEST(LobeApproximations, Identities) {
   EXPECT_EQ(glint::lyon(0.1, 20.0, 200), glint::lyon(0.1, 20.0, 64));
 }
 
-}  // namespace
+}  // namespace lobe_approximations_test

@@ -11,9 +11,9 @@
 
 #include "glint/shading/safe.h"
 
-using glm::dvec3;
+namespace lobe_test {
 
-namespace {
+using glm::dvec3;
 
 using Real = boost::multiprecision::cpp_dec_float_50;
 
@@ -292,4 +292,4 @@ TEST(Lobe, IsTotalAndWithinTheUnitInterval) {
   }
 }
 
-}  // namespace
+}  // namespace lobe_test

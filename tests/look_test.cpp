@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-namespace {
+namespace look_test {
 
 const Parameter& parameter(const std::string& name) {
   for (const Parameter& p : glint::lookParameters())
@@ -530,8 +530,6 @@ class RandomLooks {
   std::mt19937 random_;
 };
 
-}  // namespace
-
 TEST(LookTexts, GoodOnesSetWhatTheyName) {
   std::set<std::string> seen;
   for (const Good& good : goodTexts()) {
@@ -701,3 +699,5 @@ TEST(MaterialEdits, OfMaterialsThatDoNotExistAreRefused) {
   EXPECT_THAT(failure([&] { glint::checkMaterialNames(scene, look); }),
               AllOf(HasSubstr("'B'"), HasSubstr("use one of 'a'")));
 }
+
+}  // namespace look_test

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
-namespace {
+namespace models_assets_test {
 
 using glint::Image;
 using glint::test::Folder;
@@ -88,4 +88,4 @@ TEST(AssetPictures, CamerasOfTheFileServe) {
   EXPECT_EQ(glint::test::runGlint({"render", model, "-o", "-", "--camera-index", "7"}).status, 2);
 }
 
-}  // namespace
+}  // namespace models_assets_test

@@ -12,7 +12,7 @@
 #include "glint/gltf/scene_file.h"
 #include "models_file.h"
 
-namespace {
+namespace models_scenes_test {
 
 using namespace shipped;
 
@@ -185,4 +185,4 @@ TEST(Models, ScenesAreSmall) {
   }
 }
 
-}  // namespace
+}  // namespace models_scenes_test

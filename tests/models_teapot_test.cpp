@@ -12,7 +12,7 @@
 #include "../models/teapot_patches.h"
 #include "models_file.h"
 
-namespace {
+namespace models_teapot_test {
 
 using namespace shipped;
 using glint::models::teapotPatches;
@@ -239,4 +239,4 @@ TEST(Teapot, ShowsItsOutsideFromTheSidesAndBelow) {
   EXPECT_GT(hits, 300);
 }
 
-}  // namespace
+}  // namespace models_teapot_test

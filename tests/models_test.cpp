@@ -13,7 +13,7 @@
 
 #include "models_file.h"
 
-namespace {
+namespace models_test {
 
 using namespace shipped;
 
@@ -212,4 +212,4 @@ TEST(SphereSeries, HasNoVertexAtASpecialPlace) {
   }
 }
 
-}  // namespace
+}  // namespace models_test

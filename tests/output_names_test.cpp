@@ -5,11 +5,11 @@
 #include "../src/cli/output_names.h"
 #include "glint/image/error.h"
 
+namespace output_names_test {
+
 using glint::OutputPattern;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-namespace {
 
 std::vector<std::string> outputNames(const std::string& pattern,
                                      const std::vector<std::string>& models) {
@@ -28,8 +28,6 @@ std::string failure(const std::string& pattern, bool frames = false) {
   }
   return "no error";
 }
-
-}  // namespace
 
 TEST(OutputNames, StandForModelAndNumber) {
   EXPECT_THAT(outputNames("a.png", {"x/Duck.glb"}), ElementsAre("a.png"));
@@ -82,3 +80,5 @@ TEST(OutputNames, UnknownOrOpenBracesAreRefused) {
   EXPECT_THAT(failure("{}.png"), HasSubstr("unknown {}"));
   EXPECT_THAT(failure("a{model.png"), HasSubstr("'{' without '}'"));
 }
+
+}  // namespace output_names_test

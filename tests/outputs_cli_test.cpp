@@ -10,6 +10,8 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
+namespace outputs_cli_test {
+
 using glint::readImage;
 using glint::test::contents;
 using glint::test::Folder;
@@ -21,8 +23,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
 
 using Json = nlohmann::json;
 using Arguments = std::vector<std::string>;
@@ -83,8 +83,6 @@ double meanDifference(const glint::Image& a, const glint::Image& b) {
     sum += std::abs(double(a.values[i]) - double(b.values[i]));
   return sum / double(a.values.size());
 }
-
-}  // namespace
 
 TEST(Formats, JpegAndWebpAreThePicture) {
   Folder folder("formats");
@@ -319,3 +317,5 @@ TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
     std::filesystem::remove(folder / "out.X7PQ2M");
   }
 }
+
+}  // namespace outputs_cli_test

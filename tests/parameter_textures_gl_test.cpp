@@ -11,7 +11,7 @@
 #include "textures.h"
 
 namespace glint::test {
-namespace {
+namespace parameter_textures_gl_test {
 
 constexpr Shading programs[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                 Shading::blinnPhong, Shading::environment};
@@ -86,8 +86,6 @@ Look lookFor(Shading shading) {
   look.light = {directional({0.3, 0.4, 1}), directional({-1, 0.2, 0.4}, {0.3, 0.5, 0.7})};
   return look;
 }
-
-}  // namespace
 
 // The fourth power of the roughness takes 8 roundings, which the steepest lobe here (4 x 4999.5)
 // turns into 8 x 2^-24 / e of its height, the highlight of two lights: below 1e-6. Lobes of two
@@ -196,4 +194,5 @@ TEST_P(ParameterTexture, AgreesWithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Software, ParameterTexture, softwareBackends(), nameOfBackend);
 
+}  // namespace parameter_textures_gl_test
 }  // namespace glint::test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace pbr_conversion_test {
 
 constexpr double u = 0x1p-53;
 
@@ -112,4 +112,4 @@ TEST(Conversion, IsTotal) {
   }
 }
 
-}  // namespace
+}  // namespace pbr_conversion_test

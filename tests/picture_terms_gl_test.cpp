@@ -14,6 +14,8 @@
 #include "stage.h"
 #include "variants.h"
 
+namespace picture_terms_gl_test {
+
 using glint::AntiAliasing;
 using glint::Bounds;
 using glint::GpuScene;
@@ -25,8 +27,6 @@ using glint::PictureTerm;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 class Terms : public OnStage {
  protected:
@@ -85,8 +85,6 @@ std::string names(const std::vector<std::pair<PictureTerm, Image>>& terms) {
   for (const auto& [term, image] : terms) text += term.name + " ";
   return text;
 }
-
-}  // namespace
 
 TEST_P(Terms, OfLightAddUpToThePicture) {
   const Scene scene = everything();
@@ -230,3 +228,5 @@ TEST_P(Terms, AreListedByTheLook) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Terms, testing::Values(glint::Backend::osmesa), nameOfBackend);
+
+}  // namespace picture_terms_gl_test

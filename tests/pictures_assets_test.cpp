@@ -10,14 +10,14 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
+namespace pictures_assets_test {
+
 namespace fs = std::filesystem;
 using glint::Image;
 using glint::test::CommandOptions;
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::Ran;
-
-namespace {
 
 constexpr const char* programNames[] = {"flat", "gouraud", "phong", "blinn-phong", "environment"};
 
@@ -61,8 +61,6 @@ class Pictures : public testing::TestWithParam<const char*> {
         << "set GLINT_ASSETS to the folder of the sample models";
   }
 };
-
-}  // namespace
 
 TEST_P(Pictures, AreTheSameFilesFromEveryBackendAndShowSomething) {
   const auto models = modelsIn("models");
@@ -181,3 +179,5 @@ TEST(DamagedFiles, AreRefusedByInfoAsByRender) {
     }
   }
 }
+
+}  // namespace pictures_assets_test

@@ -28,7 +28,7 @@
 #include "reference_scenes.h"
 
 namespace glint {
-namespace {
+namespace reference_gl_test {
 
 constexpr Shading allPrograms[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                    Shading::blinnPhong, Shading::environment};
@@ -150,7 +150,7 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
 
   Comparison c;
   for (const DrawItem& item : list.items)
-    c.alpha = std::max(c.alpha, double(item.materialBlock.strength.w));
+    c.alpha = std::max(c.alpha, double(item.materialBlock.exponent));
   const auto at = [&](int x, int y) -> reference::Attributes& {
     return attributes[std::size_t(y) * std::size_t(width) + std::size_t(x)];
   };
@@ -691,5 +691,5 @@ INSTANTIATE_TEST_SUITE_P(Backends, AgainstReference,
                            return p.param == Backend::osmesa ? "osmesa" : "egl_software";
                          });
 
-}  // namespace
+}  // namespace reference_gl_test
 }  // namespace glint

@@ -7,7 +7,7 @@
 
 #include "reference_scenes.h"
 
-namespace {
+namespace reference_raster_test {
 
 using namespace scenes;
 using glint::Material;
@@ -285,4 +285,4 @@ TEST(ReferenceSupersampling, IsTheMeanOfTheSamples) {
     }
 }
 
-}  // namespace
+}  // namespace reference_raster_test

@@ -9,7 +9,7 @@
 #include "glint/image/error.h"
 #include "reference_scenes.h"
 
-namespace {
+namespace reference_shading_test {
 
 using namespace scenes;
 using glint::Material;
@@ -329,4 +329,4 @@ TEST(ReferenceUsage, RefusesNumbersOfSamplesWithoutAPattern) {
   }
 }
 
-}  // namespace
+}  // namespace reference_shading_test

@@ -14,6 +14,8 @@
 #include "stage.h"
 #include "variants.h"
 
+namespace render_backends_gl_test {
+
 using glint::AntiAliasing;
 using glint::Backend;
 using glint::Image;
@@ -21,8 +23,6 @@ using glint::Light;
 using glint::Look;
 using glint::Scene;
 using namespace glint::test;
-
-namespace {
 
 class Programs : public OnStage {};
 
@@ -99,8 +99,6 @@ std::vector<Look> looksOf(int width, int height) {
   return looks;
 }
 
-}  // namespace
-
 TEST_P(Programs, CompileForEverySampledVariant) {
   const bool fileNames = glint::fileNamesInLines();
   for (const glint::Variant& v : sampledVariants()) {
@@ -169,3 +167,5 @@ TEST(Backends, GiveTheSameBitsInTilesAndAgain) {
     EXPECT_GT(coveredPixels(a[i], look.backgroundColor), 300u);
   }
 }
+
+}  // namespace render_backends_gl_test

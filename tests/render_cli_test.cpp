@@ -11,6 +11,8 @@
 #include "glint/options/parameters.h"
 #include "scenes.h"
 
+namespace render_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::quick;
@@ -23,8 +25,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-namespace {
 
 const std::string sphere = shipped + "sphere.glb", torus = shipped + "torus.glb";
 
@@ -40,8 +40,6 @@ std::string picture(const Folder& folder, std::vector<std::string> arguments,
   expectDone(runGlint(quick(arguments)));
   return contents(folder / name);
 }
-
-}  // namespace
 
 TEST(Render, WritesPngAndPfmOfTheSamePicture) {
   Folder folder("formats");
@@ -524,3 +522,5 @@ TEST(Backends, AreListedInTextAndJson) {
     EXPECT_FALSE(backend["detail"].get<std::string>().empty());
   }
 }
+
+}  // namespace render_cli_test

@@ -14,6 +14,8 @@
 #include "gltf_text.h"
 #include "stage.h"
 
+namespace render_convergence_gl_test {
+
 using glint::GlslSources;
 using glint::Image;
 using glint::Look;
@@ -21,8 +23,6 @@ using glint::Mesh;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 // The finest sphere's triangles are 0.016 long: 8 pixels of 1024 over 2.2.
 constexpr int size = 1024;
@@ -163,8 +163,6 @@ double edgeAt(const Mesh& mesh, const glm::dvec3& normal) {
   return edge;
 }
 
-}  // namespace
-
 TEST_P(Convergence, FlatIsOfFirstOrder) {
   const SurfaceValues surfaces[] = {matte(), shiny(10)};
   for (const SurfaceValues& m : surfaces) {
@@ -210,8 +208,6 @@ TEST_P(Convergence, GouraudsConstantIsThatOfTheTheory) {
   }
 }
 
-namespace {
-
 // The same shaders with the interpolated normal as it stands.
 std::string foldWithoutRenormalisation() {
   const std::string folder = temporaryFolder() + "/unnormalised";
@@ -229,8 +225,6 @@ std::string foldWithoutRenormalisation() {
 }
 
 constexpr std::pair<double, double> exponentsAndFactors[] = {{10, 10}, {100, 40}, {1000, 100}};
-
-}  // namespace
 
 // Renormalised normals lie 10, 40 and 100 times below Gouraud in L2 (measured there: 12, 53, 169).
 // Without renormalisation they do not, though their order is the same: so it is with the textbook's
@@ -272,3 +266,5 @@ TEST_P(Convergence, DiffuseLightNeedsRenormalisedNormals) {
 // The bits are those of the other backend (Backends.GiveTheSameBits...): one is enough.
 INSTANTIATE_TEST_SUITE_P(Render, Convergence, testing::Values(glint::Backend::osmesa),
                          nameOfBackend);
+
+}  // namespace render_convergence_gl_test

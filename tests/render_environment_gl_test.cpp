@@ -8,6 +8,8 @@
 #include "glint/shading/environment_map.h"
 #include "stage.h"
 
+namespace render_environment_gl_test {
+
 using glint::Environment;
 using glint::Image;
 using glint::Look;
@@ -16,8 +18,6 @@ using glint::Mesh;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 Look mirrorLook(const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 3) {
   Look look = parallelLook(toViewer, pixels);
@@ -64,8 +64,6 @@ class EnvironmentProgram : public OnStage {
     return middle(image);
   }
 };
-
-}  // namespace
 
 // What neither absorbs nor emits is invisible in a furnace: F + (1 - F) = 1 at every pixel. Each
 // sum rounds a few times; 2e-6 is 32 roundings.
@@ -272,3 +270,5 @@ TEST_P(EnvironmentProgram, StandsBehindTheModelOnlyWhenAsked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, EnvironmentProgram, softwareBackends(), nameOfBackend);
+
+}  // namespace render_environment_gl_test

@@ -10,6 +10,8 @@
 #include "stage.h"
 #include "variants.h"
 
+namespace render_sum_gl_test {
+
 using glint::Image;
 using glint::Light;
 using glint::Look;
@@ -18,8 +20,6 @@ using glint::Mesh;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 // A square that faces `toViewer`, with the normal `normal` at each corner.
 Mesh facing(const glm::dvec3& toViewer, const glm::dvec3& normal) {
@@ -105,8 +105,6 @@ const Vectors published[] = {
      0.7553011789},
     {{0, 0, 1}, {1, 0, -0.1}, {-1, 0, 0.1}, 0, 0, 0, 0, 0},
 };
-
-}  // namespace
 
 TEST_P(Sum, GivesThePublishedVectors) {
   for (const Vectors& x : published)
@@ -386,3 +384,5 @@ TEST_P(Sum, EachPixelHasItsOwnVectors) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Sum, softwareBackends(), nameOfBackend);
+
+}  // namespace render_sum_gl_test

@@ -11,6 +11,8 @@
 #include "stage.h"
 #include "variants.h"
 
+namespace render_surface_gl_test {
+
 using glint::AntiAliasing;
 using glint::Image;
 using glint::Light;
@@ -20,8 +22,6 @@ using glint::Mesh;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 class Surface : public OnStage {};
 
@@ -54,8 +54,6 @@ std::array<int, 3> codes(const glm::dvec3& c) {
 // Interpolation over a square of the picture's size: a plane equation of values of at most `size`,
 // evaluated with some 8 roundings.
 double interpolationTolerance(double size) { return 8 * size * rounding; }
-
-}  // namespace
 
 TEST_P(Surface, MaskCutsAtTheCutoff) {
   for (Shading shading : everyShading)
@@ -447,3 +445,5 @@ TEST_P(Surface, TrianglesThroughTheNearPlaneAreFinite) {  // G4, G9
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Surface, softwareBackends(), nameOfBackend);
+
+}  // namespace render_surface_gl_test

@@ -12,6 +12,8 @@
 #include "stage.h"
 #include "variants.h"
 
+namespace render_transforms_gl_test {
+
 using glint::AntiAliasing;
 using glint::Image;
 using glint::Light;
@@ -21,8 +23,6 @@ using glint::Mesh;
 using glint::Scene;
 using glint::Shading;
 using namespace glint::test;
-
-namespace {
 
 class Transforms : public OnStage {};
 
@@ -83,8 +83,6 @@ std::pair<double, int> compared(const Image& a, const Image& b) {
     }
   return {most, single};
 }
-
-}  // namespace
 
 // B2, B3: a mirrored node under a mirrored light is the mirror image, front faces and all.
 TEST_P(Transforms, MirroredNodesGiveMirrorImages) {
@@ -262,3 +260,5 @@ TEST_P(Transforms, VerticesFarFromTheirOriginAreWhereTheyWouldBeNearIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Transforms, softwareBackends(), nameOfBackend);
+
+}  // namespace render_transforms_gl_test

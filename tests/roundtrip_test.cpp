@@ -26,7 +26,7 @@ namespace glint {
 void PrintTo(const Look& look, std::ostream* out);  // look_test.cpp
 }  // namespace glint
 
-namespace {
+namespace roundtrip_test {
 
 using namespace glint;
 
@@ -182,8 +182,6 @@ Look withoutRest(Look look) {
   return look;
 }
 
-}  // namespace
-
 TEST(RoundTrip, OfEveryParameterThroughTextAndPictures) {
   Texts texts(11);
   const std::string folder = test::temporaryFolder();
@@ -294,3 +292,5 @@ TEST(RoundTrip, OfALookThatChangesUnderEdits) {
   ASSERT_TRUE(merged.light);
   EXPECT_TRUE(merged.light->empty());
 }
+
+}  // namespace roundtrip_test

@@ -10,6 +10,8 @@
 #include "glint/image/read_image.h"
 #include "gltf_sample.h"
 
+namespace safety_cli_test {
+
 using glint::test::contents;
 using glint::test::quick;
 using glint::test::Ran;
@@ -20,8 +22,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -88,8 +88,6 @@ Ran underShell(const std::string& prefix, const std::vector<std::string>& argume
   for (const char* name : {"/run.sh", "/ran.out", "/ran.err"}) fs::remove(folder + name);
   return ran;
 }
-
-}  // namespace
 
 TEST(NoOutput, IsAFileThatIsRead) {
   Sample sample;
@@ -417,3 +415,5 @@ TEST(Names, DoNotReachATerminalAsTheyAre) {
   }
   EXPECT_THAT(ran.out, HasSubstr(R"(\x1b[2J\nred)"));
 }
+
+}  // namespace safety_cli_test

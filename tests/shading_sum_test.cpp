@@ -8,11 +8,11 @@
 
 #include "glint/shading/safe.h"
 
+namespace shading_sum_test {
+
 using glint::LightTerms;
 using glint::SumParameters;
 using glm::dvec3;
-
-namespace {
 
 constexpr double u = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -215,4 +215,4 @@ TEST(SafeNormalize, IsRightForEveryLength) {  // A1 to A8, C12
   expectNear(glint::safeNormalize(dvec3(1.7e308)), dvec3(std::sqrt(1.0 / 3.0)), 4 * u);
 }
 
-}  // namespace
+}  // namespace shading_sum_test

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace srgb_test {
 
 using Decimal = boost::multiprecision::cpp_dec_float_50;
 
@@ -226,4 +226,4 @@ TEST(Srgb, BulkAndSingleCodesAgreeAtEveryCountAndAlpha) {
   }
 }
 
-}  // namespace
+}  // namespace srgb_test

@@ -7,6 +7,8 @@
 
 #include "command.h"
 
+namespace stability_cli_test {
+
 using glint::test::Folder;
 using glint::test::Ran;
 using glint::test::runGlint;
@@ -14,8 +16,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-namespace {
 
 Ran stability(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "stability");
@@ -30,8 +30,6 @@ void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
   EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
   EXPECT_THAT(ran.out, IsEmpty());
 }
-
-}  // namespace
 
 TEST(StabilityCommand, ListsTheWholeCatalogue) {
   const Ran ran = runGlint({"stability", "--list"});
@@ -110,3 +108,5 @@ TEST(StabilityCommand, NoContextIsStatus3) {
   options.environment = {{"LD_LIBRARY_PATH", GLINT_BINARY_DIR "/tests/fake/no-context"}};
   expectRefusal(runGlint({"stability", "--rendering-backend", "egl-software"}, options), "egl", 3);
 }
+
+}  // namespace stability_cli_test

@@ -7,17 +7,15 @@
 #include "glint/stability/search.h"
 #include "glint/stability/suite.h"
 
-using namespace glint;
+namespace stability_forms_long_test {
 
-namespace {
+using namespace glint;
 
 struct Forms {
   const char *highlight, *fresnel;
 };
 
 class StabilityOfForm : public testing::TestWithParam<Forms> {};
-
-}  // namespace
 
 TEST_P(StabilityOfForm, PassesEveryCase) {
   const auto context = openContext(Backend::osmesa);
@@ -33,3 +31,5 @@ TEST_P(StabilityOfForm, PassesEveryCase) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, StabilityOfForm, testing::Values(Forms{"exact", "schlick"}));
+
+}  // namespace stability_forms_long_test

@@ -11,9 +11,9 @@
 #include "glint/stability/suite.h"
 #include "glsl_probe.h"
 
-using namespace glint;
+namespace stability_gl_test {
 
-namespace {
+using namespace glint;
 
 class Stability : public GlslTest {};
 
@@ -24,8 +24,6 @@ std::vector<stability::CaseResult> run(const char* highlight, const char* fresne
   stability::Bench bench(forms, glslSources(), setParameter);
   return stability::runCases(bench, {});
 }
-
-}  // namespace
 
 TEST_P(Stability, EveryCasePasses) {
   const auto results = run("exact", "exact");
@@ -70,3 +68,5 @@ TEST_P(Stability, TheDriversProfileIsComplete) {
 }
 
 GLINT_ON_SOFTWARE_BACKENDS(Stability);
+
+}  // namespace stability_gl_test

@@ -12,9 +12,9 @@
 #include "glint/stability/suite.h"
 #include "gltf_text.h"
 
-using namespace glint;
+namespace stability_mutation_long_test {
 
-namespace {
+using namespace glint;
 
 struct Guard {
   const char *file, *text, *without;
@@ -95,9 +95,9 @@ const Guard guards[] = {
     {"lights.glsl", "if (!(square > 1e-12)) return;", "", "C8", "the half vector where L = -V"},
     {"lights.glsl", "vec3 h = isConstant ? between : between / sqrt(square);", "vec3 h = between;",
      "C1", "the half vector is unit"},
-    {"lights.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, -1e30, 1.0);",
+    {"lights.glsl", "* lights[i].coneScale, 0.0, 1.0);", "* lights[i].coneScale, -1e30, 1.0);",
      "P11", "outside a spot's cone"},
-    {"lights.glsl", "* lights[i].constant.w, 0.0, 1.0);", "* lights[i].constant.w, 0.0, 1e30);",
+    {"lights.glsl", "* lights[i].coneScale, 0.0, 1.0);", "* lights[i].coneScale, 0.0, 1e30);",
      "P11", "inside a spot's cone"},
     {"sum.glsl",
      "return square > 0.0 && square < 3.0e38 ? position / -sqrt(square) : vec3(0.0, 0.0, 1.0);",
@@ -158,7 +158,7 @@ const Guard guards[] = {
     {"per_pixel.glsl", "m.y * at.tangent.w * cross", "-m.y * at.tangent.w * cross", "M6",
      "green of a normal map is up"},
     {"per_pixel.glsl", "m.y * at.tangent.w * cross", "m.y * cross", "M7", "handedness"},
-    {"per_pixel.glsl", "m.xy *= draw.normalMatrix[3][0];", "", "M8", "the scale of a normal map"},
+    {"per_pixel.glsl", "m.xy *= draw.normalScale;", "", "M8", "the scale of a normal map"},
     {"vertex.glsl", "vColorTexcoord = colorTexcoord;",
      "vColorTexcoord = vec2(colorTexcoord.x, 1.0 - colorTexcoord.y);", "M9",
      "a texture upside down"},
@@ -199,8 +199,6 @@ std::string textWithout(const Guard& guard) {
   EXPECT_EQ(text.find(from, at + 1), std::string::npos) << guard.file << " has it twice: " << from;
   return text.replace(at, from.size(), guard.without);
 }
-
-}  // namespace
 
 TEST_P(Mutation, IsCaught) {
   const Guard& guard = GetParam();
@@ -243,3 +241,5 @@ INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
                                   (*tested.param.caught ? "_" + std::string(tested.param.caught)
                                                         : std::string("_equivalent"));
                          });
+
+}  // namespace stability_mutation_long_test

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace glint {
-namespace {
+namespace statistics_test {
 
 TEST(Statistics, QuantilesOfAFewValues) {
   const std::vector<double> values{7, 1, 3, 10};
@@ -27,5 +27,5 @@ TEST(Statistics, Spread) {
   EXPECT_EQ(spread.count, 5u);
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace glint

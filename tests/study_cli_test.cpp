@@ -8,7 +8,7 @@
 #include "command.h"
 
 namespace glint::test {
-namespace {
+namespace study_cli_test {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
@@ -172,5 +172,5 @@ TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-}  // namespace
+}  // namespace study_cli_test
 }  // namespace glint::test

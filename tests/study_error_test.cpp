@@ -9,7 +9,7 @@
 #include "glint/study/series.h"
 
 namespace glint {
-namespace {
+namespace study_error_test {
 
 TEST(StudyError, OfKnownDifferences) {
   Radiances truth(1000, glm::dvec3(0.5)), drawn = truth;
@@ -75,5 +75,5 @@ TEST(StudySeries, OrdersAreThoseOfTheLastStep) {
   EXPECT_EQ(series.lines[1].orderMax, 0);
 }
 
-}  // namespace
+}  // namespace study_error_test
 }  // namespace glint

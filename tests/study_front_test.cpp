@@ -9,7 +9,7 @@
 #include "glint/study/statistics.h"
 
 namespace glint {
-namespace {
+namespace study_front_test {
 
 using Times = std::vector<double>;
 
@@ -150,5 +150,5 @@ TEST(StudyFront, SpreadIsTheFarEndOfTheControls) {
   EXPECT_EQ(spreadOfControls({}), 0);
 }
 
-}  // namespace
+}  // namespace study_front_test
 }  // namespace glint

@@ -9,7 +9,7 @@
 #include "stage.h"
 
 namespace glint {
-namespace {
+namespace study_series_gl_test {
 
 class StudySeriesOnGl : public testing::Test {
  protected:
@@ -91,5 +91,5 @@ TEST_F(StudySeriesOnGl, StoppedSeriesKeepWhatIsMeasured) {
   EXPECT_EQ(line(series, "pow").points[0].milliseconds, 0);
 }
 
-}  // namespace
+}  // namespace study_series_gl_test
 }  // namespace glint

@@ -7,12 +7,12 @@
 
 #include "glint/render/tiles.h"
 
+namespace tiles_test {
+
 using glint::AntiAliasing;
 using glint::Tile;
 using glint::TileLayout;
 using glint::tilesFor;
-
-namespace {
 
 const AntiAliasing antiAliasings[] = {
     {AntiAliasing::Mode::none, 1}, {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::msaa, 64},
@@ -21,8 +21,6 @@ const AntiAliasing antiAliasings[] = {
 const glm::ivec2 resolutions[] = {{1, 1},       {1, 65535},   {65535, 1}, {7, 5},
                                   {1024, 1024}, {1920, 1080}, {8193, 3},  {4099, 2053},
                                   {8192, 257},  {16385, 1031}};
-
-}  // namespace
 
 TEST(Tiles, CoverEveryPixelExactlyOnceFromTheTop) {
   for (const glm::ivec2 resolution : resolutions)
@@ -92,3 +90,5 @@ TEST(Tiles, AreTheDocumentedOnes) {
   // With 4 samples 273 rows a band at most: four even ones of 270.
   EXPECT_EQ(heights({1920, 1080}, antiAliasings[1]), std::pair(std::size_t(4), 270));
 }
+
+}  // namespace tiles_test

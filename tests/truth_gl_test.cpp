@@ -18,10 +18,10 @@
 #include "random.h"
 #include "stage.h"
 
+namespace truth_gl_test {
+
 using namespace glint;
 using namespace glint::test;
-
-namespace {
 
 class Truth : public OnStage {
  protected:
@@ -88,8 +88,6 @@ Look mirrorLook(const glm::dvec3& toViewer, const std::string& picture, double t
   look.environmentRotation = turn;
   return look;
 }
-
-}  // namespace
 
 // A mirror and a pane that are looked up at the picture's full size. Bilinear texels are off by h^2
 // / 8 of the second derivatives along both axes, which are at most 0.32 and 1.2; across a pole too,
@@ -173,8 +171,6 @@ TEST_P(Truth, NeighboursInTotalReflection) {
   EXPECT_LE(off, covered / 500);
 }
 
-namespace {
-
 std::vector<std::byte> png(const std::string& name, int size,
                            const std::function<glm::ivec3(int x, int y)>& code) {
   const std::string path = temporaryFolder() + "/" + name;
@@ -191,6 +187,7 @@ std::vector<std::byte> png(const std::string& name, int size,
   return readFile(path);
 }
 
+// Of an odd size: its levels have weights that are no halves.
 Scene texturedQuad(Sampler sampler, double repeats) {
   Material m;
   m.unlit = true;
@@ -201,24 +198,32 @@ Scene texturedQuad(Sampler sampler, double repeats) {
   mesh.texcoords = {{{0, r}, {r, r}, {r, 0}, {0, 0}}};
   Scene scene = sceneOf(mesh, m);
   Random random(3);
-  static const std::vector<std::byte> noise = png("noise.png", 64, [&](int, int) {
+  static const std::vector<std::byte> noise = png("noise.png", 61, [&](int, int) {
     return glm::ivec3(random.below(256), random.below(256), random.below(256));
   });
   scene.images.push_back({"noise", noise, false});
   return scene;
 }
 
-}  // namespace
-
-// Noise, enlarged and made smaller, seen straight and aslant, by every filter: the driver's picture
-// and the reference's agree to 1e-5, and to what the coordinates, floats of at most `repeats` that
-// two roundings have moved, are off by in texels of which neighbours differ by 1.
+// Noise, enlarged and made smaller, seen straight and aslant, by every pair of filters and every
+// way to wrap: the driver's picture and the reference's agree to 1e-5, and to what the coordinates,
+// floats of at most `repeats` that two roundings have moved, are off by in texels of which
+// neighbours differ by 1.
 TEST_P(Truth, TexturesAreFilteredByTheRule) {
+  constexpr std::pair<Filter, Filter> filters[] = {{Filter::nearest, Filter::nearest},
+                                                   {Filter::linear, Filter::linear},
+                                                   {Filter::nearest, Filter::linear},
+                                                   {Filter::linear, Filter::nearest}};
+  constexpr std::pair<Wrap, Wrap> wraps[] = {{Wrap::repeat, Wrap::mirroredRepeat},
+                                             {Wrap::clampToEdge, Wrap::repeat},
+                                             {Wrap::mirroredRepeat, Wrap::clampToEdge}};
+  int number = 0;
   for (const MipFilter mip : {MipFilter::none, MipFilter::nearest, MipFilter::linear})
-    for (const Filter filter : {Filter::nearest, Filter::linear})
+    for (const auto& [magnify, minify] : filters)
       for (const double repeats : {0.1, 0.7, 3.0})
         for (const bool aslant : {false, true}) {
-          Sampler sampler{filter, filter, mip, Wrap::repeat, Wrap::mirroredRepeat};
+          const auto& [wrapS, wrapT] = wraps[number++ % 3];
+          Sampler sampler{magnify, minify, mip, wrapS, wrapT};
           const Scene scene = texturedQuad(sampler, repeats);
           Look look = parallelLook({0, 0, 1}, 64);
           if (aslant) {
@@ -234,16 +239,17 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
               const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
               const double most = std::max({d.x, d.y, d.z});
               // A nearest texel, or a nearest level, may be either of two where both are as near.
-              const bool jump =
-                  (filter == Filter::nearest || mip == MipFilter::nearest ||
-                   color(drawn, x, y) == glm::dvec3(0) || color(truth, x, y) == glm::dvec3(0)) &&
-                  most > 1e-4;
+              const bool jump = (magnify == Filter::nearest || minify == Filter::nearest ||
+                                 mip == MipFilter::nearest || color(drawn, x, y) == glm::dvec3(0) ||
+                                 color(truth, x, y) == glm::dvec3(0)) &&
+                                most > 1e-4;
               jumps += jump;
               if (!jump) worst = std::max(worst, most);
             }
-          SCOPED_TRACE("mip " + std::to_string(int(mip)) + " filter " +
-                       std::to_string(int(filter)) + " repeats " + std::to_string(repeats) +
-                       " aslant " + std::to_string(aslant));
+          SCOPED_TRACE("mip " + std::to_string(int(mip)) + " filters " +
+                       std::to_string(int(magnify)) + std::to_string(int(minify)) + " wraps " +
+                       std::to_string(int(wrapS)) + std::to_string(int(wrapT)) + " repeats " +
+                       std::to_string(repeats) + " aslant " + std::to_string(aslant));
           EXPECT_LE(worst, 1e-5 + 64 * std::max(repeats, 1.0) * 0x1p-22);
           EXPECT_LE(jumps, 62 * 62 / 100);
         }
@@ -282,8 +288,6 @@ TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
   }
 }
 
-namespace {
-
 double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -298,8 +302,6 @@ struct Deviation {
     ofBound = std::max(ofBound, difference / bound);
   }
 };
-
-}  // namespace
 
 // Against the reference at the driver's own sample positions, every pixel. One that a single
 // triangle covers is within the bound without anti-aliasing, 1e-5 + 4e-6 sqrt(exponent) (reference_
@@ -361,3 +363,5 @@ TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Software, Truth, softwareBackends(), nameOfBackend);
+
+}  // namespace truth_gl_test

@@ -13,7 +13,7 @@
 #include "viewer/worker.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_background_test {
 
 using namespace std::chrono_literals;
 
@@ -244,5 +244,5 @@ TEST(Pace, DoesNotMakeSmallerWhatThatDoesNotMakeFaster) {
   EXPECT_EQ(pace.division(), 1);
 }
 
-}  // namespace
+}  // namespace viewer_background_test
 }  // namespace glint::viewer

@@ -6,7 +6,7 @@
 #include "viewer/picking.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_camera_test {
 
 // A square of two triangles in the plane z = 0, facing +Z, with corners at +-1.
 Scene square() {
@@ -131,5 +131,5 @@ TEST(Picker, WorksFarFromTheOrigin) {
   EXPECT_NEAR(hit->position.z, 1e8, 1e-7);
 }
 
-}  // namespace
+}  // namespace viewer_camera_test
 }  // namespace glint::viewer

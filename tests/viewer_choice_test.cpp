@@ -5,7 +5,7 @@
 #include "viewer/reference_task.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_choice_test {
 
 // A ball whose picture is round enough for gouraud without a highlight.
 struct Ball {
@@ -80,5 +80,5 @@ TEST(ViewerChoice, TheReferenceHasTheProgramChosenAndExactForms) {
   EXPECT_FALSE(leavesOpen(exact));
 }
 
-}  // namespace
+}  // namespace viewer_choice_test
 }  // namespace glint::viewer

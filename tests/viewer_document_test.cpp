@@ -4,7 +4,7 @@
 #include "viewer/input.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_document_test {
 
 Document withExponent(Document d, double value) {
   d.a.material["paint"].exponent = value;
@@ -163,5 +163,5 @@ TEST(InputQueue, NothingIsLostOrReordered) {
   EXPECT_EQ(keys, 6);
 }
 
-}  // namespace
+}  // namespace viewer_document_test
 }  // namespace glint::viewer

@@ -18,7 +18,7 @@
 #include "viewer/presets.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_edits_test {
 
 using testing::HasSubstr;
 
@@ -257,5 +257,5 @@ TEST(Edits, BrighterFileLightsStayTheFiles) {
     EXPECT_NEAR(after[i].intensity.r / before[i].intensity.r, 1.05, 1e-3);
 }
 
-}  // namespace
+}  // namespace viewer_edits_test
 }  // namespace glint::viewer

@@ -8,7 +8,7 @@
 #include "viewer/presets.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_material_test {
 
 Scene twoMaterials() {
   Scene scene;
@@ -114,5 +114,5 @@ TEST(Presets, TheFitGivesAGreySpecularColourBack) {
   }
 }
 
-}  // namespace
+}  // namespace viewer_material_test
 }  // namespace glint::viewer

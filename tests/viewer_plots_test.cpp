@@ -7,7 +7,7 @@
 #include "viewer/plots.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_plots_test {
 
 TEST(LobePlot, PeaksAtTheMirrorDirection) {
   LobeInput input;
@@ -122,5 +122,5 @@ TEST(Compose, MarksWhatIsClipped) {
   EXPECT_EQ(markClipped(brighter, linear, 2), 3u);  // 0.5 times 4
 }
 
-}  // namespace
+}  // namespace viewer_plots_test
 }  // namespace glint::viewer

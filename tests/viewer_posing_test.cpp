@@ -7,7 +7,7 @@
 #include "viewer/session.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_posing_test {
 
 std::string pathOf(const char* name) { return std::string(GLINT_SOURCE_DIR) + "/models/" + name; }
 
@@ -97,5 +97,5 @@ TEST(Posing, ByManyThreads) {
     });
 }
 
-}  // namespace
+}  // namespace viewer_posing_test
 }  // namespace glint::viewer

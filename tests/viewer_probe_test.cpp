@@ -8,7 +8,7 @@
 #include "viewer/probe.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_probe_test {
 
 // Every pixel's probe against the whole picture by the reference, which draws all triangles. Where
 // an edge passes a pixel's centre the ray may find its neighbour: those are left out by the rest of
@@ -178,5 +178,5 @@ TEST(ViewerProbe, TheBackgroundIsTheReferencesToo) {
   }
 }
 
-}  // namespace
+}  // namespace viewer_probe_test
 }  // namespace glint::viewer

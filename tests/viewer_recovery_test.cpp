@@ -10,7 +10,7 @@
 #include "viewer/xdg.h"
 
 namespace glint::viewer {
-namespace {
+namespace viewer_recovery_test {
 
 namespace fs = std::filesystem;
 
@@ -143,5 +143,5 @@ TEST_F(SettingsTest, FoldersAreThoseOfXdg) {
   unsetenv("XDG_STATE_HOME");
 }
 
-}  // namespace
+}  // namespace viewer_recovery_test
 }  // namespace glint::viewer

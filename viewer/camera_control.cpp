@@ -1,4 +1,5 @@
 #include "camera_control.h"
+#include "glint/shading/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,6 @@
 
 namespace glint::viewer {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);

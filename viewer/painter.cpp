@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "choice.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
 
@@ -105,13 +106,12 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
   PaintResult result;
   result.request = request;
   const auto drawn = [&](SharedPicture& kept, const Look& look, PosedScene& posed) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     posed.pose(look);
     const Model& its = *posed.model;
     const auto choice =
         o.chooser.choose(its.scene, its.bounds, look, request.size, request.preview);
-    const std::chrono::duration<double, std::milli> choosing =
-        std::chrono::steady_clock::now() - start;
+    const double choosing = since(start);
     const auto fits = [&] { return kept && kept->asked == look && kept->choice == choice; };
     if (!fits()) {
       auto picture =
@@ -119,7 +119,7 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
       if (picture) {
         picture->asked = look;
         picture->choice = choice;
-        picture->milliseconds += choosing.count();
+        picture->milliseconds += choosing;
         kept = std::make_shared<const DrawnPicture>(std::move(*picture));
       }
     }

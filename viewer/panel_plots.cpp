@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "choice.h"
 #include "glint/render/variant.h"
 #include "glint/scene/look_text.h"
+#include "glint/shading/angles.h"
 #include "materials.h"
 #include "panel.h"
 #include "plots.h"
@@ -154,7 +154,7 @@ void polarLobe(const LobePlot& plot) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 grid = IM_COL32(255, 255, 255, 40);
   const auto at = [&](double degrees, double length) {
-    const double a = degrees * std::numbers::pi / 180;
+    const double a = degrees * radians;
     return ImVec2(foot.x + radius * float(length * std::sin(a)),
                   foot.y - radius * float(length * std::cos(a)));
   };

@@ -1,10 +1,10 @@
 #include "picture.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "glint/gl/check.h"
 #include "glint/gltf/model_hash.h"
+#include "glint/image/clock.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/srgb.h"
 #include "glint/options/picture_text.h"
@@ -13,7 +13,7 @@ namespace glint::viewer {
 
 std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, const Bounds& bounds,
                                         const Look& look, const std::atomic<bool>& stop) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   auto picture = renderer.begin(scene, makeDrawList(scene.scene(), bounds, look), look);
   DrawnPicture drawn;
   drawn.asked = drawn.look = look;
@@ -46,8 +46,7 @@ std::optional<DrawnPicture> drawPicture(Renderer& renderer, GpuScene& scene, con
   drawn.list = picture.list();
   drawn.samples = picture.samples();
   drawn.times = picture.times();
-  drawn.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  drawn.milliseconds = since(start);
   return drawn;
 }
 

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "glint/shading/angles.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
 
 namespace glint::viewer {
 namespace {
 
-constexpr double perDegree = std::numbers::pi / 180;
-
 glm::dvec3 at(double degrees) {
-  return {std::sin(degrees * perDegree), 0, std::cos(degrees * perDegree)};
+  return {std::sin(degrees * radians), 0, std::cos(degrees * radians)};
 }
 
 // log of a lobe of exponent 1: lobe = exp(alpha * this); -infinity where there is none.
@@ -52,7 +50,7 @@ LobePlot lobePlot(const LobeInput& input, double incidence) {
   }
   // cos^alpha(d) = 1/2, d the angle of R and V (Phong) or N and H (half as large).
   if (alpha > 1e-9) {
-    const double d = std::acos(std::exp2(-1 / alpha)) / perDegree;
+    const double d = std::acos(std::exp2(-1 / alpha)) / radians;
     plot.halfWidth = std::min(input.blinn ? 2 * d : d, 180.0);
   }
   return plot;
@@ -62,16 +60,16 @@ FresnelPlot fresnelPlot(Fresnel form, double n1, double n2, double schlickExpone
   FresnelPlot plot;
   std::vector<double> angles;
   for (int i = 0; i <= 180; ++i) angles.push_back(i * 0.5);
-  plot.brewster = brewsterAngle(n1, n2) / perDegree;
+  plot.brewster = brewsterAngle(n1, n2) / radians;
   if (n1 > n2) {
-    plot.critical = std::acos(criticalCosine(n1, n2)) / perDegree;
+    plot.critical = std::acos(criticalCosine(n1, n2)) / radians;
     for (double d = 1; d > 1e-3; d /= 2) angles.push_back(std::max(*plot.critical - d, 0.0));
     angles.push_back(*plot.critical);
     std::sort(angles.begin(), angles.end());
   }
   const ReflectanceInput input = reflectanceInput(form, n1, n2, schlickExponent);
   for (const double angle : angles) {
-    const double c = angle == 90 ? 0 : std::cos(angle * perDegree);
+    const double c = angle == 90 ? 0 : std::cos(angle * radians);
     const PolarizedReflectance r = fresnelPolarized(c, n1, n2);
     const double exact = fresnelExact(c, n1, n2);
     const double chosen = reflectance(form, c, input);
@@ -96,7 +94,7 @@ WidthPlot widthPlot(double exponent) {
       const double blinn = logOf(blinnLambda(N, L, V)), phong = logOf(phongLambda(N, L, V));
       return phong / blinn;
     };
-    plot.inPlane.points.emplace_back(incidence, ratio(at(incidence - width / perDegree)));
+    plot.inPlane.points.emplace_back(incidence, ratio(at(incidence - width / radians)));
     const glm::dvec3 side(0, 1, 0);
     plot.across.points.emplace_back(incidence, ratio(R * std::cos(width) + side * std::sin(width)));
   }

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/reference/raster.h"
 #include "glint/reference/renderer.h"
@@ -71,7 +72,6 @@ void markEdges(const reference::Stage& stage, const std::vector<reference::Attri
 
 void draw(const Model& model, ReferencePicture& picture, const std::atomic<bool>& stop,
           const std::function<void()>& progressed) {
-  using Clock = std::chrono::steady_clock;
   const int threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);
   ReferenceRenderer renderer(model.scene, *model.images, model.bounds, picture.look, threads);
   Image band;

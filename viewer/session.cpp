@@ -1,10 +1,10 @@
 #include "session.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "glint/gltf/patch.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_files.h"
@@ -16,7 +16,7 @@
 namespace glint::viewer {
 
 std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRequest& pose) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;
   model->pose = pose;
@@ -31,8 +31,7 @@ std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRe
     model->meshVersions.assign(model->scene.meshes.size(), 0);
     model->file = std::make_shared<ModelFile>(path, std::move(file), model->scene);
   }
-  model->loadTime =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  model->loadTime = since(start);
   return model;
 }
 

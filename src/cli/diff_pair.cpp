@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +15,7 @@
 
 #include "commands.h"
 #include "diff_layers.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_layers.h"
@@ -227,7 +227,7 @@ std::vector<std::byte> pictureBytes(const std::string& path) {
 }
 
 void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pictures) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   try {
     if (entry.b.empty()) {
       entry.status = unusable;
@@ -262,8 +262,7 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
       }
     }
   }
-  entry.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  entry.milliseconds = since(start);
 }
 
 std::string driverBaseline(const std::string& folder, const DiffEntry& entry) {

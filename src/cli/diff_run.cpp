@@ -1,7 +1,6 @@
 #include "diff_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <filesystem>
 #include <iostream>
@@ -11,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
-#include <thread>
 
 #include "commands.h"
 #include "diff_baselines.h"
@@ -113,38 +111,21 @@ Json comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* p
   std::vector<PairConditions> conditions;
   if (!conditionsPath.empty()) conditions = readConditions(conditionsPath);
   std::vector<Json> pairs(entries.size());
-  int jobs = request.jobs > 0 ? request.jobs : int(std::thread::hardware_concurrency());
-  jobs = std::clamp(jobs, 1, int(std::min<std::size_t>(entries.size(), 64)));
-  if (jobs > 1) settings.compare.flip.threads = 1;
-  std::atomic<std::size_t> next = 0;
+  const int jobs = std::min(threadsFor(request.jobs), 64);
+  if (jobs > 1 && entries.size() > 1) settings.compare.flip.threads = 1;
   Progress progress("comparing");
   std::size_t compared = 0;
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < entries.size(); i = next++) {
-        if (request.perDriver) useDriverBaseline(request.a, entries[i]);
-        PairPictures pictures;
-        const DiffSettings own = settingsFor(settings, conditions, entries[i].name);
-        diffPair(own, entries[i], page ? &pictures : nullptr);
-        pairs[i] = diffJson(entries[i], own.compare);
-        const std::lock_guard lock(mutex);
-        if (page) page->add(i, entries[i].result.differing > 0, std::move(pictures));
-        progress.show(double(++compared) / double(entries.size()), entries[i].name);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      failure = std::current_exception();
-      next = entries.size();
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 1; i < jobs && addWorker(workers, work);) ++i;
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  inParallel(jobs, entries.size(), [&](std::size_t i, int) {
+    if (request.perDriver) useDriverBaseline(request.a, entries[i]);
+    PairPictures pictures;
+    const DiffSettings own = settingsFor(settings, conditions, entries[i].name);
+    diffPair(own, entries[i], page ? &pictures : nullptr);
+    pairs[i] = diffJson(entries[i], own.compare);
+    const std::lock_guard lock(mutex);
+    if (page) page->add(i, entries[i].result.differing > 0, std::move(pictures));
+    progress.show(double(++compared) / double(entries.size()), entries[i].name);
+  });
   return Json(pairs);
 }
 

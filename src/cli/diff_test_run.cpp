@@ -20,14 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-bool isThere(const std::string& path) {
+bool isFile(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
 }
 
 /// A file's text, its end if it is long; empty if there is none.
 std::string textIn(const std::string& path, std::size_t most = 1 << 20) {
-  if (!isThere(path)) return "";
+  if (!isFile(path)) return "";
   const std::vector<std::byte> bytes = readFile(path);
   const std::size_t from = bytes.size() > most ? bytes.size() - most : 0;
   return {reinterpret_cast<const char*>(bytes.data()) + from, bytes.size() - from};
@@ -73,7 +73,7 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
   }
   if (!error.empty()) pair = Json{{"status", int(unusable)}, {"error", error}};
   pair["name"] = record.name;
-  pair["a"] = isThere(record.baseline) ? record.baseline : "";
+  pair["a"] = isFile(record.baseline) ? record.baseline : "";
   pair["b"] = record.actual;
   pair.erase("glint");
   pair["conditions"] = options;
@@ -124,7 +124,7 @@ TestRun readTestRun(const std::string& folder) {
                        ".txt is damaged: configure the project again");
     TestRecord record{lines[0], lines[1], "", "", ""};
     const auto ifThere = [](const std::string& path) {
-      return isThere(path) ? path : std::string();
+      return isFile(path) ? path : std::string();
     };
     record.actual = ifThere(folder + "/actual/" + file + lines[2]);
     record.kept = ifThere(folder + "/baseline/" + file + lines[2]);

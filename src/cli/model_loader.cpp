@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "clock.h"
 #include "glint/gltf/model_hash.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_image.h"

@@ -1,7 +1,6 @@
 #include "picture_encoder.h"
 
-#include <chrono>
-
+#include "glint/image/clock.h"
 #include "glint/image/task.h"
 #include "glint/options/exit_status.h"
 
@@ -38,7 +37,7 @@ bool PictureEncoder::write(const std::shared_ptr<OutgoingPicture>& picture, Imag
   }
   auto image = std::make_shared<Image>(std::move(rows));
   add([this, picture, image] {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     std::string error;
     try {
       if (picture->error.empty()) picture->writer->write(*image);
@@ -47,8 +46,7 @@ bool PictureEncoder::write(const std::shared_ptr<OutgoingPicture>& picture, Imag
     }
     const std::lock_guard lock(mutex_);
     if (!error.empty()) picture->error = error;
-    picture->encodeTime +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    picture->encodeTime += since(start);
     if (images_.size() < waitingLimit) images_.push_back(std::move(*image));
   });
   return true;

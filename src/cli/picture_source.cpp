@@ -1,8 +1,7 @@
 #include "picture_source.h"
+#include "glint/image/clock.h"
 
 #include <algorithm>
-
-#include "clock.h"
 
 namespace glint {
 namespace {

@@ -4,9 +4,9 @@
 #include <future>
 #include <memory>
 
-#include "clock.h"
 #include "commands.h"
 #include "glint/gl/context.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"

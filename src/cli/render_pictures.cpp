@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "clock.h"
 #include "commands.h"
 #include "glint/budget/error_budget.h"
+#include "glint/image/clock.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
 #include "glint/options/exit_status.h"

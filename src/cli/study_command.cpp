@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "glint/gltf/scene_file.h"
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/options/help.h"
@@ -110,7 +111,6 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   if (!context->remark().empty()) printWarning(context->remark());
 
   const Interrupt interrupt;
-  using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(given.timeBudget);
   const Stop stop = [&] {
     return Interrupt::signal() != 0 || (given.timeBudget > 0 && Clock::now() > end);

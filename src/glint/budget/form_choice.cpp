@@ -146,9 +146,10 @@ Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& l
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
     const double error = fresnelFormulaBound(fresnel, n1, n2, look.schlickExponent);
-    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent);
+    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent, m.turn);
     if (m.back)
-      rounding = std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent));
+      rounding =
+          std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent, m.turn));
     r.error = std::max(r.error, m.radiance * error);
     r.rounding = std::max(r.rounding, m.radiance * rounding);
   }

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "glint/shading/angles.h"
 #include "glint/shading/safe.h"
 
 namespace glint {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double flatLimit = 1e-6;  // of the rounding of normals that are meant to be the face's
-constexpr double radians = std::numbers::pi / 180;
 const double bentDirection = 2 / std::sqrt(3.0);  // |L''| in l^2
 
 double squared(double x) { return x * x; }

@@ -15,9 +15,9 @@ namespace glint {
 /// animation, held at its first and its last key before and after them.
 struct PoseRequest {
   std::optional<double> time;  ///< seconds
-  std::string animation;       ///< name, number or "all"; empty: the first
-  std::string scene;           ///< name or number; empty: the file's own
-  std::string variant;         ///< name (KHR_materials_variants); empty: the default
+  std::string animation = {};  ///< name, number or "all"; empty: the first
+  std::string scene = {};      ///< name or number; empty: the file's own
+  std::string variant = {};    ///< name (KHR_materials_variants); empty: the default
   UpAxis up = UpAxis::plusY;   ///< of the file: it is turned so that this points along +Y
   bool operator==(const PoseRequest&) const = default;
 };

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <numbers>
-#include <thread>
 #include <utility>
 
 #include "glint/image/error.h"
@@ -142,11 +139,6 @@ class RowErrors {
   std::vector<int> lastDifferent_;  ///< of the rows read, by block; the least int: none
 };
 
-int threadsOf(const FlipOptions& options) {
-  if (options.threads > 0) return options.threads;
-  return std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 void check(const PixelRows& reference, const PixelRows& test, const FlipOptions& options) {
   if (reference.width != test.width || reference.height != test.height || reference.width < 1 ||
       reference.height < 1)
@@ -162,33 +154,20 @@ void forErrors(const PixelRows& reference, const PixelRows& test, const FlipOpti
   check(reference, test, options);
   const detail::FlipFilters filters(options.pixelsPerDegree);
   const int width = reference.width, height = reference.height;
-  const int threads = std::min(threadsOf(options), height);
+  const int threads = std::min(threadsFor(options.threads), height);
   // Pieces of rows for the threads: long, since the rows around a piece are filtered twice, and in
   // rounds, since the map of a giant must not be kept whole.
   const int rounds = std::max(1, (height + 288 * threads - 1) / (288 * threads));
   const int piece = std::max(1, (height + rounds * threads - 1) / (rounds * threads));
   std::vector<float> errors(std::size_t(width) * std::size_t(piece) * std::size_t(threads));
-  std::exception_ptr failure;
-  std::atomic_flag failed;
-  const auto work = [&](int begin, int end, float* out) {
-    try {
+  for (int first = 0; first < height; first += piece * threads) {
+    inParallel(threads, std::size_t(threads), [&](std::size_t t, int) {
+      const int begin = first + int(t) * piece, end = std::min(height, begin + piece);
+      if (begin >= end) return;
+      float* out = errors.data() + std::size_t(width) * t * std::size_t(piece);
       RowErrors errorsOf(reference, test, filters, begin);
       for (int y = begin; y < end; ++y, out += width) errorsOf.compute(y, out);
-    } catch (...) {
-      if (!failed.test_and_set()) failure = std::current_exception();
-    }
-  };
-  for (int first = 0; first < height; first += piece * threads) {
-    std::vector<std::jthread> workers;
-    for (int t = 0; t < threads; ++t) {
-      const int begin = first + t * piece, end = std::min(height, begin + piece);
-      if (begin >= end) break;
-      float* out = errors.data() + std::size_t(width) * std::size_t(t * piece);
-      const bool isLast = t + 1 == threads || end == height;
-      if (isLast || !addWorker(workers, work, begin, end, out)) work(begin, end, out);
-    }
-    workers.clear();
-    if (failure) std::rethrow_exception(failure);
+    });
     for (int y = first; y < std::min(height, first + piece * threads); ++y)
       use(y, errors.data() + std::size_t(width) * std::size_t(y - first));
   }

@@ -40,13 +40,13 @@ struct JpegMaker {
 
 JpegMaker& makerOf(void* clientData) { return *static_cast<JpegMaker*>(clientData); }
 
-[[noreturn]] void onWriterError(j_common_ptr info) {
+[[noreturn]] void onError(j_common_ptr info) {
   JpegMaker& maker = makerOf(info->client_data);
   info->err->format_message(info, maker.message);
   std::longjmp(maker.failed, 1);
 }
 
-void onWriterOutput(j_common_ptr) {}
+void ignoreMessage(j_common_ptr) {}
 
 /// Exceptions must not pass through the library.
 bool put(JpegMaker& maker, std::size_t count) {
@@ -82,8 +82,8 @@ void onEnd(j_compress_ptr info) {
 bool begin(JpegMaker& maker, int width, int height, int quality) {
   if (setjmp(maker.failed) != 0) return false;
   maker.info.err = jpeg_std_error(&maker.errors);
-  maker.errors.error_exit = onWriterError;
-  maker.errors.output_message = onWriterOutput;
+  maker.errors.error_exit = onError;
+  maker.errors.output_message = ignoreMessage;
   maker.info.client_data = &maker;
   jpeg_create_compress(&maker.info);
   maker.target.init_destination = onBegin;

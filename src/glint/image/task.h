@@ -1,9 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
 #include <future>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace glint {
 
@@ -40,6 +46,37 @@ bool addWorker(Workers& workers, Work&&... work) {
   } catch (const std::system_error&) {
     return false;
   }
+}
+
+/// As many threads as are asked for, or as there are processors for 0.
+inline int threadsFor(int asked) {
+  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+/// Calls work(i, thread) once for each i below `count`, in order on each of up to `threads` threads
+/// (threadsFor()), which count from 0: what a thread keeps between calls may stand in a vector. The
+/// first exception is thrown when all have ended; what has not begun by then is left out.
+template <typename Work>
+void inParallel(int threads, std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto share = [&](int thread) {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i, thread);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(failing);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const int most = int(std::min(std::size_t(threadsFor(threads)), count));
+    for (int t = 1; t < most && addWorker(others, share, t);) ++t;
+    share(0);
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace glint

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <string>
-#include <thread>
 
 #include "glint/image/error.h"
 #include "glint/image/task.h"
@@ -26,10 +23,6 @@ constexpr int maxStripSamples = 1 << 16;
 
 int scaleOf(const AntiAliasing& antiAliasing) {
   return antiAliasing.mode == AntiAliasing::Mode::ssaa ? antiAliasing.count : 1;
-}
-
-int threadsFor(int asked) {
-  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -188,26 +181,6 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
   }
 }
 
-void ReferenceRenderer::inParallel(int count, const std::function<void(int, Strip&)>& task) const {
-  std::atomic<int> next = 0;
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto work = [&] {
-    try {
-      Strip strip;
-      for (int i = next++; i < count; i = next++) task(i, strip);
-    } catch (...) {
-      const std::lock_guard lock(failing);
-      failure = std::current_exception();
-    }
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(threads_, count) && addWorker(others, work);) ++i;
-  work();
-  others.clear();
-  if (failure) std::rethrow_exception(failure);
-}
-
 int ReferenceRenderer::bandRows() const {
   return std::min(look_.resolution.y, stripRows_ / scale_ * threads_ * 4);
 }
@@ -218,7 +191,10 @@ void ReferenceRenderer::drawRows(int y0, int rows, Image& out) {
   out.values.resize(std::size_t(4) * out.width * rows);
   const int first = y0 * scale_, end = (y0 + rows) * scale_;
   const int firstStrip = first / stripRows_, lastStrip = (end - 1) / stripRows_;
-  inParallel(lastStrip - firstStrip + 1, [&](int i, Strip& strip) {
+  std::vector<Strip> strips(static_cast<std::size_t>(threads_));
+  inParallel(threads_, std::size_t(lastStrip - firstStrip + 1), [&](std::size_t n, int thread) {
+    const int i = int(n);
+    Strip& strip = strips[std::size_t(thread)];
     const int from = std::max(first, (firstStrip + i) * stripRows_);
     const int to = std::min(end, (firstStrip + i + 1) * stripRows_);
     drawSamples(from, to, strip);
@@ -248,7 +224,10 @@ std::vector<reference::Attributes> ReferenceRenderer::attributes(int y0, int row
   const std::size_t width = std::size_t(stage_.grid.x);
   std::vector<reference::Attributes> all(width * std::size_t(rows));
   const int end = y0 + rows, firstStrip = y0 / stripRows_, lastStrip = (end - 1) / stripRows_;
-  inParallel(lastStrip - firstStrip + 1, [&](int i, Strip& strip) {
+  std::vector<Strip> strips(static_cast<std::size_t>(threads_));
+  inParallel(threads_, std::size_t(lastStrip - firstStrip + 1), [&](std::size_t n, int thread) {
+    const int i = int(n);
+    Strip& strip = strips[std::size_t(thread)];
     const int from = std::max(y0, (firstStrip + i) * stripRows_);
     const int to = std::min(end, (firstStrip + i + 1) * stripRows_);
     findVisible(from, to, strip);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <vector>
 
 #include "glint/image/image.h"
@@ -83,7 +82,6 @@ class ReferenceRenderer {
   double depthAt(const reference::Primitive&, int column, int row, const glm::dvec2& sample) const;
   double alphaAt(const reference::Item&, const reference::Primitive&, int column, int row) const;
   glm::dvec4 background(int column, int row) const;
-  void inParallel(int count, const std::function<void(int, Strip&)>& task) const;
 
   Look look_;
   int scale_, threads_;

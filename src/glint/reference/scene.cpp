@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "glint/reference/samples.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/angles.h"
 #include "glint/shading/safe.h"
 
 namespace glint::reference {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
   const glm::dmat3 turn = glm::transpose(camera.axes);

@@ -4,18 +4,16 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include "glint/scene/lights.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/shading/angles.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
 
 namespace glint {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 glm::dvec3 unit(const glm::dvec3& v) {
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -48,28 +46,30 @@ void addLights(DrawList& list, const Look& look) {
   for (const int number : list.lightNumbers) {
     const Light& light = lights[std::size_t(number)];
     LightEntry e;
-    e.intensity = glm::vec4(glm::vec3(light.intensity), 0);
+    e.intensity = light.intensity;
     if (order(light.type) == 0) {
       const glm::dvec3 l = light.type == Light::Type::camera ? unit(light.direction)
                                                              : directions * unit(light.direction);
-      e.position = glm::vec4(glm::vec3(l), 0);
+      e.position = l;
       // L + V for the one direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
       const glm::dvec3 between = l + glm::dvec3(0, 0, 1);
       const bool opposed = !(glm::dot(between, between) > 1e-12);
       const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
-      e.constant = glm::vec4(glm::vec3(blinn ? half : between), 0);
+      e.halfway = blinn ? half : between;
     } else {
-      e.position = glm::vec4(eyePosition(light.position, camera, rotation), 0);
+      e.position = eyePosition(light.position, camera, rotation);
     }
     if (light.fallsOff) {  // distances are in units of the camera's unit
       const double square = camera.unit * camera.unit;
-      e.intensity = glm::vec4(glm::vec3(glm::min(light.intensity / square, 1e30)), 1);
-      e.position.w = light.range > 0 ? float(std::min(camera.unit / light.range, 1e15)) : 0;
+      e.intensity = glm::min(light.intensity / square, 1e30);
+      e.fallsOff = 1;
+      e.inverseRange = light.range > 0 ? float(std::min(camera.unit / light.range, 1e15)) : 0;
     }
     if (light.type == Light::Type::spot) {
       const double outer = std::cos(light.outerAngle * radians);
-      e.axis = glm::vec4(glm::vec3(directions * unit(light.direction)), float(outer));
-      e.constant.w = float(1 / (std::cos(light.innerAngle * radians) - outer));
+      e.axis = directions * unit(light.direction);
+      e.cosOuter = float(outer);
+      e.coneScale = float(1 / (std::cos(light.innerAngle * radians) - outer));
     }
     list.lights.push_back(e);
   }
@@ -89,22 +89,33 @@ glm::vec2 lobeConstants(const HighlightForm& form, double exponent) {
 MaterialBlock materialBlock(const Material& material, const Variant& variant, const Look& look) {
   const ShadingParameters& s = material.shading;
   MaterialBlock block;
-  block.color = glm::vec4(glm::vec3(s.color), float(material.alpha));
-  block.emission = glm::vec4(glm::vec3(material.emission), float(material.alphaCutoff));
+  block.color = s.color;
+  block.alpha = float(material.alpha);
+  block.emission = material.emission;
+  block.alphaCutoff = float(material.alphaCutoff);
   const double exponent = lobeExponent(material, look);
-  block.strength = glm::vec4(s.ambient, s.diffuse, s.specular, exponent);
-  glm::vec2 dimmer[HighlightForms::mostDimmer] = {};
+  block.ambient = float(s.ambient);
+  block.diffuse = float(s.diffuse);
+  block.specular = float(s.specular);
+  block.exponent = float(exponent);
+  block.lobe = lobeConstants(variant.highlight, exponent);
+  glm::vec2* const dimmer[] = {&block.secondLobe, &block.thirdLobe, &block.fourthLobe};
+  static_assert(std::size(dimmer) == HighlightForms::mostDimmer);
   for (std::size_t i = 0; i < variant.dimmer.size(); ++i)
-    dimmer[i] = lobeConstants(variant.dimmer[i].form, exponent);
-  block.lobe = glm::vec4(lobeConstants(variant.highlight, exponent), dimmer[0]);
-  block.dimmerLobe = glm::vec4(dimmer[1], dimmer[2]);
+    *dimmer[i] = lobeConstants(variant.dimmer[i].form, exponent);
   const FresnelSides sides = fresnelSides(s.ior, look.mediumIor);
   const double k =
       variant.fresnel == Fresnel::rational ? rationalMinimax(look.mediumIor, s.ior) : 0.0;
-  block.surface = glm::vec4(s.metalness, s.transmission, sides.entering.r0, k);
+  block.metalness = float(s.metalness);
+  block.transmission = float(s.transmission);
+  block.normalReflectance = float(sides.entering.r0);
+  block.rationalSlope = float(k);
   const ParameterTextures& t = material.parameterTextures;
-  block.textured = glm::vec4(t.metallic, t.roughness, t.reflectance, t.occlusionStrength);
-  block.detail.x = float(usesBlinn(look.shading) ? look.blinnFactor : 1.0);
+  block.metallic = float(t.metallic);
+  block.roughness = float(t.roughness);
+  block.reflectance = float(t.reflectance);
+  block.occlusionStrength = float(t.occlusionStrength);
+  block.blinnFactor = float(usesBlinn(look.shading) ? look.blinnFactor : 1.0);
   block.entering = boundary(sides.entering);
   block.leaving = boundary(sides.leaving);
   return block;
@@ -136,7 +147,7 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
       for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(normals[i][j]));
     if (largest > 0) normals *= 1 / largest;
   }
-  block.normalMatrix = glm::mat4(glm::mat3(normals));
+  block.normalMatrix = glm::mat3x4(glm::mat3(normals));
   return block;
 }
 
@@ -176,7 +187,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
   const double turn = -look.environmentRotation * radians, c = std::cos(turn), s = std::sin(turn);
   const glm::dmat3 rotation(c, 0, -s, 0, 1, 0, s, 0, c);
   list.frame.worldFromEye = glm::mat4(glm::mat3(rotation * list.camera.axes));
-  list.frame.view = {0, 0, 1, float(look.schlickExponent)};
+  list.frame.schlickExponent = float(look.schlickExponent);
   list.frame.ambientLight = glm::vec4(glm::vec3(look.ambientLight), 0);
 
   std::vector<Material> materials;
@@ -195,7 +206,8 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
     item.materialBlock = materialBlock(material, item.variant, look);
     item.mirrored = isMirrored(instance.world);
-    item.draw.normalMatrix[3] = {float(material.normalScale), 0, 0, item.mirrored ? -1 : 1};
+    item.draw.normalScale = float(material.normalScale);
+    item.draw.handedness = item.mirrored ? -1 : 1;
     const bool both = material.doubleSided || look.twoSided || mesh.topology != Topology::triangles;
     item.faces = both ? FaceSide::both : FaceSide::front;
     item.blended = item.variant.alphaBlend;
@@ -217,7 +229,7 @@ std::vector<DrawCall> drawCalls(const std::vector<DrawItem>& items) {
     return !a.blended && !b.blended && a.mesh == b.mesh && a.material == b.material &&
            a.mirrored == b.mirrored && a.faces == b.faces && a.variant == b.variant &&
            std::memcmp(&a.materialBlock, &b.materialBlock, sizeof a.materialBlock) == 0 &&
-           a.draw.normalMatrix[3] == b.draw.normalMatrix[3];
+           a.draw.normalScale == b.draw.normalScale;
   };
   std::vector<DrawCall> calls;
   for (std::size_t i = 0; i < items.size();) {

@@ -44,10 +44,8 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   bool specular = v.specular && term.kind == Kind::specular;
   const MaterialBlock& block = item.materialBlock;
   HighlightForm form = v.highlight;
-  glm::vec2 shape(block.lobe);
-  const glm::vec2 shapes[] = {{block.lobe.z, block.lobe.w},
-                              {block.dimmerLobe.x, block.dimmerLobe.y},
-                              {block.dimmerLobe.z, block.dimmerLobe.w}};
+  glm::vec2 shape = block.lobe;
+  const glm::vec2 shapes[] = {block.secondLobe, block.thirdLobe, block.fourthLobe};
   for (std::size_t i = 0; i < v.dimmer.size(); ++i) {
     const Variant::Dimmer& each = v.dimmer[i];
     const int from = place.type == 0 ? each.directional : place.type == 1 ? each.point : each.spot;
@@ -61,14 +59,13 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   v.specular = specular;
   if (!specular) return;
   v.highlight = form;
-  item.materialBlock.lobe = glm::vec4(shape, 0, 0);
+  item.materialBlock.lobe = shape;
 }
 
 void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {
   Variant& v = item.variant;
   if (v.unlit) {
-    if (term.kind != Kind::emission)
-      item.materialBlock.color = glm::vec4(0, 0, 0, item.materialBlock.color.a);
+    if (term.kind != Kind::emission) item.materialBlock.color = glm::vec3(0);
     return;
   }
   const bool oneLight = term.kind == Kind::diffuse || term.kind == Kind::specular;
@@ -76,7 +73,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
     keepOneLight(item, place, term);
   else
     removeLights(v);
-  if (term.kind != Kind::emission) v.emission = v.emissionTexture = false;
+  if (term.kind != Kind::emission) v.dropEmission();
   if (v.program != Shading::environment) return;
   v.output = term.kind == Kind::reflection   ? PixelOutput::reflection
              : term.kind == Kind::refraction ? PixelOutput::refraction
@@ -87,7 +84,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
 void keepGeometry(DrawItem& item, const PictureTerm& term) {
   Variant& v = item.variant;
   v.multisampled = false;
-  v.emission = v.emissionTexture = false;
+  v.dropEmission();
   if (term.kind != Kind::normal) {
     v.output = term.kind == Kind::depth ? PixelOutput::depth : PixelOutput::ids;
     return;
@@ -107,13 +104,12 @@ DrawList termList(const Scene& scene, DrawList list, const PictureTerm& term) {
     std::erase_if(list.items, [](const DrawItem& item) { return item.blended; });
     for (DrawItem& item : list.items) {
       keepGeometry(item, term);
-      glm::vec4& carrier = item.materialBlock.emission;
-      if (term.kind == Kind::ids) carrier = glm::vec4(idsOf(scene, item), carrier.a);
+      if (term.kind == Kind::ids) item.materialBlock.emission = idsOf(scene, item);
     }
     return list;
   }
   for (DrawItem& item : list.items) keepLight(item, place, term);
-  if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec4(0);
+  if (term.kind != Kind::ambient) list.frame.ambientLight = glm::vec3(0);
   if (term.kind == Kind::diffuse || term.kind == Kind::specular)
     list.lights = {list.lights.at(std::size_t(place.index))};
   else

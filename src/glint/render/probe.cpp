@@ -37,12 +37,13 @@ std::vector<std::string> membersOf(const std::string& type, const std::string& f
   std::vector<std::string> members;
   if (!std::regex_search(files, match, std::regex("struct\\s+" + type + "\\s*\\{([^}]*)\\}")))
     return {};
-  // Without comments, "float e; vec3 a;": one type before each semicolon.
+  // Without comments, "float e; vec3 a, b;": a type and names before each semicolon.
   const std::string body = std::regex_replace(match[1].str(), std::regex("//[^\n]*"), "");
-  const std::regex member("(\\w+)\\s+\\w+\\s*;");
+  const std::regex member("(\\w+)\\s+(\\w+(?:\\s*,\\s*\\w+)*)\\s*;");
   for (std::sregex_iterator i(body.begin(), body.end(), member), end; i != end; ++i) {
     if (floatsOf((*i)[1]) == 0) return {};
-    members.push_back((*i)[1]);
+    const std::string names = (*i)[2];
+    members.insert(members.end(), 1 + std::size_t(std::ranges::count(names, ',')), (*i)[1]);
   }
   return members;
 }

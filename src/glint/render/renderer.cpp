@@ -1,12 +1,13 @@
 #include "glint/render/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <span>
 #include <utility>
 
 #include "glint/gl/check.h"
+#include "glint/image/clock.h"
+#include "glint/image/srgb.h"
 #include "glint/render/composition.h"
 
 namespace glint {
@@ -15,19 +16,16 @@ namespace {
 constexpr GLuint environmentUnit = 3;
 constexpr GLuint parameterUnit = 5;  // and the three after it
 
-enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding };
+enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding, curveBinding };
 
 class Stopwatch {
  public:
   explicit Stopwatch(double& milliseconds) : sum_(milliseconds) {}
-  ~Stopwatch() {
-    using namespace std::chrono;
-    sum_ += duration<double, std::milli>(steady_clock::now() - start_).count();
-  }
+  ~Stopwatch() { sum_ += since(start_); }
 
  private:
   double& sum_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
 };
 
 void connect(const Program& program) {
@@ -35,6 +33,7 @@ void connect(const Program& program) {
   program.bindBlock("LightBlock", lightBinding);
   program.bindBlock("DrawBlock", drawBinding);
   program.bindBlock("MaterialBlock", materialBinding);
+  program.bindBlock("CurveBlock", curveBinding);
   program.bindSampler("colorTexture", 0);
   program.bindSampler("emissionTexture", 1);
   program.bindSampler("normalTexture", 2);
@@ -207,6 +206,16 @@ const Program& Renderer::layerProgram() {
       .first->second;
 }
 
+void Renderer::needCurve() {
+  if (curve_) return;
+  CurveBlock block;
+  for (std::size_t i = 0; i < srgbDecoded.size(); ++i)
+    block.linearOfCode[i] = glm::vec4(srgbDecoded[i], 0, 0, 0);
+  curve_ = Buffer::make();
+  glBindBuffer(GL_UNIFORM_BUFFER, curve_.id());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+}
+
 Renderer::Picture Renderer::begin(GpuScene& scene, DrawList list, const Look& look) {
   return {*this, scene, std::move(list), look};
 }
@@ -231,6 +240,10 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
   renderer.targetFor(layout_.tileWidth * layout_.scale, layout_.bandHeight * layout_.scale,
                      layout_.samples);
   if (list_.environment) renderer.environment_.upload(list_.environment);
+  const auto readsCodes = [](const DrawItem& item) {
+    return item.variant.colorTexture || item.variant.emissionTexture;
+  };
+  if (std::ranges::any_of(list_.items, readsCodes)) renderer.needCurve();
   glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
   glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
                list_.lights.data(), GL_STREAM_DRAW);
@@ -278,20 +291,21 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
     const glm::dvec2 upper = glm::dvec2(tile.x + tile.width, look_.resolution.y - tile.y) / whole;
     FrameBlock frame = list_.frame;
     const std::vector<glm::vec2> samples = target.samplePositions();
-    frame.ambientLight.a = float(std::min(samples.size(), std::size(frame.samples)));
+    frame.sampleCount = float(std::min(samples.size(), std::size(frame.samples)));
     for (std::size_t i = 0; i < samples.size() && i < std::size(frame.samples); ++i)
       frame.samples[i] = glm::vec4(samples[i] - 0.5f, 0, 0);
     frame.projection = glm::mat4(projection(list_.camera, lower, upper, renderer_.clipControl_));
     if (!list_.camera.orthographic) {
       const glm::dvec2 reach =
           glm::dvec2(list_.camera.halfHeight * list_.camera.aspect, list_.camera.halfHeight);
-      frame.rays = glm::vec4(glm::vec2((upper - lower) * reach),
-                             glm::vec2((upper + lower - 1.0 + list_.camera.shift) * reach));
+      frame.rayScale = (upper - lower) * reach;
+      frame.rayOffset = (upper + lower - 1.0 + list_.camera.shift) * reach;
     }
     glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
     glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
     if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
+    if (renderer_.curve_) glBindBufferBase(GL_UNIFORM_BUFFER, curveBinding, renderer_.curve_.id());
 
     target.bind();
     glViewport(0, 0, width, height);

@@ -106,6 +106,7 @@ class Renderer {
   /// Of the target, or null if this driver cannot tell the layers of its samples apart.
   const DepthLayers* layersFor();
   const Program& layerProgram();
+  void needCurve();
   static void setBlending(bool blended);
   /// Whether any sample that `draw` draws passes the tests, and how many do.
   bool any(const std::function<void()>& draw);
@@ -126,6 +127,7 @@ class Renderer {
   int askedSamples_ = 0;
   VertexArray noVertices_;
   Buffer frame_;
+  Buffer curve_;  ///< made when a texture is in sRGB
 };
 
 }  // namespace glint

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "glint/image/error.h"
+#include "glint/shading/angles.h"
 
 namespace glint {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 // Nothing of it can be seen: it is scaled to one point, or lets everything through.
 bool isUnseen(const Scene& scene, const Instance& instance) {

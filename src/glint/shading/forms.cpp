@@ -140,15 +140,15 @@ constexpr std::array<FresnelRow, 5> fresnels{{
      [](double c, const ReflectanceInput& i) { return fresnelTextbook(c, i.n1, i.n2); }, false,
      textbookRounding, &ReflectanceCosts::textbook},
     {Fresnel::schlick, "schlick",
-     "fresnelSchlick(cosine, boundary, material.surface.z, frame.view.w)",
+     "fresnelSchlick(cosine, boundary, material.normalReflectance, frame.schlickExponent)",
      [](double c, const ReflectanceInput& i) { return schlick(c, i.constants, i.schlickExponent); },
      true, [](double, double, double) { return 1e-6 + 3.4e-7 * 5.0; }, &ReflectanceCosts::schlick},
     {Fresnel::schlickExp2, "schlick-exp2",
-     "fresnelSchlickExp2(cosine, boundary, material.surface.z)",
+     "fresnelSchlickExp2(cosine, boundary, material.normalReflectance)",
      [](double c, const ReflectanceInput& i) { return schlickExp2(c, i.constants); }, true,
      usualRounding, &ReflectanceCosts::schlickExp2},
     {Fresnel::rational, "rational",
-     "fresnelRational(cosine, boundary, material.surface.z, material.surface.w)",
+     "fresnelRational(cosine, boundary, material.normalReflectance, material.rationalSlope)",
      [](double c, const ReflectanceInput& i) {
        return schlickRational(c, i.constants, i.rationalSlope);
      },

@@ -72,6 +72,16 @@ class Bench {
   Renderer renderer_;
 };
 
+/// A pixel's linear red, green and blue; y counts rows from the top.
+inline glm::dvec3 at(const Image& image, int x, int y) {
+  const float* p = image.row(y) + std::size_t(4) * std::size_t(x);
+  return {p[0], p[1], p[2]};
+}
+
+inline glm::dvec3 middle(const Image& image) {
+  return at(image, image.width / 2, image.height / 2);
+}
+
 inline constexpr Shading everyShading[] = {Shading::flat, Shading::gouraud, Shading::phong,
                                            Shading::blinnPhong, Shading::environment};
 

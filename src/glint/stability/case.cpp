@@ -113,6 +113,14 @@ void Record::alike(const std::string& what, const Image& got, const Image& expec
        got.values[at], expected.values[at], tolerance);
 }
 
+void Record::color(const std::string& what, const glm::dvec3& got, const glm::dvec3& expected,
+                   double tolerance) {
+  Worst worst;
+  const char* const names[] = {"red", "green", "blue"};
+  for (int i = 0; i < 3; ++i) worst.add(got[i], expected[i], tolerance, names[i]);
+  worst.into(*this, what);
+}
+
 bool Record::passed() const {
   return !findings_.empty() &&
          std::all_of(findings_.begin(), findings_.end(), [](const Finding& f) { return f.passed; });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ class Record {
                const std::string& part);
   /// No value of the picture is NaN or infinite.
   void finite(const std::string& what, const Image& image);
+  /// The worst of red, green and blue.
+  void color(const std::string& what, const glm::dvec3& got, const glm::dvec3& expected,
+             double tolerance);
   /// The largest difference of two pictures of one size.
   void alike(const std::string& what, const Image& got, const Image& expected, double tolerance);
 

@@ -28,19 +28,6 @@ Material material(double ambient, double diffuse, double specular, double metaln
   return m;
 }
 
-glm::dvec3 middle(const Image& image) {
-  const float* p = image.row(image.height / 2) + 4 * (image.width / 2);
-  return {p[0], p[1], p[2]};
-}
-
-void expectColor(Record& record, const std::string& what, const glm::dvec3& got,
-                 const glm::dvec3& expected, double tolerance) {
-  Worst worst;
-  const char* const names[] = {"red", "green", "blue"};
-  for (int i = 0; i < 3; ++i) worst.add(got[i], expected[i], tolerance, names[i]);
-  worst.into(record, what);
-}
-
 /// The middle of a square under one white light from the viewer, by every program and the
 /// reference.
 void expectEverywhere(Bench& bench, Record& record, const std::string& what, const Material& m,
@@ -55,9 +42,9 @@ void expectEverywhere(Bench& bench, Record& record, const std::string& what, con
     // In a white room a metal seen from the front reflects its colour.
     glm::dvec3 own = expected;
     if (shading == Shading::environment) own += m.shading.metalness * m.shading.color;
-    expectColor(record, name + ": " + what, middle(bench.draw(scene, look)), own, tolerance);
-    expectColor(record, name + " in the reference: " + what, middle(bench.reference(scene, look)),
-                own, tolerance);
+    record.color(name + ": " + what, middle(bench.draw(scene, look)), own, tolerance);
+    record.color(name + " in the reference: " + what, middle(bench.reference(scene, look)), own,
+                 tolerance);
   }
 }
 
@@ -67,9 +54,9 @@ void f1(Bench& bench, Record& record) {
   Look look = whiteLook(bench, Shading::phong);
   look.noLights = true;
   look.ambientLight = glm::dvec3(1);
-  expectColor(record, "--no-lights",
-              middle(bench.draw(sceneOf(square(), material(1, 1, 1, 0, glm::dvec3(0.5))), look)),
-              glm::dvec3(0.5), 0);
+  record.color("--no-lights",
+               middle(bench.draw(sceneOf(square(), material(1, 1, 1, 0, glm::dvec3(0.5))), look)),
+               glm::dvec3(0.5), 0);
 }
 
 void f2(Bench& bench, Record& record) {
@@ -100,9 +87,9 @@ void f3(Bench& bench, Record& record) {
   Look look = whiteLook(bench, Shading::phong);
   look.light =
       std::vector<Light>(maxLights, directional({0, 0, 1}, glm::dvec3(1 / double(maxLights))));
-  expectColor(record, std::to_string(maxLights) + " lights",
-              middle(bench.draw(sceneOf(square(), material(0, 1, 0, 0, glm::dvec3(1))), look)),
-              glm::dvec3(1), 1e-6);
+  record.color(std::to_string(maxLights) + " lights",
+               middle(bench.draw(sceneOf(square(), material(0, 1, 0, 0, glm::dvec3(1))), look)),
+               glm::dvec3(1), 1e-6);
 }
 
 void f4(Bench& bench, Record& record) {
@@ -130,8 +117,8 @@ void f5(Bench& bench, Record& record) {
   const double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec3 z(0, 0, 1);
   const LightTerms terms = phongLight(p, z, z, z, glm::dvec3(infinity));
-  expectColor(record, "infinite intensity and colour 0 in the reference",
-              sumColor(terms, glm::dvec3(0), 0), glm::dvec3(0), 0);
+  record.color("infinite intensity and colour 0 in the reference",
+               sumColor(terms, glm::dvec3(0), 0), glm::dvec3(0), 0);
 }
 
 void f6(Bench& bench, Record& record) {
@@ -146,8 +133,8 @@ void f6(Bench& bench, Record& record) {
       "is not a colour");
   SumParameters p;
   const glm::dvec3 z(0, 0, 1);
-  expectColor(record, "negative intensity in the reference",
-              phongLight(p, z, z, z, glm::dvec3(-1)).matte, glm::dvec3(0), 0);
+  record.color("negative intensity in the reference", phongLight(p, z, z, z, glm::dvec3(-1)).matte,
+               glm::dvec3(0), 0);
 }
 
 void f7(Bench& bench, Record& record) {
@@ -164,8 +151,8 @@ void f8(Bench& bench, Record& record) {
 
 void f9(Bench&, Record& record) {
   const glm::dvec3 c(0.5, 0.25, 0);
-  expectColor(record, "metalness -1 in the reference", specularColor(c, -1), glm::dvec3(1), 0);
-  expectColor(record, "metalness 2 in the reference", specularColor(c, 2), c, 0);
+  record.color("metalness -1 in the reference", specularColor(c, -1), glm::dvec3(1), 0);
+  record.color("metalness 2 in the reference", specularColor(c, 2), c, 0);
   for (const char* text : {"-1", "2", "nan"})
     record.refused(
         "--material metalness=" + std::string(text),
@@ -209,10 +196,10 @@ void f11(Bench& bench, Record& record) {
         sceneOf(ramp({2, 0, 1, 1}, {0, 2, 1, 1}), material(1, 1, 0, 0, glm::dvec3(1)));
     const std::string name(shadingName(shading));
     // A plane equation of values up to 2 with some 8 roundings.
-    expectColor(record, name + ": between vertex colours 2 and 0", middle(bench.draw(scene, look)),
-                glm::dvec3(1), 16 * rounding);
-    expectColor(record, name + " in the reference", middle(bench.reference(scene, look)),
-                glm::dvec3(1), 1e-7);
+    record.color(name + ": between vertex colours 2 and 0", middle(bench.draw(scene, look)),
+                 glm::dvec3(1), 16 * rounding);
+    record.color(name + " in the reference", middle(bench.reference(scene, look)), glm::dvec3(1),
+                 1e-7);
   }
   // Light above 1 at a vertex is interpolated unclamped, too.
   Look look = whiteLook(bench, Shading::gouraud);
@@ -220,9 +207,9 @@ void f11(Bench& bench, Record& record) {
   Mesh mesh = square({0, 0, 1}, 1);
   const glm::vec3 dark(1, 0, 0), lit(0, 0, 1);
   mesh.normals = {lit, dark, dark, lit};
-  expectColor(record, "gouraud: between light of 2 and 0",
-              middle(bench.draw(sceneOf(mesh, material(0, 1, 0, 0, glm::dvec3(1))), look)),
-              glm::dvec3(1), 16 * rounding);
+  record.color("gouraud: between light of 2 and 0",
+               middle(bench.draw(sceneOf(mesh, material(0, 1, 0, 0, glm::dvec3(1))), look)),
+               glm::dvec3(1), 16 * rounding);
 }
 
 void f12(Bench& bench, Record& record) {

@@ -78,21 +78,6 @@ Look environmentLook(Bench& bench, const std::string& picture) {
   return look;
 }
 
-void expectColor(Record& record, const std::string& what, const glm::dvec3& got,
-                 const glm::dvec3& expected, double tolerance) {
-  Worst worst;
-  const char* const names[] = {"red", "green", "blue"};
-  for (int i = 0; i < 3; ++i) worst.add(got[i], expected[i], tolerance, names[i]);
-  worst.into(record, what);
-}
-
-glm::dvec3 at(const Image& image, int x, int y) {
-  const float* p = image.row(y) + std::size_t(4) * std::size_t(x);
-  return {p[0], p[1], p[2]};
-}
-
-glm::dvec3 middle(const Image& image) { return at(image, image.width / 2, image.height / 2); }
-
 /// The normal that reflects the direction +Z into d.
 glm::dvec3 halfWay(const glm::dvec3& d) {
   return safeNormalize(safeNormalize(d) + glm::dvec3(0, 0, 1));
@@ -112,10 +97,10 @@ void m1(Bench& bench, Record& record) {
   for (const glm::dvec3& d : directions) {
     const Look look = environmentLook(bench, CompassPicture::path());
     const Scene scene = sceneOf(square(halfWay(d)), mirror());
-    expectColor(record, "a mirror that shows " + vectorText(d), middle(bench.draw(scene, look)),
-                compass(safeNormalize(d)), compassTolerance);
-    expectColor(record, "the reference's", middle(bench.reference(scene, look)),
-                compass(safeNormalize(d)), compassTolerance);
+    record.color("a mirror that shows " + vectorText(d), middle(bench.draw(scene, look)),
+                 compass(safeNormalize(d)), compassTolerance);
+    record.color("the reference's", middle(bench.reference(scene, look)), compass(safeNormalize(d)),
+                 compassTolerance);
   }
 }
 
@@ -127,9 +112,9 @@ void m2(Bench& bench, Record& record) {
       const Scene scene = sceneOf(square(halfWay(d)), mirror());
       const glm::dvec3 expected = compass(before(safeNormalize(d), angle));
       const std::string what = "turned by " + numberText(angle) + ", " + vectorText(d);
-      expectColor(record, what, middle(bench.draw(scene, look)), expected, compassTolerance);
-      expectColor(record, what + ", the reference", middle(bench.reference(scene, look)), expected,
-                  compassTolerance);
+      record.color(what, middle(bench.draw(scene, look)), expected, compassTolerance);
+      record.color(what + ", the reference", middle(bench.reference(scene, look)), expected,
+                   compassTolerance);
     }
 }
 
@@ -141,9 +126,9 @@ void m3(Bench& bench, Record& record) {
     look.hdriFile = CompassPicture::path();
     // A ball of 96 x 48: its normals between vertices of 3.75 degrees are off by (0.065)^2 / 8 at
     // most, a row of the picture above its middle turns the reflection by 2 * 2 / 65 / 2.
-    expectColor(record, "a ball seen from " + vectorText(d),
-                middle(bench.draw(sceneOf(sphere(96, 48), mirror()), look)),
-                compass(safeNormalize(d)), 0.25 * 2e-3 + compassTolerance);
+    record.color("a ball seen from " + vectorText(d),
+                 middle(bench.draw(sceneOf(sphere(96, 48), mirror()), look)),
+                 compass(safeNormalize(d)), 0.25 * 2e-3 + compassTolerance);
   }
 }
 
@@ -159,10 +144,9 @@ void m4(Bench& bench, Record& record) {
         look.environmentRotation = angle;
         // The steepest edge of them rises by 32 per radian, directions are off by 1e-6; the look-up
         // itself by 1e-5.
-        expectColor(record,
-                    (map == Environment::sky ? "sky towards " : "studio towards ") + vectorText(d),
-                    middle(bench.draw(sceneOf(square(halfWay(d)), mirror()), look)),
-                    environmentRadiance(truth, before(safeNormalize(d), angle)), 32e-6 + 1e-5);
+        record.color((map == Environment::sky ? "sky towards " : "studio towards ") + vectorText(d),
+                     middle(bench.draw(sceneOf(square(halfWay(d)), mirror()), look)),
+                     environmentRadiance(truth, before(safeNormalize(d), angle)), 32e-6 + 1e-5);
       }
 }
 
@@ -193,10 +177,9 @@ void m5(Bench& bench, Record& record) {
                                    numberText(ior) + " from " + numberText(medium) + ", normal " +
                                    vectorText(n);
           const Scene scene = sceneOf(mesh, glass);
-          expectColor(record, what, middle(bench.draw(scene, look)), expected,
-                      compassTolerance + 1e-5);
-          expectColor(record, what + ", the reference", middle(bench.reference(scene, look)),
-                      expected, compassTolerance + 1e-5);
+          record.color(what, middle(bench.draw(scene, look)), expected, compassTolerance + 1e-5);
+          record.color(what + ", the reference", middle(bench.reference(scene, look)), expected,
+                       compassTolerance + 1e-5);
         }
 }
 
@@ -288,13 +271,12 @@ void m9(Bench& bench, Record& record) {
       const Image image = bench.draw(t.scene, look, t.images);
       const char* const names[] = {"top left", "top right", "bottom left", "bottom right"};
       for (int i = 0; i < 4; ++i)
-        expectColor(record,
-                    std::string(shadingName(shading)) + (unlit ? ", unlit, " : ", ") + names[i],
-                    at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
-                    {decodeSrgb8(std::uint8_t(corners[std::size_t(i)].r)),
-                     decodeSrgb8(std::uint8_t(corners[std::size_t(i)].g)),
-                     decodeSrgb8(std::uint8_t(corners[std::size_t(i)].b))},
-                    1e-6);
+        record.color(std::string(shadingName(shading)) + (unlit ? ", unlit, " : ", ") + names[i],
+                     at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
+                     {decodeSrgb8(std::uint8_t(corners[std::size_t(i)].r)),
+                      decodeSrgb8(std::uint8_t(corners[std::size_t(i)].g)),
+                      decodeSrgb8(std::uint8_t(corners[std::size_t(i)].b))},
+                     1e-6);
     }
 }
 
@@ -306,10 +288,10 @@ void m10(Bench& bench, Record& record) {
     t.material().emissionTexture = nearest();
     const Look look = parallel(bench.look(shading), {0, 0, 1}, 4);
     const Image image = bench.draw(t.scene, look, t.images);
-    expectColor(record, std::string(shadingName(shading)) + ", top left", at(image, 0, 0),
-                {0.5, 0, 0}, 1e-6);
-    expectColor(record, std::string(shadingName(shading)) + ", bottom left", at(image, 0, 3),
-                {0, 0, 3}, 3e-6);
+    record.color(std::string(shadingName(shading)) + ", top left", at(image, 0, 0), {0.5, 0, 0},
+                 1e-6);
+    record.color(std::string(shadingName(shading)) + ", bottom left", at(image, 0, 3), {0, 0, 3},
+                 3e-6);
   }
 }
 
@@ -332,8 +314,8 @@ void m11(Bench& bench, Record& record) {
       const double covers[] = {1, 0.2, 0, 0.8};
       for (int i = 0; i < 4; ++i) {
         const double a = alpha * covers[i];
-        expectColor(record, "alpha " + numberText(a), at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
-                    a + (1 - a) * look.backgroundColor, 1e-6);
+        record.color("alpha " + numberText(a), at(image, i % 2 ? 3 : 0, i / 2 ? 3 : 0),
+                     a + (1 - a) * look.backgroundColor, 1e-6);
       }
     }
 }
@@ -360,9 +342,9 @@ void m12(Bench& bench, Record& record) {
     for (const glm::ivec2 place : {glm::ivec2(0, 0), {32, 0}, {0, 16}, {32, 16}, {16, 8}}) {
       const glm::dvec3 ray = right * (((place.x + 0.5) / 33 * 2 - 1) * half * 33 / 17) +
                              up * ((1 - (place.y + 0.5) / 17 * 2) * half) - back;
-      expectColor(record, "behind the model from " + vectorText(eye), at(image, place.x, place.y),
-                  compass(before(safeNormalize(ray), 25)),
-                  0.25 * 0.07 * 0.07 / 4 + compassTolerance);
+      record.color("behind the model from " + vectorText(eye), at(image, place.x, place.y),
+                   compass(before(safeNormalize(ray), 25)),
+                   0.25 * 0.07 * 0.07 / 4 + compassTolerance);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "glint/reference/renderer.h"
@@ -24,13 +25,15 @@ int lightsOf(const Variant& v) { return v.directionalLights + v.pointLights + v.
 // Sets what the uniform blocks hold. The vertex stage's transforms are identities: its attributes
 // are in eye space already.
 constexpr const char* setBlocks = R"(
-void setBlocks(vec4 view, vec4 ambient, vec3 right, vec3 up, vec3 back, MaterialBlock m) {
-  frame.view = view;
+void setBlocks(vec3 toViewer, float schlickExponent, vec3 ambient, vec3 right, vec3 up, vec3 back,
+               MaterialBlock m) {
+  frame.toViewer = toViewer;
+  frame.schlickExponent = schlickExponent;
   frame.ambientLight = ambient;
   frame.worldFromEye = mat4(mat3(right, up, back));
   frame.projection = mat4(1.0);
   draw.eyeFromModel = mat4(1.0);
-  draw.normalMatrix = mat4(1.0);
+  draw.normalMatrix = mat3(1.0);
   material = m;
 }
 )";
@@ -76,7 +79,7 @@ vec3 surfaceRadiance() {
 #endif
   }
 #endif
-  return surfaceColor(sum, material.color.rgb, material.surface.x);
+  return surfaceColor(sum, material.color, material.metalness);
 }
 )";
 
@@ -94,16 +97,6 @@ std::vector<float> floatsOfBlock(const Block& block) {
   return floats;
 }
 
-/// The uniforms as columns of one row, in the order of setBlocks.
-std::vector<std::vector<float>> blockColumns(const PointScene& scene) {
-  const FrameBlock& frame = scene.list.frame;
-  std::vector<std::vector<float>> columns{floatsOfBlock(frame.view),
-                                          floatsOfBlock(frame.ambientLight)};
-  for (int i = 0; i < 3; ++i) columns.push_back(floatsOfBlock(glm::vec3(frame.worldFromEye[i])));
-  columns.push_back(floatsOfBlock(scene.item().materialBlock));
-  return columns;
-}
-
 Mesh unlitSquare() {
   Mesh mesh;
   mesh.positions = {
@@ -114,6 +107,16 @@ Mesh unlitSquare() {
 }
 
 }  // namespace
+
+std::vector<std::vector<float>> blockColumns(const PointScene& scene) {
+  const FrameBlock& frame = scene.list.frame;
+  std::vector<std::vector<float>> columns{
+      floatsOfBlock(frame.toViewer), {frame.schlickExponent}, floatsOfBlock(frame.ambientLight)};
+  for (int i = 0; i < 3; ++i) columns.push_back(floatsOfBlock(glm::vec3(frame.worldFromEye[i])));
+  columns.push_back(floatsOfBlock(scene.item().materialBlock));
+  columns.back().resize(offsetof(MaterialBlock, unused) / sizeof(float));
+  return columns;
+}
 
 PointScene::PointScene(const Look& given, const Material& material) : look(given) {
   scene.name = "points";
@@ -176,8 +179,7 @@ std::vector<glm::vec3> Programs::shade(const PointScene& scene, const Points& po
   std::vector<std::vector<float>> columns{
       floatsOf(points.normals), floatsOf(points.positions), {points.front ? 1.0f : 0.0f}};
   std::string function =
-      "vec3 shadePoint(vec3 n, vec3 p, float front, vec4 view, vec4 ambient, vec3 right, vec3 up, "
-      "vec3 back, MaterialBlock m";
+      "vec3 shadePoint(vec3 n, vec3 p, float front, " + std::string(blockArguments);
   for (std::vector<float>& column : blockColumns(scene)) columns.push_back(std::move(column));
   std::string body;
   for (int i = 0; i < lightsOf(variant); ++i) {
@@ -188,13 +190,13 @@ std::vector<glm::vec3> Programs::shade(const PointScene& scene, const Points& po
     std::vector<float> column;
     for (std::size_t row = 0; row < std::max<std::size_t>(points.lights.size(), 1); ++row) {
       LightEntry own = entry;
-      if (!points.lights.empty()) own.position = glm::vec4(points.lights[row], own.position.w);
+      if (!points.lights.empty()) own.position = points.lights[row];
       const std::vector<float> floats = floatsOfBlock(own);
       column.insert(column.end(), floats.begin(), floats.end());
     }
     columns.push_back(std::move(column));
   }
-  function += ") {\n  setBlocks(view, ambient, right, up, back, m);\n" + body +
+  function += ") {\n" + std::string(setTheBlocks) + body +
               "  setSurface(n, p, front > 0.5);\n  return surfaceRadiance();\n}";
   const std::vector<float> floats = probe(variant).run(function, {columns.begin(), columns.end()});
   std::vector<glm::vec3> colors(points.size());
@@ -207,13 +209,11 @@ std::vector<float> Programs::reflectance(const PointScene& scene, const std::vec
   std::vector<std::vector<float>> columns{cosines, {entering ? 1.0f : 0.0f}};
   for (std::vector<float>& column : blockColumns(scene)) columns.push_back(std::move(column));
   return probe(scene.item().variant)
-      .run(
-          "float reflectanceAt(float cosine, float entering, vec4 view, vec4 ambient, vec3 right, "
-          "vec3 up, vec3 back, MaterialBlock m) {\n"
-          "  setBlocks(view, ambient, right, up, back, m);\n"
-          "  vec4 b = entering > 0.5 ? material.entering : material.leaving;\n"
-          "  return reflectance(cosine, Boundary(b.x, b.y, b.z, b.w));\n}",
-          {columns.begin(), columns.end()});
+      .run("float reflectanceAt(float cosine, float entering, " + std::string(blockArguments) +
+               ") {\n" + setTheBlocks +
+               "  vec4 b = entering > 0.5 ? material.entering : material.leaving;\n"
+               "  return reflectance(cosine, Boundary(b.x, b.y, b.z, b.w));\n}",
+           {columns.begin(), columns.end()});
 }
 
 namespace {

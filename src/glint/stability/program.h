@@ -76,6 +76,15 @@ std::vector<glm::dvec3> referenceShade(const PointScene&, const Points&);
 std::vector<double> referenceReflectance(const PointScene&, const std::vector<float>& cosines,
                                          bool entering);
 
+/// What the uniforms of a scene hold, for functions of one's own: as arguments, as what is handed
+/// to `void setBlocks(...)` of a program's text, and as columns of one row.
+inline constexpr const char* blockArguments =
+    "vec3 toViewer, float schlickExponent, vec3 ambient, vec3 right, vec3 up, vec3 back, "
+    "MaterialBlock m";
+inline constexpr const char* setTheBlocks =
+    "  setBlocks(toViewer, schlickExponent, ambient, right, up, back, m);\n";
+std::vector<std::vector<float>> blockColumns(const PointScene&);
+
 /// The text of a variant's program as functions of variables: what Programs compiles.
 std::string programText(const Variant&, const GlslSources&);
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
@@ -65,16 +65,20 @@ void drawLights() {
     if (kind == 2u) l = vec3(0.0);
     float size = length(l);
     l = size > 1e-6 ? l / size : vec3(0.0);
-    lights[i].intensity = vec4(drawLog(-20.0, 20.0), drawUnit(), kind == 3u ? 0.0 : 1e6, 0.0);
-    lights[i].axis = vec4(drawDirection(), cos(1.5707963 * drawUnit()));
+    lights[i].intensity = vec3(drawLog(-20.0, 20.0), drawUnit(), kind == 3u ? 0.0 : 1e6);
+    lights[i].fallsOff = 0.0;
+    lights[i].axis = drawDirection();
+    lights[i].cosOuter = cos(1.5707963 * drawUnit());
     vec3 between = l + vec3(0.0, 0.0, 1.0);
     float square = dot(between, between);
 #if BLINN
     between = square > 1e-12 ? between / sqrt(square) : vec3(0.0);
 #endif
-    lights[i].constant = vec4(between, drawLog(0.0, 30.0));
+    lights[i].halfway = between;
+    lights[i].coneScale = drawLog(0.0, 30.0);
     if (i >= DIRECTIONAL_LIGHTS) l = drawnPosition + l * (kind == 4u ? drawLog(-100.0, 0.0) : drawLog(-3.0, 49.0));
-    lights[i].position = vec4(l, kind == 5u ? drawLog(-20.0, 20.0) : 0.0);
+    lights[i].position = l;
+    lights[i].inverseRange = kind == 5u ? drawLog(-20.0, 20.0) : 0.0;
     drawnLight = l;
   }
 #endif
@@ -88,11 +92,11 @@ void drawPoint(float row, float seed) {
 }
 )";
 
-constexpr const char* arguments =
-    "(float row, float seed, vec4 view, vec4 ambient, vec3 right, vec3 up, vec3 back, "
-    "MaterialBlock m)";
-constexpr const char* begin =
-    " {\n  setBlocks(view, ambient, right, up, back, m);\n  drawPoint(row, seed);\n";
+/// A function over one random point: its head, and what draws the point.
+std::string ofRandomPoint(const std::string& result, const std::string& body) {
+  return result + "(float row, float seed, " + blockArguments + ") {\n" + setTheBlocks +
+         "  drawPoint(row, seed);\n" + body + "}";
+}
 
 /// A probe of a variant with the generator behind its text.
 std::unique_ptr<Probe> searchProbe(const Variant& variant, const GlslSources& sources) {
@@ -152,13 +156,6 @@ Look randomPointLook(Bench& bench, Random& random) {
   return look;
 }
 
-template <typename Block>
-std::vector<float> floatsOf(const Block& block) {
-  std::vector<float> floats(sizeof(Block) / sizeof(float));
-  std::memcpy(floats.data(), &block, sizeof(Block));
-  return floats;
-}
-
 std::string materialText(const Material& m) {
   const ShadingParameters& s = m.shading;
   return "ambient " + numberText(s.ambient) + " diffuse " + numberText(s.diffuse) + " specular " +
@@ -173,9 +170,10 @@ void searchPoints(Bench& bench, std::uint64_t evaluations, SearchReport& report,
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = float(i);
   std::map<Variant, std::unique_ptr<Probe>> probes;
   Random random(97);
-  const std::string function = std::string("float search") + arguments + begin +
-                               "  vec3 c = surfaceRadiance();\n  return isFinite(c.x) && "
-                               "isFinite(c.y) && isFinite(c.z) ? 0.0 : 1.0;\n}";
+  const std::string function =
+      ofRandomPoint("float search",
+                    "  vec3 c = surfaceRadiance();\n  return isFinite(c.x) && isFinite(c.y) && "
+                    "isFinite(c.z) ? 0.0 : 1.0;\n");
   std::vector<float> results(rowsOfBatch);
   while (report.evaluations < evaluations) {
     const Material material = randomMaterial(random);
@@ -184,12 +182,8 @@ void searchPoints(Bench& bench, std::uint64_t evaluations, SearchReport& report,
     if (probes.size() >= mostVariants && !probes.contains(scene.item().variant)) continue;
     std::unique_ptr<Probe>& probe = probes[scene.item().variant];
     if (!probe) probe = searchProbe(scene.item().variant, bench.sources());
-    const FrameBlock& frame = scene.list.frame;
-    const std::vector<float> seed{float(random.below(1 << 24))};
-    std::vector<std::vector<float>> columns{rows, seed, floatsOf(frame.view),
-                                            floatsOf(frame.ambientLight)};
-    for (int i = 0; i < 3; ++i) columns.push_back(floatsOf(glm::vec3(frame.worldFromEye[i])));
-    columns.push_back(floatsOf(scene.item().materialBlock));
+    std::vector<std::vector<float>> columns{rows, {float(random.below(1 << 24))}};
+    for (std::vector<float>& column : blockColumns(scene)) columns.push_back(std::move(column));
     const std::vector<std::span<const float>> spans(columns.begin(), columns.end());
     probe->run(function, spans, results);
     report.evaluations += rowsOfBatch;
@@ -202,7 +196,7 @@ void searchPoints(Bench& bench, std::uint64_t evaluations, SearchReport& report,
       std::string text = std::string(shadingName(scene.look.shading));
       for (const char* name : {"drawnNormal", "drawnPosition", "drawnLight"}) {
         const auto v = probe->run(
-            "vec3 tell" + std::string(name) + arguments + begin + "  return " + name + ";\n}",
+            ofRandomPoint("vec3 tell" + std::string(name), "  return " + std::string(name) + ";\n"),
             {columns.begin(), columns.end()});
         text += " " + std::string(name + 5) + " " + vectorText({v[0], v[1], v[2]});
       }
@@ -301,7 +295,6 @@ RandomScene randomScene(const Look& base, Random& random, bool pathological) {
 
 SearchReport searchNotFinite(Bench& bench, std::uint64_t evaluations,
                              const std::function<void(double)>& progress) {
-  using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::time_point from) {
     return std::chrono::duration<double>(Clock::now() - from).count();
   };

@@ -1,11 +1,11 @@
 #include "glint/stability/suite.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
 
 namespace glint::stability {
@@ -104,7 +104,7 @@ std::vector<CaseResult> runCases(Bench& bench, const Selection& selection,
       if (!selection.has(group, item)) continue;
       if (before) before(double(results.size()) / double(count), item);
       CaseResult result{&group, &item, {}, {}, 0};
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = Clock::now();
       Record record;
       try {
         item.run(bench, record);
@@ -112,9 +112,7 @@ std::vector<CaseResult> runCases(Bench& bench, const Selection& selection,
         result.error = error.what();
       }
       result.findings = record.findings();
-      result.milliseconds =
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-              .count();
+      result.milliseconds = since(start);
       results.push_back(std::move(result));
     }
   return results;

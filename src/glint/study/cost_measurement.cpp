@@ -8,13 +8,13 @@
 #include <numeric>
 #include <random>
 
+#include "glint/image/clock.h"
+#include "glint/shading/angles.h"
 #include "glint/study/format.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int lightCount = 64;
 // Frames of some milliseconds: shorter ones measure how threads are woken.
@@ -67,7 +67,7 @@ Look sheetLook(glm::ivec2 size) {
 /// Within 40 degrees of the sheet's normal, by a golden spiral.
 std::vector<Light> sheetLights() {
   std::vector<Light> lights;
-  const double low = std::cos(40 * std::numbers::pi / 180);
+  const double low = std::cos(40 * radians);
   for (int i = 0; i < lightCount; ++i) {
     const double z = 1 - (1 - low) * (i + 0.5) / lightCount, r = std::sqrt(1 - z * z);
     const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));

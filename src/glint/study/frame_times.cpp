@@ -1,16 +1,14 @@
 #include "glint/study/frame_times.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <random>
 
 #include "glint/gl/handles.h"
+#include "glint/image/clock.h"
 
 namespace glint {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// GL_TIME_ELAPSED of what is drawn between begin and end.
 class ElapsedClock {
@@ -44,7 +42,7 @@ double timeOnce(Renderer::Picture& picture) {
   const auto start = Clock::now();
   picture.redraw();
   glFinish();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return since(start);
 }
 
 std::vector<FrameTimes> timeInTurn(std::span<Renderer::Picture* const> pictures, int warmUp,
@@ -68,7 +66,7 @@ std::vector<FrameTimes> timeInTurn(std::span<Renderer::Picture* const> pictures,
       // part.
       clock.end();
       glFinish();
-      wall[i] = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      wall[i] = since(start);
       if (clock.works()) elapsed[i] = clock.milliseconds();
     }
     if (done) done(round);

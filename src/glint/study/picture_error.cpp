@@ -9,8 +9,8 @@
 
 #include "glint/image/flip.h"
 #include "glint/image/srgb.h"
+#include "glint/image/task.h"
 #include "glint/reference/renderer.h"
-#include "glint/study/parallel.h"
 #include "glint/study/statistics.h"
 #include "glint/study/variants.h"
 
@@ -48,9 +48,10 @@ void forAttributes(const ReferenceRenderer& reference, const Look& look, const S
     while (begin + count < mask.pixels.size() && mask.pixels[begin + count] < end) ++count;
     if (count == 0) continue;
     const auto attributes = reference.attributes(y0, rows);
-    inParts(count, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = begin + from; i < begin + to; ++i)
-        use(i, attributes[mask.pixels[i] - first]);
+    constexpr std::size_t piece = 4096;
+    inParallel(0, (count + piece - 1) / piece, [&](std::size_t n, int) {
+      for (std::size_t i = n * piece; i < std::min(count, (n + 1) * piece); ++i)
+        use(begin + i, attributes[mask.pixels[begin + i] - first]);
     });
     begin += count;
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "glint/scene/look_text.h"
+#include "glint/shading/angles.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
@@ -30,7 +31,7 @@ bool anyItem(const SeriesTools& tools, Shading program, bool Variant::*feature) 
 /// golden spiral), together as bright as one.
 std::vector<Light> spreadLights(int count) {
   std::vector<Light> lights;
-  const double low = std::cos(75 * std::numbers::pi / 180);
+  const double low = std::cos(75 * radians);
   for (int i = 0; i < count; ++i) {
     const double z = 1 - (1 - low) * (i + 0.5) / count, r = std::sqrt(1 - z * z);
     const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));

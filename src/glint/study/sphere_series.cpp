@@ -1,15 +1,13 @@
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "glint/reference/renderer.h"
+#include "glint/shading/angles.h"
 #include "glint/study/series.h"
 
 // Series of spheres: their geometry is known exactly.
 namespace glint {
 namespace {
-
-constexpr double degrees = std::numbers::pi / 180;
 
 /// A sphere seen along -Z without perspective, by an infinite viewer.
 Look sphereLook(const SeriesTools& tools, const glm::dvec3& light) {
@@ -97,7 +95,7 @@ std::optional<StudySeries> incidenceSeries(const SeriesTools& tools) {
   SeriesDrawer drawer(tools, series);
   Sphere sphere(tools.quick ? 5 : 6, white(0, 1, exponent), tools.look);
   for (std::size_t i = 0; i < angles.size() && !tools.stopped(); ++i) {
-    const double angle = angles[i] * degrees;
+    const double angle = angles[i] * radians;
     Look look = sphereLook(tools, {std::sin(2 * angle), 0, std::cos(2 * angle)});
     const StudyMask mask = maskOf(tools.renderer, sphere.gpu, sphere.scene, look);
     const Radiances truth = truthOf(sphere.scene, look, Shading::phong, mask);

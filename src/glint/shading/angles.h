@@ -1,0 +1,9 @@
+#pragma once
+
+#include <numbers>
+
+namespace glint {
+
+inline constexpr double radians = std::numbers::pi / 180;  ///< in a degree
+
+}  // namespace glint
