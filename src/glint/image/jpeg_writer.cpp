@@ -40,7 +40,7 @@ struct JpegMaker {
 
 JpegMaker& makerOf(void* clientData) { return *static_cast<JpegMaker*>(clientData); }
 
-[[noreturn]] void onWriterError(j_common_ptr info) {
+[[noreturn]] void onWriteError(j_common_ptr info) {
   JpegMaker& maker = makerOf(info->client_data);
   info->err->format_message(info, maker.message);
   std::longjmp(maker.failed, 1);
@@ -82,7 +82,7 @@ void onEnd(j_compress_ptr info) {
 bool begin(JpegMaker& maker, int width, int height, int quality) {
   if (setjmp(maker.failed) != 0) return false;
   maker.info.err = jpeg_std_error(&maker.errors);
-  maker.errors.error_exit = onWriterError;
+  maker.errors.error_exit = onWriteError;
   maker.errors.output_message = ignoreMessage;
   maker.info.client_data = &maker;
   jpeg_create_compress(&maker.info);
