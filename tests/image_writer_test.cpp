@@ -329,7 +329,9 @@ TEST(PictureFormats, AreToldByEndingsAndBytes) {
   for (const PictureFormat& each : glint::pictureFormats()) {
     EXPECT_EQ(glint::pictureFormatNamed(each.name), &each);
     for (const std::string_view ending : each.endings)
-      if (!ending.empty()) EXPECT_EQ(glint::pictureFormatOf("x" + std::string(ending)), &each);
+      if (!ending.empty()) {
+        EXPECT_EQ(glint::pictureFormatOf("x" + std::string(ending)), &each);
+      }
   }
   EXPECT_EQ(glint::pictureFormatNamed("jpg"), glint::pictureFormatNamed("jpeg"));
   EXPECT_EQ(glint::pictureFormatNamed(""), nullptr);

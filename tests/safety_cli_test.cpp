@@ -353,7 +353,9 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
       command.push_back("--confine");
       const Ran ran = runGlint(command);
       EXPECT_EQ(ran.status, each.good ? 0 : 2) << ran.err;
-      if (!each.good) EXPECT_THAT(ran.err, HasSubstr("lies outside of the model's folder"));
+      if (!each.good) {
+        EXPECT_THAT(ran.err, HasSubstr("lies outside of the model's folder"));
+      }
     }
   }
   // The model too may be a link that leads out.
