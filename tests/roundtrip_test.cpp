@@ -111,6 +111,9 @@ class Texts : public test::Random {
     if (p.name == "light") return light();
     if (p.name == "light-scale") return coin() ? "auto" : numberText(log(1e-30, 1e30));
     if (p.name == "camera-index") return std::to_string(below(1 << 30));
+    if (p.name == "camera-intrinsics")
+      return numberText(log(1e-3, 1e6)) + "," + numberText(log(1e-3, 1e6)) + "," +
+             numberText(log(1e-3, 1e6)) + "," + numberText(-log(1e-3, 1e6));
     if (p.name == "clipping-range") {
       const double near = log(1e-30, 1e20);
       return numberText(near) + "," + numberText(near * log(1.0001, 1e9));

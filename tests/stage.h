@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "backend_name.h"
 #include "glint/gl/context.h"
 #include "glint/render/renderer.h"
 #include "scenes.h"

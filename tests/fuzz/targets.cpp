@@ -148,7 +148,8 @@ void list(Bytes bytes) {
   const File file(bytes);
   refusing([&] {
     ModelList models(file.path());
-    while (const auto entry = models.next()) mustHold(!entry->model.empty());
+    while (const auto entry = models.next())
+      mustHold(!entry->model.empty() || !entry->error.empty());
   });
 }
 
