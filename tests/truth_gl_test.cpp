@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "formulas.h"
@@ -100,6 +102,11 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
   for (int i = 0; const auto& [radiance, bend] : radiances) {
     const std::string picture = pictureOf("radiance" + std::to_string(i++), radiance);
     const double tolerance = bend * texel * texel / 4 + 2e-6;
+    double mirrored = 0, seenThrough = 0;
+    const auto apart = [](const glm::dvec3& a, const glm::dvec3& b) {
+      const glm::dvec3 d = glm::abs(a - b);
+      return std::max({d.x, d.y, d.z});
+    };
     for (const double turn : {0.0, 33.0, 180.0, -120.0})
       for (const glm::dvec3& to : directions)
         for (const double cosine : {1.0, 0.6, 0.02}) {  // 0.02: grazing
@@ -127,20 +134,24 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
                 std::swap(mesh.indices[4], mesh.indices[5]);
           const glm::dvec3 shown = middle(draw(sceneOf(mesh, mirror), look));
           expectColor(shown, radiance(turnedBack(seen, turn)), tolerance, "mirror");
+          mirrored = std::max(mirrored, apart(shown, radiance(turnedBack(seen, turn))));
           // Glass: the same direction by reflection, another by refraction.
           Material glass = materialOf(0, 0, 0, 1);
           glass.shading.transmission = 1;
           const double r = reflectance(cosine, 1, 1.5);
           const glm::dvec3 along = (cosine * n - v) / 1.5;
           const glm::dvec3 through = along - std::sqrt(1 - glm::dot(along, along)) * n;
-          expectColor(
-              middle(draw(sceneOf(mesh, glass), look)),
-              r * radiance(turnedBack(seen, turn)) + (1 - r) * radiance(turnedBack(through, turn)),
-              tolerance + 1e-5, "glass");
+          const glm::dvec3 pane = middle(draw(sceneOf(mesh, glass), look));
+          const glm::dvec3 both =
+              r * radiance(turnedBack(seen, turn)) + (1 - r) * radiance(turnedBack(through, turn));
+          expectColor(pane, both, tolerance + 1e-5, "glass");
+          seenThrough = std::max(seenThrough, apart(pane, both));
           if (HasFailure())
             FAIL() << "to " << seen.x << " " << seen.y << " " << seen.z << " cosine " << cosine
                    << " turn " << turn;
         }
+    std::printf("| %s | %.2e | %.2e | %.2e |\n", i == 1 ? "linear" : "quadratic", mirrored,
+                seenThrough, tolerance);
   }
 }
 
@@ -218,6 +229,7 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
                                              {Wrap::clampToEdge, Wrap::repeat},
                                              {Wrap::mirroredRepeat, Wrap::clampToEdge}};
   int number = 0;
+  std::map<std::string, double> largestOf;
   for (const MipFilter mip : {MipFilter::none, MipFilter::nearest, MipFilter::linear})
     for (const auto& [magnify, minify] : filters)
       for (const double repeats : {0.1, 0.7, 3.0})
@@ -252,7 +264,14 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
                        std::to_string(repeats) + " aslant " + std::to_string(aslant));
           EXPECT_LE(worst, 1e-5 + 64 * std::max(repeats, 1.0) * 0x1p-22);
           EXPECT_LE(jumps, 62 * 62 / 100);
+          constexpr const char* levels[] = {"none", "nearest", "linear"};
+          const bool smooth = magnify == Filter::linear && minify == Filter::linear;
+          double& most = largestOf[std::string(levels[int(mip)]) + " | " +
+                                   (smooth ? "linear" : "nearest in some") + " | " +
+                                   (aslant ? "aslant" : "straight")];
+          most = std::max(most, worst);
         }
+  for (const auto& [what, most] : largestOf) std::printf("| %s | %.2e |\n", what.c_str(), most);
 }
 
 // A pixel that one triangle covers as a whole looks as without anti-aliasing: to 1e-6, and as much

@@ -146,10 +146,9 @@ Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& l
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
     const double error = fresnelFormulaBound(fresnel, n1, n2, look.schlickExponent);
-    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent, m.turn);
+    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent);
     if (m.back)
-      rounding =
-          std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent, m.turn));
+      rounding = std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent));
     r.error = std::max(r.error, m.radiance * error);
     r.rounding = std::max(r.rounding, m.radiance * rounding);
   }
