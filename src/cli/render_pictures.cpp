@@ -168,7 +168,8 @@ class ModelDrawing {
         !pictureFormatOf(planned.output))
       remarks.push_back("its ending tells no format of pictures: this is a " +
                         std::string(format.name));
-    if (look.noBackground && !format.hasAlpha)
+    // Who writes PFM wants three numbers a pixel.
+    if (look.noBackground && !format.hasAlpha && !format.isFloat)
       remarks.push_back("a " + std::string(format.name) +
                         " has no transparency: what is transparent is black");
     return remarks;
