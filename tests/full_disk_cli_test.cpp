@@ -43,12 +43,19 @@ std::vector<Arguments> commands() {
       render({"out/a.png", "--sweep", "exponent=1:100:2"}),
       render({"null.png", "--json", "out/a.json"}),
       render({"null.png", "--save-look", "out/a.json"}),
+      render({"out/new/a.png"}),
       {"info", torus, "--json", "out/a.json"},
+      {"info", torus, "--save-look", "out/a.json", "--material", "exponent=3"},
+      {"backends", "--json", "out/b.json"},
       {"convert", torus, "out/a.glb", "--material", "exponent=7"},
       {"environment", "sky", "-o", "out/a.exr"},
       {"diff", "a.png", "b.png", "--output", "out/d.png"},
       {"diff", "a.png", "b.png", "--html", "out/d.html"},
+      {"diff", "a.png", "b.png", "--html", "out/d.html", "--pictures-beside"},
       {"diff", "a.png", "b.png", "--json", "out/d.json"},
+      {"diff", "a.png", "b.png", "--junit", "out/d.xml"},
+      {"diff", "a.png", "b.png", "--markdown", "out/d.md"},
+      {"diff", "out", "new", "--update"},
       {"study", "--quick", "--resolution", "32,32", "--repetitions", "3", "--highlight", "exact",
        "--fresnel", "exact", "--rendering-backend", "osmesa", "--output", "out", "--json",
        "out/s.json", "--markdown", "out/s.md"},
@@ -66,6 +73,8 @@ void prepare(const Folder& folder) {
                   "--rendering-backend", "osmesa", "--exposure", name[0] == 'a' ? "0" : "1"});
     ASSERT_EQ(ran.status, 0) << ran.err;
   }
+  fs::create_directory(folder / "new");
+  fs::copy_file(folder / "b.png", folder / "new/b.png");
 }
 
 std::vector<std::string> leftIn(const std::string& folder) {
@@ -86,12 +95,13 @@ TEST(FullDisk, OfEachOutputLeavesNothing) {
     for (const std::string& word : command) text += word + " ";
     SCOPED_TRACE(text);
     const Ran ran =
-        runGlint(command, {.timeoutSeconds = 120, .folder = folder.path(), .fileLimit = 600});
+        runGlint(command, {.timeoutSeconds = 120, .folder = folder.path(), .fileLimit = 200});
     EXPECT_EQ(ran.status, 2) << ran.out << ran.err;
     EXPECT_THAT(ran.err, testing::AnyOf(HasSubstr("raise the limit of file sizes (ulimit -f)"),
                                         HasSubstr("set TMPDIR to a folder with room")));
     EXPECT_THAT(ran.err, Not(HasSubstr("internal error")));
     EXPECT_THAT(leftIn(folder / "out"), testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(folder / "out")) << "a folder is left";
     fs::remove_all(folder / "out");
   }
 }

@@ -364,28 +364,6 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
   expectRefused(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "lies outside");
 }
 
-TEST(Memory, OfJsonKeepsToAMultipleOfTheFile) {
-  Sample sample;
-  const auto peakOf = [&](const std::string& list, std::size_t bytes, const std::string& item) {
-    std::string text = R"({"asset": {"version": "2.0"}, "scene": 0, ")" + list + "\": [" + item;
-    while (text.size() < bytes) text += "," + item;
-    text += "]}";
-    const Ran ran = runGlint({"info", sample.writeText(text, "m.gltf").string()});
-    EXPECT_LE(ran.status, 2);
-    return ran.peakKib * 1024;
-  };
-  const long base = peakOf("nodes", 1, "{}");
-  constexpr long size = 2 << 20;
-  // Nothing, and the least that says anything.
-  for (const char* item :
-       {"{}", R"({"abc":123})", R"({"a":1})", "[]", "0", R"({"name":""})", R"({"mesh":0})"})
-    for (const char* list : {"nodes", "materials", "textures", "meshes", "accessors", "animations",
-                             "extras", "scenes"}) {
-      // As docs/safety.md says.
-      EXPECT_LT(peakOf(list, size, item) - base, 128 * size) << list << " " << item;
-    }
-}
-
 TEST(Converting, TakesATimeThatGrowsWithTheFile) {
   Sample sample;
   for (int i = 0; i < 8000; ++i)

@@ -129,8 +129,6 @@ void copyReferred(const ConvertOptions& options, const std::string& in,
     if (!there) copies.emplace_back(target.string(), std::move(content));
   }
   for (const auto& [target, content] : copies) {
-    std::error_code ignored;  // what is wrong with the folder shows when the file is written
-    fs::create_directories(fs::path(target).parent_path(), ignored);
     OutputFile file(target);
     forEachPart(content, [&](std::span<const std::byte> part) {
       file.write(part);

@@ -38,7 +38,6 @@ void update(const std::vector<std::string>& named, DiffEntry& entry, const std::
                      printablePath(target) + ": give one that is");
   std::error_code ignored;
   const bool made = !fs::exists(target, ignored);
-  fs::create_directories(fs::path(target).parent_path(), ignored);
   forgetReadFile(target);
   OutputFile file(target);
   file.write(readFile(entry.b));

@@ -37,12 +37,6 @@ std::string magmaText() {
 DiffHtml::DiffHtml(const std::string& path, bool beside)
     : file_(path), folder_(beside ? path + ".pictures" : ""), kept_(std::tmpfile(), std::fclose) {
   if (!kept_) throw InputError("no temporary file: set TMPDIR to a folder with room");
-  if (!beside) return;
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error)
-    throw InputError(printablePath(folder_) + ": " + error.message() +
-                     ": give another place for the report");
 }
 
 void DiffHtml::keep(const std::string& text) {

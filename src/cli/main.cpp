@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdio>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +34,7 @@ constexpr std::array<std::pair<std::string_view, glint::Command (*)(CLI::App&)>,
      {"environment", glint::addEnvironment},
      {"backends", glint::addBackends}}};
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  glint::prepareProcess();
+int runCommand(int argc, char** argv) {
   glint::adviseHeap();
   CLI::App app(description, "glint");
   app.set_version_flag("-V,--version", "glint " GLINT_VERSION, "print the version and exit");
@@ -63,4 +62,16 @@ int main(int argc, char** argv) {
   for (std::string& word : words) arguments.push_back(word.data());
   return glint::runProgram(app, int(arguments.size()), arguments.data(), run,
                            "--resolution or model");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  glint::prepareProcess();
+  try {
+    return runCommand(argc, argv);
+  } catch (const std::bad_alloc&) {  // before there are options
+    std::fputs("glint: out of memory: raise its limit (ulimit -v)\n", stderr);
+    return glint::unusable;
+  }
 }

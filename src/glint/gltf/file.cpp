@@ -74,7 +74,7 @@ Container readGlb(const RegularFile& file, const std::filesystem::path& path,
       container.json.resize(size);
       if (!file.read(container.json.data(), offset, size)) messages.fail("cannot be read", cutOff);
     } else if (type == binaryChunk && !container.binary) {
-      container.binary.emplace(path, confinementOf(path), offset, size);
+      container.binary.emplace(path, confinementOfItself(path), offset, size);
     }
     offset += size;
   }
@@ -162,6 +162,10 @@ std::filesystem::path confinementOf(const std::filesystem::path& model) {
   return model.has_parent_path() ? model.parent_path() : std::filesystem::path(".");
 }
 
+std::filesystem::path confinementOfItself(const std::filesystem::path& model) {
+  return model.parent_path() == "/proc/self/fd" ? std::filesystem::path() : confinementOf(model);
+}
+
 RegularFile::RegularFile(const std::filesystem::path& path, const std::filesystem::path& folder,
                          std::string& error) {
   // Without O_NONBLOCK, opening a FIFO waits for someone to write into it.
@@ -221,7 +225,7 @@ bool ByteSource::read(void* to, std::uint64_t offset, std::size_t count) const {
 
 Container readContainer(const std::filesystem::path& path, const Messages& messages) {
   std::string error;
-  const RegularFile file(path, confinementOf(path), error);
+  const RegularFile file(path, confinementOfItself(path), error);
   if (!error.empty()) messages.fail(error, "give a .gltf or .glb file");
   if (file.size() == 0) messages.fail("is empty", "give a .gltf or .glb file");
   std::array<char, 64> start{};

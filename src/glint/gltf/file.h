@@ -17,7 +17,10 @@ namespace glint::gltf {
 /// that strangers have sent.
 void confineModels();
 /// The folder that a model's files must lie in: its own after confineModels(), else none (empty).
+/// A model from stdin, "/proc/self/fd/N", has no folder: no file lies in that.
 std::filesystem::path confinementOf(const std::filesystem::path& model);
+/// The folder that the model's own file must lie in: the same, but none for one from stdin.
+std::filesystem::path confinementOfItself(const std::filesystem::path& model);
 /// Why a file is not opened then.
 inline constexpr const char* liesOutside = "lies outside of the model's folder (--confine)";
 

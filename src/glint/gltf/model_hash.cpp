@@ -1,7 +1,6 @@
 #include "glint/gltf/model_hash.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 #include <new>
@@ -11,6 +10,7 @@
 
 #include "glint/gltf/file.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
 #include "glint/image/json_text.h"
 
 namespace glint {
@@ -19,6 +19,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t maxBytes = std::uint64_t(8) << 30, maxImageBytes = std::uint64_t(256) << 20;
+// A chunk of a GLB that is as small as this is taken whole, which is faster than to ask what of it
+// is needed.
+constexpr std::uint64_t smallChunk = std::uint64_t(64) << 20;
 
 // FNV-1a's step on words of eight bytes, with the high half mixed down, since a product carries
 // nothing to its lower bits.
@@ -49,24 +52,19 @@ class Needs {
       if (it.key() != "accessors") useWhole(*it, it.key() == "images" ? maxImageBytes : maxBytes);
   }
 
+  /// Bytes of the chunk of a GLB, which is the first buffer if that has no name.
+  std::uint64_t chunk() const {
+    const std::vector<std::uint64_t> all = ends();
+    const auto buffers = root_.find("buffers");
+    const bool has = buffers != root_.end() && buffers->is_array() && !buffers->empty() &&
+                     !(*buffers)[0].contains("uri");
+    return has && !all.empty() ? all[0] : 0;
+  }
+
   /// Bytes of each file by the name that it has, in their order; `whole`: all, or none where it is
   /// larger than any picture.
   std::vector<std::pair<std::string, std::uint64_t>> files() const {
-    std::vector<std::uint64_t> ends;
-    const auto use = [&](const Json& view, std::uint64_t bytes) {
-      const std::uint64_t buffer = numberOf(view, "buffer");
-      if (buffer >= 1u << 20 || bytes == 0) return;
-      if (ends.size() <= buffer) ends.resize(buffer + 1, 0);
-      ends[buffer] = std::max(ends[buffer], numberOf(view, "byteOffset") + bytes);
-    };
-    std::size_t number = 0;
-    each("bufferViews", [&](const Json& view) {
-      use(view, std::min(views_[number++], numberOf(view, "byteLength")));
-      const auto extensions = view.find("extensions");
-      if (extensions == view.end() || !extensions->is_object()) return;
-      for (const Json& extension : *extensions)  // EXT_meshopt_compression
-        if (extension.is_object()) use(extension, numberOf(extension, "byteLength"));
-    });
+    const std::vector<std::uint64_t> ends = this->ends();
     std::vector<std::pair<std::string, std::uint64_t>> files;
     std::map<std::string, std::size_t> places;
     const auto name = [&](const Json& item, std::uint64_t bytes) {
@@ -78,7 +76,7 @@ class Needs {
       if (isNew) files.emplace_back(text, 0);
       files[place->second].second = std::max(files[place->second].second, bytes);
     };
-    number = 0;
+    std::size_t number = 0;
     each("buffers", [&](const Json& item) {
       name(item, number < ends.size() ? ends[number] : 0);
       ++number;
@@ -96,6 +94,26 @@ class Needs {
     if (found == root_.end() || !found->is_array()) return;
     static const Json nothing = Json::object();
     for (const Json& item : *found) take(item.is_object() ? item : nothing);
+  }
+
+  // Where what is needed of each buffer ends.
+  std::vector<std::uint64_t> ends() const {
+    std::vector<std::uint64_t> ends;
+    const auto use = [&](const Json& view, std::uint64_t bytes) {
+      const std::uint64_t buffer = numberOf(view, "buffer");
+      if (buffer >= 1u << 20 || bytes == 0) return;
+      if (ends.size() <= buffer) ends.resize(buffer + 1, 0);
+      ends[buffer] = std::max(ends[buffer], numberOf(view, "byteOffset") + bytes);
+    };
+    std::size_t number = 0;
+    each("bufferViews", [&](const Json& view) {
+      use(view, std::min(views_[number++], numberOf(view, "byteLength")));
+      const auto extensions = view.find("extensions");
+      if (extensions == view.end() || !extensions->is_object()) return;
+      for (const Json& extension : *extensions)  // EXT_meshopt_compression
+        if (extension.is_object()) use(extension, numberOf(extension, "byteLength"));
+    });
+    return ends;
   }
 
   // What refers to a view: at most 252 bytes lie between elements.
@@ -136,18 +154,6 @@ bool addBytes(Hash& hash, const Source& source, std::uint64_t size) {
   return true;
 }
 
-// How much of a file is read when it is loaded.
-std::uint64_t lengthOf(const gltf::RegularFile& file) {
-  std::array<unsigned char, 12> head{};
-  const auto known = std::size_t(std::min<std::uint64_t>(head.size(), file.size()));
-  if (!file.read(head.data(), 0, known)) return 0;
-  if (std::string_view(reinterpret_cast<const char*>(head.data()), 4) != "glTF")
-    return std::min(file.size(), maxBytes);
-  const std::uint64_t told =
-      head[8] | head[9] << 8 | head[10] << 16 | static_cast<std::uint64_t>(head[11]) << 24;
-  return std::min(file.size(), told);
-}
-
 }  // namespace
 
 void Hash::add(std::string_view bytes) {
@@ -172,22 +178,21 @@ std::string Hash::text() const {
 std::string modelHash(const std::string& path) {
   Hash hash;
   try {
-    std::string error;
-    const gltf::RegularFile file(path, gltf::confinementOf(path), error);
-    if (!error.empty()) return hash.text();
-    if (!addBytes(hash, file, lengthOf(file))) return hash.text();
-    std::array<char, 64> start{};
-    const auto known = std::size_t(std::min<std::uint64_t>(start.size(), file.size()));
-    if (!file.read(start.data(), 0, known)) return hash.text();
-    // Pictures and tables are hashed too.
-    const std::string_view front(start.data(), known);
-    if (!front.starts_with("glTF") && front.find('{') == front.npos) return hash.text();
     const gltf::Container container = gltf::readContainer(path, gltf::Messages(path));
-    if (container.json.find("\"uri\"") == std::string::npos) return hash.text();
+    hash.add(container.json);
+    const std::uint64_t chunk = container.binary ? container.binary->size() : 0;
+    const bool names = container.json.find("\"uri\"") != std::string::npos;
+    if (!names && chunk <= smallChunk) {
+      if (chunk > 0) addBytes(hash, *container.binary, chunk);
+      return hash.text();
+    }
+    std::string error;
     const auto root = parseJsonText<Json>(container.json, error);
     if (!root || !root->is_object()) return hash.text();
+    const Needs needs(*root);
+    if (chunk > 0) addBytes(hash, *container.binary, std::min(chunk, needs.chunk()));
     std::uint64_t left = maxBytes;
-    for (const auto& [name, needed] : Needs(*root).files()) {
+    for (const auto& [name, needed] : needs.files()) {
       error.clear();
       const gltf::ByteSource source = gltf::openUri(name, path, error);
       std::uint64_t size = std::min({needed, source.size(), left});
@@ -198,6 +203,14 @@ std::string modelHash(const std::string& path) {
   } catch (const InputError&) {
   } catch (const std::bad_alloc&) {
   }
+  return hash.text();
+}
+
+std::string fileHash(const std::string& path) {
+  Hash hash;
+  std::string error;
+  const gltf::RegularFile file(path, {}, error);
+  if (error.empty()) addBytes(hash, file, std::min<std::uint64_t>(file.size(), maxFileBytes));
   return hash.text();
 }
 

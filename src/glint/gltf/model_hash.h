@@ -20,8 +20,11 @@ class Hash {
 };
 
 /// The hash of a model file and of the buffers and images that it refers to by name, of each as
-/// much as loading it can need. What is missing or unreadable counts as empty: loading the model
-/// will say so. Of any other file, that of its bytes.
+/// much as loading it can need. What is missing, unreadable or no model counts as empty: loading it
+/// will say so.
 std::string modelHash(const std::string& path);
+
+/// The hash of any other file that is read whole; empty where readFile() refuses it.
+std::string fileHash(const std::string& path);
 
 }  // namespace glint

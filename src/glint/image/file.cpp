@@ -124,6 +124,10 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
                                          : "not a regular file: save it to a file first");
   }
   if (noted == Noted::yes) noteReadFile(file.number, path);
+  const auto checkLength = [&](std::uint64_t length) {
+    if (length > maxFileBytes) throw refuse("more than 4 GiB: give a smaller file");
+  };
+  checkLength(static_cast<std::uint64_t>(status.st_size));
   try {
     std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
     std::size_t done = 0;
@@ -138,6 +142,7 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
       if (count == 0) break;
       if (full) bytes.insert(bytes.end(), extra, extra + count);
       done += static_cast<std::size_t>(count);
+      checkLength(done);
     }
     bytes.resize(done);
     return bytes;

@@ -21,9 +21,13 @@ std::string writeFailure(int error);
 /// Whether a file that is read is noted (read_files.h). Not what the program has written itself.
 enum class Noted { yes, no };
 
+/// What is longer is not read whole: bytes.
+inline constexpr std::uint64_t maxFileBytes = std::uint64_t(4) << 30;
+
 /// The bytes of a regular file (symbolic links are followed).
-/// Throws InputError "PATH: what: what to do" for a missing or unreadable file and for a folder, a
-/// FIFO, a socket or a device, which are refused without waiting for them.
+/// Throws InputError "PATH: what: what to do" for a missing or unreadable file, for one of more
+/// than maxFileBytes and for a folder, a FIFO, a socket or a device, which are refused without
+/// waiting for them.
 std::vector<std::byte> readFile(const std::string& path, Noted noted = Noted::yes);
 
 /// A file that appears whole or not at all: what is written stays invisible until commit(), and

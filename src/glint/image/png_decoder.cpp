@@ -46,15 +46,6 @@ bool isPng(std::span<const std::byte> bytes) {
                     [](unsigned char a, std::byte b) { return std::byte(a) == b; });
 }
 
-void checkSides(const std::string& name, std::uint64_t width, std::uint64_t height) {
-  const bool sides = width <= maxSide && height <= maxSide;
-  if (sides && width * height <= maxArea) return;
-  throw InputError(printablePath(name) + ": " + std::to_string(width) + " x " +
-                   std::to_string(height) + " pixels are too many: at most " +
-                   std::to_string(sides ? maxArea : std::uint64_t(maxSide)) +
-                   (sides ? " in all" : " a side"));
-}
-
 PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
     : bytes_(bytes), name_(name), png_(spng_ctx_new(0), spng_ctx_free) {
   if (!png_) throw std::bad_alloc();

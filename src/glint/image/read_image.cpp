@@ -1,6 +1,8 @@
 #include "glint/image/read_image.h"
 
+#include <algorithm>
 #include <new>
+#include <utility>
 
 #include "glint/image/decoders.h"
 #include "glint/image/picture_layers.h"
@@ -10,6 +12,8 @@ namespace glint {
 namespace {
 
 constexpr std::size_t maxPixels = std::size_t(1) << 27;  // 2 GiB of floats
+
+thread_local const PictureLimit* standingLimit = nullptr;
 
 StoredImage decodePng(std::span<const std::byte> bytes, const std::string& name) {
   detail::PngReader reader(bytes, name);
@@ -56,6 +60,25 @@ StoredImage decodeOne(std::span<const std::byte> bytes, const std::string& name,
 }
 
 }  // namespace
+
+PictureLimit::PictureLimit(std::uint64_t pixels, std::string advice)
+    : pixels_(pixels), advice_(std::move(advice)), outer_(standingLimit) {
+  standingLimit = this;
+}
+
+PictureLimit::~PictureLimit() { standingLimit = outer_; }
+
+void detail::checkSides(const std::string& name, std::uint64_t width, std::uint64_t height) {
+  const bool sides = width <= maxSide && height <= maxSide;
+  if (sides &&
+      width * height <= (standingLimit ? std::min(standingLimit->pixels(), maxArea) : maxArea))
+    return;
+  const std::string what = printablePath(name) + ": " + std::to_string(width) + " x " +
+                           std::to_string(height) + " pixels are too many: ";
+  if (standingLimit && sides) throw InputError(what + standingLimit->advice());
+  throw InputError(what + "at most " + std::to_string(sides ? maxArea : std::uint64_t(maxSide)) +
+                   (sides ? " in all" : " a side"));
+}
 
 void detail::checkSize(const std::string& name, std::uint64_t width, std::uint64_t height) {
   checkSides(name, width, height);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -29,6 +30,24 @@ namespace glint {
 /// short, for other formats, for a layer that is not there, and for more than 2^20 pixels a
 /// side, 2^28 in all, or 2^27 of 16 bits or floats.
 Image readImage(const std::string& path, const std::string& layer = "");
+
+/// As long as it lives, pictures of more pixels are refused in this thread once their header is
+/// read, with `advice` after the colon.
+class PictureLimit {
+ public:
+  PictureLimit(std::uint64_t pixels, std::string advice);
+  ~PictureLimit();
+  PictureLimit(const PictureLimit&) = delete;
+  PictureLimit& operator=(const PictureLimit&) = delete;
+
+  std::uint64_t pixels() const { return pixels_; }
+  const std::string& advice() const { return advice_; }
+
+ private:
+  std::uint64_t pixels_;
+  std::string advice_;
+  const PictureLimit* outer_;
+};
 
 /// The same from memory; `name` stands in the messages.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name,

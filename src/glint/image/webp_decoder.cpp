@@ -37,6 +37,7 @@ ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name) 
   // 16383 pixels a side are the most that the format has.
   if (!WebPGetInfo(data, bytes.size(), &image.width, &image.height))
     throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+  checkSides(name, std::uint64_t(image.width), std::uint64_t(image.height));
   image.values.resize(std::size_t(4) * image.width * image.height);
   if (!WebPDecodeRGBAInto(data, bytes.size(), image.values.data(), image.values.size(),
                           4 * image.width))

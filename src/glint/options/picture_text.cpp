@@ -17,7 +17,7 @@ std::string pictureKey(const Look& look, const PictureOrigin& origin) {
         origin.variation, std::string(origin.gl ? "gl" : "reference")})
     hash.add(part);
   for (const std::string& file : {look.hdriFile, look.costTable})
-    if (!file.empty()) hash.add(modelHash(file));
+    if (!file.empty()) hash.add(fileHash(file));
   return hash.text();
 }
 

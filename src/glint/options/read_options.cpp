@@ -22,7 +22,8 @@ void addDecodeLimitOption(CLI::App& command) {
           [](double mebibytes) { limitDecoding(std::uint64_t(mebibytes * 0x1p20)); },
           "the most that a model's textures may take decoded, in MiB, 1 to 1048576; beyond it "
           "textures larger than the picture can show are halved, and what is still too much is "
-          "refused [default: 256, or 128 times their size in the file]")
+          "refused, as is an environment's picture of three times that "
+          "[default: 256, or 128 times their size in the file]")
       ->type_name("MIB")
       ->check(CLI::Range(1.0, 1048576.0).description(""))
       ->take_last();

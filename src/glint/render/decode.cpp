@@ -139,6 +139,10 @@ bool readsMipLevels(const Scene& scene, int image) {
 
 void limitDecoding(std::uint64_t bytes) { givenLimit = bytes; }
 
+std::uint64_t decodeLimit(std::uint64_t encoded) {
+  return givenLimit > 0 ? givenLimit.load() : std::max(std::uint64_t(256) << 20, 128 * encoded);
+}
+
 DecodedImages decodeImages(Scene& scene, const Look& look) {
   tellOfEnvironment(scene, look);
   return decodeImages(scene, look, [](int) { return false; });
@@ -158,9 +162,12 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
     }
   }
   const int useful = std::max({1024, 2 * look.resolution.x, 2 * look.resolution.y});
-  for (std::string& warning : detail::planDecoding(jobs, givenLimit, useful))
+  std::uint64_t encoded = 0;
+  for (const DecodeJob& job : jobs) encoded += job.encoded;
+  const std::uint64_t limit = decodeLimit(encoded);
+  for (std::string& warning : detail::planDecoding(jobs, limit, useful))
     scene.warnings.push_back(std::move(warning));
-  Decoding decoding(scene, jobs, detail::decodeLimit(jobs, givenLimit));
+  Decoding decoding(scene, jobs, limit);
   decoding.run();
   DecodedImages images;
   for (std::size_t job = 0; job < jobs.size(); ++job) {

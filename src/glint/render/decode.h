@@ -31,6 +31,9 @@ bool readsMipLevels(const Scene&, int image);
 /// rule that stands otherwise: 256 MiB, or 128 times their bytes in the file where that is more.
 void limitDecoding(std::uint64_t bytes);
 
+/// The limit that stands, for pictures of so many bytes in their files.
+std::uint64_t decodeLimit(std::uint64_t encoded);
+
 /// Decodes the images that the look reads, in as many threads as there are processors. A broken one
 /// becomes a warning of the scene and its materials lose the texture; of meshes whose materials
 /// blend it finds out whether all texels that they show are opaque.

@@ -47,16 +47,8 @@ std::uint64_t DecodeJob::atWork() const {
   return kept() + std::max(decoder, levels);
 }
 
-std::uint64_t decodeLimit(const std::vector<DecodeJob>& jobs, std::uint64_t given) {
-  if (given > 0) return given;
-  std::uint64_t encoded = 0;
-  for (const DecodeJob& job : jobs) encoded += job.encoded;
-  return std::max(256 * mebibyte, 128 * encoded);
-}
-
-std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t given,
+std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t limit,
                                       int useful) {
-  const std::uint64_t limit = decodeLimit(jobs, given);
   std::vector<bool> tooLong(jobs.size(), false);
   for (std::size_t i = 0; i < jobs.size(); ++i)
     for (; std::max(jobs[i].width(), jobs[i].height()) > maxTextureSide; ++jobs[i].halvings)

@@ -25,14 +25,11 @@ struct DecodeJob {
   std::uint64_t atWork() const;
 };
 
-/// Halves what is longer than maxTextureSide, and where all takes more than `limit` bytes (0: the
-/// rule of limitDecoding()) what is larger than `useful` pixels a side. Gives the warnings. Throws
-/// InputError where it is still more, or where three times as much would have to be read for it or
-/// is needed to decode one alone.
+/// Halves what is longer than maxTextureSide, and where all takes more than `limit` bytes what is
+/// larger than `useful` pixels a side. Gives the warnings. Throws InputError where it is still
+/// more, or where three times as much would have to be read for it or is needed to decode one
+/// alone.
 std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t limit,
                                       int useful);
-
-/// The limit that the rule gives where `given` is 0.
-std::uint64_t decodeLimit(const std::vector<DecodeJob>& jobs, std::uint64_t given);
 
 }  // namespace glint::detail

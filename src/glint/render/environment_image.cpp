@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "glint/image/error.h"
+#include "glint/image/file.h"
 #include "glint/image/read_image.h"
 #include "glint/render/decode.h"
 
@@ -190,7 +191,14 @@ glm::dvec3 bilinear(const Level& level, double u, double v) {
 std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path) {
   Image image;
   try {
-    image = readImage(path);
+    const std::vector<std::byte> bytes = readFile(path);
+    // As floats; a single picture may take three times the limit while it is decoded.
+    constexpr std::uint64_t perPixel = 4 * sizeof(float);
+    const std::uint64_t most = 3 * decodeLimit(bytes.size());
+    const PictureLimit limit(most / perPixel, "decoded they take more than " +
+                                                  std::to_string(most >> 20) +
+                                                  " MiB: make it smaller or raise --decode-limit");
+    image = decodeImage(bytes, path);
   } catch (const InputError& error) {
     throw InputError("--hdri-file: " + std::string(error.what()));
   }
@@ -236,10 +244,13 @@ EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> 
   }
   Level level{width, height, std::move(rgb)};
   while (std::max(level.width, level.height) > maxTextureSide) level = halved(level);
-  image.levels.push_back(level);
-  std::vector<FirstHarmonic> harmonics = firstHarmonics(level);
-  while (level.width > 1 || level.height > 1) {
-    level = halved(level);
+  image.levels.push_back(std::move(level));
+  std::vector<FirstHarmonic> harmonics = firstHarmonics(image.levels[0]);
+  // Each is made of the one before as that was until it was widened.
+  const Level* finer = &image.levels[0];
+  while (finer->width > 1 || finer->height > 1) {
+    level = halved(*finer);
+    finer = &level;
     harmonics = halved(harmonics, level.height);
     image.levels.push_back(level);
     widenTowardsPoles(image.levels.back(), harmonics);

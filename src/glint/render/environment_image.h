@@ -50,7 +50,8 @@ EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> 
 
 /// The picture that a look's `hdriFile` names, or none where the look shows no environment. Any
 /// format of readImage(). The last one read is kept, as long as the file does not change. Throws
-/// InputError "--hdri-file: FILE: what: what to do".
+/// InputError "--hdri-file: FILE: what: what to do", also where the picture's header tells that it
+/// would take more than three times decodeLimit() as floats, 16 bytes a pixel.
 std::shared_ptr<const EnvironmentImage> environmentImageFor(const Look&);
 
 }  // namespace glint

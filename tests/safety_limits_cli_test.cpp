@@ -1,0 +1,286 @@
+// What is larger than it looks: headers that promise more than fits, files with holes, and models
+// from stdin that name files.
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "command.h"
+#include "gltf_sample.h"
+
+using glint::test::contents;
+using glint::test::Folder;
+using glint::test::quick;
+using glint::test::Ran;
+using glint::test::runGlint;
+using glint::test::shipped;
+using testing::HasSubstr;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// What a run holds that reads headers alone, and draws; a sanitizer keeps what is freed.
+#ifdef __SANITIZE_ADDRESS__
+constexpr long fewKib = 1 << 20;
+#else
+constexpr long fewKib = 300 << 10;
+#endif
+
+std::string littleEndian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 0; shift < 32; shift += 8) bytes += char(value >> shift & 255);
+  return bytes;
+}
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return name + '\0' + type + '\0' + littleEndian(std::uint32_t(value.size())) + value;
+}
+
+/// An OpenEXR file of RGB halves as far as its header and an empty table of lines.
+std::string exrOf(int width, int height) {
+  std::string channels, box;
+  for (const char* name : {"B", "G", "R"})
+    channels += name + std::string(1, '\0') + littleEndian(1) + littleEndian(0) + littleEndian(1) +
+                littleEndian(1);
+  for (const int side : {0, 0, width - 1, height - 1}) box += littleEndian(std::uint32_t(side));
+  const std::string one("\0\0\x80\x3f", 4);
+  return littleEndian(20000630) + littleEndian(2) +
+         attribute("channels", "chlist", channels + '\0') +
+         attribute("compression", "compression", "\3") + attribute("dataWindow", "box2i", box) +
+         attribute("displayWindow", "box2i", box) +
+         attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+         attribute("pixelAspectRatio", "float", one) +
+         attribute("screenWindowCenter", "v2f", std::string(8, '\0')) +
+         attribute("screenWindowWidth", "float", one) + '\0' +
+         std::string(std::size_t(8) * std::size_t((height + 15) / 16), '\0');
+}
+
+std::string hdrOf(int width, int height) {
+  return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+         std::to_string(width) + "\n" + std::string(4000, '\2');
+}
+
+void write(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A file that ends in holes and takes no room on the disk; false where there is no such thing.
+bool lengthen(const std::string& path, std::uintmax_t size) {
+  std::error_code error;
+  fs::resize_file(path, size, error);
+  return !error;
+}
+
+Ran lit(const std::string& environment, const std::string& out, std::vector<std::string> more) {
+  more.insert(more.begin(), {"render", shipped + "torus.glb", "-o", out, "--shading", "environment",
+                             "--hdri-file", environment});
+  return runGlint(quick(more));
+}
+
+Ran withStdin(const fs::path& model, const std::string& command, const fs::path& folder) {
+  const std::string line = std::string("'") + GLINT_EXECUTABLE "' " + command + " > '" +
+                           (folder / "out").string() + "' 2> '" + (folder / "err").string() + "'";
+  Ran ran;
+  const int status =
+      std::system(("cat '" + model.string() + "' | sh -c \"exec " + line + "\"").c_str());
+  if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
+  ran.out = contents((folder / "out").string());
+  ran.err = contents((folder / "err").string());
+  return ran;
+}
+
+}  // namespace
+
+TEST(EnvironmentPicture, IsRefusedByItsHeader) {
+  const Folder folder("environments");
+  struct Case {
+    std::string name, bytes;
+  };
+  const std::vector<Case> cases{
+      {"wide.hdr", hdrOf(100000, 50000)},  // 5 billion pixels
+      {"wide.exr", exrOf(100000, 50000)},
+      {"large.hdr", hdrOf(10000, 8000)},  // 1.2 GiB as floats, from a few kilobytes
+      {"large.exr", exrOf(10000, 8000)},
+      {"wide.pfm", "PF\n100000 50000\n-1.0\n" + std::string(100, '\0')},
+  };
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.name);
+    write(folder / each.name, each.bytes);
+    const Ran ran = lit(folder / each.name, folder / "a.png", {});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(each.name + ": "));
+    EXPECT_THAT(ran.err, HasSubstr("pixels are too many"));
+    EXPECT_THAT(ran.err, HasSubstr("raise --decode-limit"));
+    EXPECT_LT(ran.peakKib, fewKib);
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+  }
+}
+
+TEST(EnvironmentPicture, KeepsToTheDecodeLimit) {
+  const Folder folder("environment");
+  // 512 x 256 pixels, all 1: 2 MiB as floats, and three times 0.66 MiB.
+  std::string picture = "PF\n512 256\n-1.0\n";
+  for (int i = 0; i < 3 * 512 * 256; ++i) picture += std::string("\0\0\x80\x3f", 4);
+  write(folder / "e.pfm", picture);
+  EXPECT_EQ(lit(folder / "e.pfm", folder / "a.png", {}).status, 0);
+  EXPECT_EQ(lit(folder / "e.pfm", folder / "a.png", {"--decode-limit", "1"}).status, 0);
+  write(folder / "large.pfm", "PF\n512 512\n-1.0\n" + std::string(3 * 4 * 512 * 512, '\0'));
+  const Ran ran = lit(folder / "large.pfm", folder / "b.png", {"--decode-limit", "1"});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err,
+              HasSubstr("512 x 512 pixels are too many: decoded they take more than 3 MiB"));
+}
+
+TEST(DamagedExr, AsksForNoMoreThanItHas) {
+  const Folder folder("exr");
+  // An attribute that is said to have two gigabytes.
+  std::string bytes = exrOf(8, 8);
+  const std::size_t at = bytes.find("chlist") + 7;
+  bytes.replace(at, 4, littleEndian(0x7fffffff));
+  write(folder / "a.exr", bytes);
+  const Ran ran = lit(folder / "a.exr", folder / "a.png", {});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("the EXR is cut short"));
+  EXPECT_LT(ran.peakKib, fewKib);
+  const Ran compared = runGlint({"diff", folder / "a.exr", folder / "a.exr"});
+  EXPECT_EQ(compared.status, 2);
+  EXPECT_LT(compared.peakKib, fewKib);
+}
+
+TEST(Holes, OfAFileAreNotRead) {
+  const Folder folder("holes");
+  write(folder / "nothing", "");
+  write(folder / "begun.gltf", "{");
+  if (!lengthen(folder / "nothing", std::uintmax_t(1) << 40) ||
+      !lengthen(folder / "begun.gltf", std::uintmax_t(1) << 40))
+    GTEST_SKIP() << "this file system has no files of a terabyte";
+  const std::string torus = shipped + "torus.glb", out = folder / "a.png";
+  const std::vector<std::vector<std::string>> commands{
+      quick({"render", folder / "nothing", "-o", out}),
+      quick({"render", folder / "begun.gltf", "-o", out}),
+      {"info", folder / "begun.gltf"},
+      {"convert", folder / "begun.gltf", folder / "b.gltf", "--material", "exponent=7"},
+      quick({"render", torus, "-o", out, "--look", folder / "nothing"}),
+      quick({"render", torus, "-o", out, "--max-error", "0.1", "--cost-table", folder / "nothing"}),
+      quick({"render", torus, "-o", out, "--shading", "environment", "--hdri-file",
+             folder / "nothing"}),
+      {"diff", folder / "nothing", folder / "nothing"},
+      quick({"render", "--from-list", folder / "nothing", "-o", folder / "{n}.png"}),
+  };
+  for (const auto& command : commands) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    const auto start = std::chrono::steady_clock::now();
+    const Ran ran = runGlint(command);
+    EXPECT_EQ(ran.status, 2) << ran.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_LT(ran.peakKib, fewKib);
+  }
+}
+
+TEST(Holes, OfAGlbAreNotRead) {
+  Sample sample;
+  sample.triangle();
+  // As long as a GLB can be, of which 36 bytes are shown.
+  constexpr std::uint32_t chunk = 0xf0000000;
+  Json whole = sample.json;
+  whole["buffers"] = Json::array({{{"byteLength", chunk}}});
+  std::string text = whole.dump();
+  text.append(-text.size() % 4, ' ');
+  const std::string head = littleEndian(std::uint32_t(text.size())) + "JSON" + text;
+  const std::string bytes = "glTF" + littleEndian(2) +
+                            littleEndian(std::uint32_t(12 + head.size() + 8 + chunk)) + head +
+                            littleEndian(chunk) + std::string("BIN\0", 4) +
+                            std::string(sample.binary.begin(), sample.binary.end());
+  const std::string model = (sample.folder() / "m.glb").string();
+  write(model, bytes);
+  if (!lengthen(model, 12 + head.size() + 8 + std::uintmax_t(chunk)))
+    GTEST_SKIP() << "this file system has no files of four gigabytes";
+  const auto secondsOf = [&](const std::string& of) {
+    const auto start = std::chrono::steady_clock::now();
+    const Ran ran = runGlint(quick({"render", of, "-o", (sample.folder() / "a.png").string()}));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_LT(ran.peakKib, fewKib);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  // Four gigabytes take seconds to read and hash.
+  const double whole = secondsOf(sample.writeGlb().string());
+  EXPECT_LT(secondsOf(model), 1 + 3 * whole);
+}
+
+TEST(Confine, TakesAModelFromStdinThatNamesNoFiles) {
+  Sample sample;
+  sample.triangle();
+  const fs::path folder = sample.folder();
+  const std::string picture = (folder / "a.png").string();
+  const std::string draw =
+      "render - --confine --rendering-backend osmesa --resolution 40,30 -o '" + picture + "'";
+  const fs::path whole = sample.writeGlb();
+  EXPECT_EQ(withStdin(whole, "info - --confine", folder).status, 0);
+  const Ran drawn = withStdin(whole, draw, folder);
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_TRUE(fs::exists(picture));
+  fs::remove(picture);
+  // Whatever it names: by its path, beside nothing, or as an open file of the process.
+  const std::string absolute = (folder / "sample.bin").string();
+  for (const std::string& name : {absolute, std::string("sample.bin"), std::string("0"),
+                                  std::string("../maps"), std::string("../../../etc/passwd")}) {
+    SCOPED_TRACE(name);
+    sample.buffers = Json::array({{{"uri", name}, {"byteLength", sample.binary.size()}}});
+    const Ran ran = withStdin(sample.writeGltf(), draw, folder);
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_THAT(ran.err, HasSubstr("stdin: buffers[0]"));
+    EXPECT_FALSE(fs::exists(picture));
+  }
+}
+
+TEST(Memory, OfJsonKeepsToAMultipleOfTheFile) {
+  Sample sample;
+  const auto peakOf = [&](const std::string& list, std::size_t bytes, const std::string& item) {
+    std::string text = R"({"asset": {"version": "2.0"}, "scene": 0, ")" + list + "\": [" + item;
+    while (text.size() < bytes) text += "," + item;
+    text += "]}";
+    const Ran ran = runGlint({"info", sample.writeText(text, "m.gltf").string()});
+    EXPECT_LE(ran.status, 2);
+    return ran.peakKib * 1024;
+  };
+  const long base = peakOf("nodes", 1, "{}");
+  constexpr long size = 2 << 20;
+  // What makes most of few bytes: empty texts, long ones, numbers, and what is nested.
+  const std::string deep = std::string(50, '[') + std::string(50, ']');
+  const std::string named = R"({"name":")" + std::string(100000, 'x') + R"("})";
+  for (const std::string& item :
+       {std::string(R"("")"), std::string("1e9"), deep, named, std::string(R"({"":{"":{}}})"),
+        std::string(R"({"extras":{"a":[]}})")})
+    for (const char* list : {"extras", "materials"})
+      EXPECT_LT(peakOf(list, size, item) - base, 128 * size) << list << " " << item.substr(0, 40);
+  // Nothing, and the least that says anything.
+  for (const char* item :
+       {"{}", R"({"abc":123})", R"({"a":1})", "[]", "0", R"({"name":""})", R"({"mesh":0})"})
+    for (const char* list : {"nodes", "materials", "textures", "meshes", "accessors", "animations",
+                             "extras", "scenes"}) {
+      // As docs/safety.md says.
+      EXPECT_LT(peakOf(list, size, item) - base, 128 * size) << list << " " << item;
+    }
+}
+
+TEST(Memory, TooLittleToBeginWithIsTold) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "a sanitizer needs terabytes of addresses";
+#endif
+  const Folder folder("little");
+  const std::string err = folder / "err";
+  for (const int limit : {60000, 100000, 150000}) {  // KiB
+    SCOPED_TRACE(limit);
+    const int status = std::system(("ulimit -v " + std::to_string(limit) + "; exec '" +
+                                    GLINT_EXECUTABLE "' info x.glb > /dev/null 2> '" + err + "'")
+                                       .c_str());
+    ASSERT_TRUE(WIFEXITED(status)) << contents(err);
+    // 127: the libraries do not even find room.
+    EXPECT_THAT(WEXITSTATUS(status), testing::AnyOf(2, 127)) << contents(err);
+    EXPECT_THAT(contents(err), testing::Not(HasSubstr("terminate")));
+  }
+}
