@@ -9,6 +9,8 @@
 #include "command.h"
 #include "gltf_sample.h"
 
+namespace safety_limits_cli_test {
+
 using glint::test::contents;
 using glint::test::Folder;
 using glint::test::quick;
@@ -16,8 +18,6 @@ using glint::test::Ran;
 using glint::test::runGlint;
 using glint::test::shipped;
 using testing::HasSubstr;
-
-namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -91,8 +91,6 @@ Ran withStdin(const fs::path& model, const std::string& command, const fs::path&
   ran.err = contents((folder / "err").string());
   return ran;
 }
-
-}  // namespace
 
 TEST(EnvironmentPicture, IsRefusedByItsHeader) {
   const Folder folder("environments");
@@ -284,3 +282,5 @@ TEST(Memory, TooLittleToBeginWithIsTold) {
     EXPECT_THAT(contents(err), testing::Not(HasSubstr("terminate")));
   }
 }
+
+}  // namespace safety_limits_cli_test
