@@ -25,7 +25,7 @@ void main() {
   base *= arrived(AT_PLACE(vColor));
 #endif
 #if COLOR_TEXTURE
-  base *= TEXTURE_AT(colorTexture, vColorTexcoord);
+  base *= TEXTURE_AT(colorTexture, COLOR_RULE, vColorTexcoord);
 #endif
 #if ALPHA_MASK
   if (base.a < material.emission.a) discard;
@@ -34,7 +34,7 @@ void main() {
 #if !UNLIT && EMISSION
   emission = material.emission.rgb;
 #if EMISSION_TEXTURE
-  emission *= TEXTURE_AT(emissionTexture, vEmissionTexcoord).rgb;
+  emission *= TEXTURE_AT(emissionTexture, EMISSION_RULE, vEmissionTexcoord).rgb;
 #endif
 #endif
 #if OUTPUT == OUTPUT_COLOR

@@ -15,9 +15,9 @@ uniform sampler2D transmissionTexture;
 
 // A vertex or a face has no neighbours to tell how much of the picture it stands for.
 #if VERTEX_STAGE
-#define TEXEL(image, place) textureLod(image, place, 0.0)
+#define TEXEL(image, rule, place) textureAtLevel(image, rule, place, 0.0)
 #else
-#define TEXEL(image, place) TEXTURE_AT(image, place)
+#define TEXEL(image, rule, place) TEXTURE_AT(image, rule, place)
 #endif
 
 Parameters parametersHere() {
@@ -26,7 +26,7 @@ Parameters parametersHere() {
                             material.surface.y);
   float metallic = material.textured.x, roughness = material.textured.y;
 #if METALLIC_ROUGHNESS_TEXTURE
-  vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_PLACE);
+  vec4 texel = TEXEL(metallicRoughnessTexture, METALLIC_ROUGHNESS_RULE, METALLIC_ROUGHNESS_PLACE);
   metallic *= texel.b;
   roughness *= texel.g;
 #endif
@@ -47,7 +47,7 @@ Parameters parametersHere() {
 #if TEXTURED_SPECULAR
   float reflectance = material.textured.z;
 #if SPECULAR_TEXTURE
-  reflectance *= TEXEL(specularTexture, SPECULAR_PLACE).a;
+  reflectance *= TEXEL(specularTexture, SPECULAR_RULE, SPECULAR_PLACE).a;
 #endif
   // The peaks of the lobes of a dielectric and of a metal.
   float blinn = 4.0 * exponent, metal = (blinn / 8.0) * (blinn / (blinn + 8.0));
@@ -55,10 +55,11 @@ Parameters parametersHere() {
   p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);
 #endif
 #if TEXTURED_AMBIENT
-  p.ambient *= 1.0 + material.textured.w * (TEXEL(occlusionTexture, OCCLUSION_PLACE).r - 1.0);
+  float occlusion = TEXEL(occlusionTexture, OCCLUSION_RULE, OCCLUSION_PLACE).r;
+  p.ambient *= 1.0 + material.textured.w * (occlusion - 1.0);
 #endif
 #if TEXTURED_TRANSMISSION
-  p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_PLACE).r;
+  p.transmission *= TEXEL(transmissionTexture, TRANSMISSION_RULE, TRANSMISSION_PLACE).r;
 #endif
   return p;
 }

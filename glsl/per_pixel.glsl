@@ -49,7 +49,7 @@ Inputs inputsAtPlace() {
   at.normal = AT_PLACE(vNormal);
 #if NORMAL_TEXTURE
   at.tangent = AT_PLACE(vTangent);
-  at.texel = TEXTURE_AT(normalTexture, vNormalTexcoord);
+  at.texel = TEXTURE_AT(normalTexture, NORMAL_RULE, vNormalTexcoord);
 #endif
   return at;
 }
@@ -65,7 +65,8 @@ Inputs inputsInMiddle() {
   at.normal = vNormal;
 #if NORMAL_TEXTURE
   at.tangent = vTangent;
-  at.texel = textureAt(normalTexture, vNormalTexcoord, dFdx(vNormalTexcoord), dFdy(vNormalTexcoord));
+  at.texel = textureAt(normalTexture, NORMAL_RULE, vNormalTexcoord, dFdx(vNormalTexcoord),
+                       dFdy(vNormalTexcoord));
 #endif
   return at;
 }

@@ -42,15 +42,16 @@ void findShadingPlace() {
 #endif
 
 #if TEXTURES
-// GL's rule, with the true length of the footprint's axes: drivers are free to estimate it. `across`
-// and `along` are the change of `place` to the next pixel.
-vec4 textureAt(sampler2D image, vec2 place, vec2 across, vec2 along) {
+// With the true length of the footprint's axes: drivers are free to estimate it. `across` and `along`
+// are the change of `place` to the next pixel.
+vec4 textureAt(sampler2D image, Rule rule, vec2 place, vec2 across, vec2 along) {
   vec2 size = vec2(textureSize(image, 0));
   across *= size;
   along *= size;
   float square = min(max(dot(across, across), dot(along, along)), 1e30);
   square = mostOfSquare(square);
-  return textureLod(image, place, square > 0.0 ? 0.5 * log2(square) : -1.0);
+  return textureAtLevel(image, rule, place, square > 0.0 ? 0.5 * log2(square) : -1.0);
 }
-#define TEXTURE_AT(image, varying) textureAt(image, AT_PLACE(varying), dFdx(varying), dFdy(varying))
+#define TEXTURE_AT(image, rule, varying) \
+  textureAt(image, rule, AT_PLACE(varying), dFdx(varying), dFdy(varying))
 #endif

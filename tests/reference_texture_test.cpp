@@ -122,6 +122,57 @@ TEST(ReferenceTexture, OddSizesAreMeansOverArea) {
   EXPECT_TRUE(low < mean && mean < high);
 }
 
+// The whole pyramid against means that are worked out anew from the full size in double: a code is
+// that of the exact mean, or next to it where rounding decides.
+TEST(ReferenceTexture, LevelsAreMeansOfTheFullSize) {
+  constexpr int width = 24, height = 10;  // 24 to 12, 6, 3 and 1; 10 to 5, 2 and 1
+  std::vector<int> codes;
+  for (int i = 0; i < width * height; ++i) codes.push_back(i * i * 37 % 256);
+  const ByteImage base = grey(width, codes);
+  for (const bool isData : {false, true}) {
+    const auto levels = glint::mipLevels(base, isData);
+    ASSERT_EQ(levels.size(), 4u);
+    std::vector<double> values[2];  // of the level before: colour and alpha
+    for (const int c : codes) {
+      values[0].push_back(isData ? c / 255.0 : linear(c));
+      values[1].push_back((255 - c) / 255.0);
+    }
+    int w = width, h = height;
+    for (const ByteImage& level : levels) {
+      ASSERT_EQ(level.width, std::max(1, w / 2));
+      ASSERT_EQ(level.height, std::max(1, h / 2));
+      const double stepX = double(w) / level.width, stepY = double(h) / level.height;
+      for (int channel = 0; channel < 2; ++channel) {
+        std::vector<double> next;
+        for (int y = 0; y < level.height; ++y)
+          for (int x = 0; x < level.width; ++x) {
+            double sum = 0;
+            for (int j = 0; j < h; ++j)
+              for (int i = 0; i < w; ++i)
+                sum += values[channel][std::size_t(j * w + i)] *
+                       std::max(0.0,
+                                std::min(i + 1.0, (x + 1) * stepX) - std::max(i + 0.0, x * stepX)) *
+                       std::max(0.0,
+                                std::min(j + 1.0, (y + 1) * stepY) - std::max(j + 0.0, y * stepY));
+            next.push_back(sum / stepX / stepY);
+            const int code =
+                level.values[std::size_t(4) * std::size_t(y * level.width + x) + (channel ? 3 : 0)];
+            const bool curved = channel == 0 && !isData;
+            const auto valueOf = [&](double c) {
+              const double s = c / 255;
+              return !curved ? s : s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+            };
+            EXPECT_LT(valueOf(code - 0.5) - 1e-6, next.back());
+            EXPECT_GT(valueOf(code + 0.5) + 1e-6, next.back());
+          }
+        values[channel] = std::move(next);
+      }
+      w = level.width;
+      h = level.height;
+    }
+  }
+}
+
 // A plane that recedes: the texture's footprint is the largest step of the perspective coordinates,
 // here of a floor: u = right * distance, v = distance, within the square of 2 x 2 pixels.
 TEST(ReferenceTexture, FootprintsInPerspective) {

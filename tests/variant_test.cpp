@@ -52,6 +52,10 @@ struct Case {
   void (*expect)(Variant&, Shading);
 };
 
+constexpr glint::Sampler ownSampler{glint::Filter::nearest, glint::Filter::linear,
+                                    glint::MipFilter::none, glint::Wrap::clampToEdge,
+                                    glint::Wrap::mirroredRepeat};
+
 const Case cases[] = {
     {"nothing", [](VariantInputs&) {}, [](Variant&, Shading) {}},
     {"unlit material", [](VariantInputs& in) { in.material.unlit = true; },
@@ -286,6 +290,19 @@ const Case cases[] = {
      [](Variant& v, Shading) { v.vertexColors = true; }},
     {"colour texture", [](VariantInputs& in) { in.material.colorTexture.emplace(); },
      [](Variant& v, Shading) { v.colorTexture = true; }},
+    {"colour texture with a sampler of its own",
+     [](VariantInputs& in) {
+       in.material.colorTexture = glint::Texture{0, 0, ownSampler};
+     },
+     [](Variant& v, Shading) {
+       v.colorTexture = true;
+       v.samplers[0] = ownSampler;
+     }},
+    {"emission texture with a sampler of its own, without emission",
+     [](VariantInputs& in) {
+       in.material.emissionTexture = glint::Texture{0, 0, ownSampler};
+     },
+     [](Variant&, Shading) {}},
     {"colour texture without coordinates",
      [](VariantInputs& in) {
        in.material.colorTexture.emplace();
@@ -360,6 +377,17 @@ const Case cases[] = {
        v.metallicRoughnessTexture = v.colorTexture = true;
        v.parameterPlaces[0] = pixels ? -1 : 0;
        v.parameterPlaceCount = pixels ? 0 : 1;
+     }},
+    {"occlusion texture with a sampler of its own",
+     [](VariantInputs& in) {
+       in.material.parameterTextures.occlusion = glint::Texture{0, 0, ownSampler};
+       in.material.textured = glint::textured::ambient;
+     },
+     [](Variant& v, Shading) {
+       v.textured = glint::textured::ambient;
+       v.occlusionTexture = true;
+       v.parameterPlaceCount = 1;
+       v.samplers[4] = ownSampler;
      }},
     {"occlusion texture",
      [](VariantInputs& in) {

@@ -69,7 +69,6 @@ using TextureHandle = Handle<ArrayKind<&glGenTextures, &glDeleteTextures>>;
 using Framebuffer = Handle<ArrayKind<&glGenFramebuffers, &glDeleteFramebuffers>>;
 using Renderbuffer = Handle<ArrayKind<&glGenRenderbuffers, &glDeleteRenderbuffers>>;
 using Query = Handle<ArrayKind<&glGenQueries, &glDeleteQueries>>;
-using SamplerHandle = Handle<ArrayKind<&glGenSamplers, &glDeleteSamplers>>;
 using ShaderHandle = Handle<ShaderKind>;
 using ProgramHandle = Handle<ProgramKind>;
 

@@ -108,6 +108,11 @@ inline InputError damaged(const std::string& name, const std::string& what) {
   return InputError(printablePath(name) + ": " + what + ": save the picture again");
 }
 
+/// What to reserve for a texture of so many bytes: a driver's copy, which has the smaller levels
+/// too, then fits where an earlier texture has been freed, and touches no fresh memory. What is
+/// beyond the pixels is not touched.
+inline std::size_t withRoomForLevels(std::size_t bytes) { return bytes + bytes / 3 + (1 << 16); }
+
 /// Throws InputError if there are more pixels than are read as 16 bits or floats, or a side is
 /// longer than maxSide.
 void checkSize(const std::string& name, std::uint64_t width, std::uint64_t height);

@@ -190,7 +190,7 @@ ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name, 
     reducer.emplace(image.width, image.height, halvings, isData);
     image.values.resize(rowBytes * rowsAtOnce);
   } else {
-    image.values.reserve(rowBytes * image.height);
+    image.values.reserve(withRoomForLevels(rowBytes * image.height));
   }
   // Grown as rows arrive: a small file that claims to be a giant touches little memory.
   for (int y = 0; y < image.height; y += rowsAtOnce) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "glint/image/row_average.h"
 #include "glint/image/texture.h"
 
 namespace glint {
@@ -14,6 +15,8 @@ class RowReducer {
  public:
   /// `isData`: the values are numbers, not sRGB. Throws std::bad_alloc.
   RowReducer(int width, int height, int halvings, bool isData);
+  RowReducer(const RowReducer&) = delete;
+  RowReducer& operator=(const RowReducer&) = delete;
 
   /// The next row from the top, `width` pixels of straight RGBA. Rows beyond the last are ignored.
   void add(const std::uint8_t* rgba);
@@ -22,17 +25,10 @@ class RowReducer {
   ByteImage take() { return std::move(image_); }
 
  private:
-  void finishRow();
-
-  struct Span {
-    int first, count;  ///< pixels of the row; their weights stand in weights_
-  };
-  int width_, height_, row_ = 0, done_ = 0;
   bool isData_;
-  std::vector<Span> columns_;
-  std::vector<float> weights_;
-  std::vector<float> line_, sum_;  ///< linear RGBA of the smaller width
   ByteImage image_;
+  std::vector<float> line_;  ///< a row of the picture given
+  RowAverage average_;
 };
 
 }  // namespace glint

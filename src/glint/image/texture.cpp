@@ -31,6 +31,7 @@ ByteImage decodePng(std::span<const std::byte> bytes, const std::string& name, i
   ByteImage image;
   image.width = reader.width();
   image.height = reader.height();
+  image.values.reserve(detail::withRoomForLevels(std::size_t(4) * image.width * image.height));
   reader.decode(image.values);
   return image;
 }

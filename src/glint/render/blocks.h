@@ -17,6 +17,12 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 688);
 
+/// Of each code of sRGB the linear value, in x: a row of an array takes 16 bytes.
+struct CurveBlock {
+  glm::vec4 linearOfCode[256];
+};
+static_assert(sizeof(CurveBlock) == 4096);
+
 struct LightEntry {
   glm::vec4 position{0};
   glm::vec4 intensity{0};

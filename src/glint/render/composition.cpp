@@ -54,6 +54,12 @@ std::string environmentDefines(Environment environment) {
 
 bool isPerVertex(const Variant& v) { return !v.unlit && !isPerPixel(v.program); }
 
+// In the fragment stage.
+bool readsTextures(const Variant& v) {
+  return v.colorTexture || v.emissionTexture || v.normalTexture ||
+         (v.textured != 0 && !isPerVertex(v));
+}
+
 // Where a texture of parameters is looked up, in the stage that reads it.
 std::string placeText(const Variant& v, std::size_t texture) {
   const int place = v.parameterPlaces[texture];
@@ -79,14 +85,37 @@ std::string parameterDefines(const Variant& v) {
          "\n#define SMALLEST_ROUGHNESS " + realText(smallestRoughness) + "\n";
 }
 
+// A Rule of texture.glsl.
+std::string ruleText(const Sampler& s, bool isData) {
+  const auto number = [](auto value) { return std::to_string(int(value)); };
+  const auto truth = [](bool value) { return value ? "true" : "false"; };
+  return "Rule(" + number(s.wrapS) + ", " + number(s.wrapT) + ", " +
+         truth(s.magnify == Filter::linear) + ", " + truth(s.minify == Filter::linear) + ", " +
+         number(s.mip) + ", " + truth(isData) + ")";
+}
+
+std::string textureDefines(const Variant& v) {
+  constexpr const char* names[] = {"COLOR",     "EMISSION", "NORMAL",      "METALLIC_ROUGHNESS",
+                                   "OCCLUSION", "SPECULAR", "TRANSMISSION"};
+  constexpr std::size_t coded = 2;  // the first ones: the others hold numbers
+  std::string text = define("CODED_TEXTURES", v.colorTexture || v.emissionTexture);
+  for (std::size_t i = 0; i < std::size(names); ++i) {
+    Sampler sampler = v.samplers[i];
+    // A vertex or a face looks up the full size.
+    if (i > 2 && isPerVertex(v)) sampler.mip = MipFilter::none;
+    text += std::string("#define ") + names[i] + "_RULE " + ruleText(sampler, i >= coded) + "\n";
+  }
+  return text;
+}
+
 std::string defines(const Variant& v) {
   std::string text;
   for (const Feature& feature : features()) text += define(feature.define, feature.value(v));
-  const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture ||
-                        (v.textured != 0 && !isPerVertex(v));
+  const bool textures = readsTextures(v);
   const bool image =
       !v.unlit && v.program == Shading::environment && v.environment == Environment::image;
   text += define("TEXTURES", textures);
+  if (textures || v.textured != 0) text += textureDefines(v);
   text += define("LEVELS_OF_DETAIL", textures || image);
   constexpr const char* outputs[] = {"RADIANCE",   "POSITION",  "NORMAL",         "COLOR",
                                      "EMISSION",   "DEPTH",     "SHADING_NORMAL", "SUM",
@@ -210,6 +239,8 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
   std::vector<Part> vertex = files, fragment = files;
   const auto blocks = std::ranges::find(fragment, "blocks.glsl", &Part::file);
   fragment.insert(blocks + 1, {"sampling.glsl"});
+  if (readsTextures(v)) fragment.insert(fragment.begin() + 1, {"texture.glsl"});
+  if (v.textured != 0 && isPerVertex(v)) vertex.insert(vertex.begin() + 1, {"texture.glsl"});
   vertex.push_back({"vertex.glsl"});
   fragment.push_back({"fragment.glsl"});
   if (v.textured != 0) (isPerVertex(v) ? vertex : fragment).push_back({"parameter_textures.glsl"});

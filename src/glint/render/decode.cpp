@@ -24,16 +24,6 @@ using detail::DecodeJob;
 
 std::atomic<std::uint64_t> givenLimit = 0;
 
-bool readsMipLevels(const Scene& scene, int image) {
-  const auto reads = [&](const std::optional<Texture>& t) {
-    return t && t->image == image && t->sampler.mip != MipFilter::none;
-  };
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
-    const auto textures = texturesOf(m);
-    return std::ranges::any_of(textures, [&](const auto* texture) { return reads(*texture); });
-  });
-}
-
 // Of the whole process, however many models are decoded at once: who decodes works itself, and
 // takes others to help as long as there are processors.
 class Helpers {
@@ -136,6 +126,16 @@ void tellOfEnvironment(Scene& scene, const Look& look) {
 }
 
 }  // namespace
+
+bool readsMipLevels(const Scene& scene, int image) {
+  const auto reads = [&](const std::optional<Texture>& t) {
+    return t && t->image == image && t->sampler.mip != MipFilter::none;
+  };
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+    const auto textures = texturesOf(m);
+    return std::ranges::any_of(textures, [&](const auto* texture) { return reads(*texture); });
+  });
+}
 
 void limitDecoding(std::uint64_t bytes) { givenLimit = bytes; }
 

@@ -24,6 +24,9 @@ using DecodedImages = std::map<int, DecodedImage>;
 /// way of drawing has the same ones. Drivers of today have textures of this size.
 inline constexpr int maxTextureSide = 16384;
 
+/// Whether some material's sampler reads an image's smaller levels.
+bool readsMipLevels(const Scene&, int image);
+
 /// The most bytes that the textures of one model may take decoded, for the whole process; 0 is the
 /// rule that stands otherwise: 256 MiB, or 128 times their bytes in the file where that is more.
 void limitDecoding(std::uint64_t bytes);

@@ -59,6 +59,26 @@ std::string noParameterTexture(In in) {
                                                 : "the material has none";
 }
 
+// What is not as of a texture without sampler.
+template <std::size_t texture>
+std::string samplerText(const Variant& v) {
+  const Sampler& s = v.samplers[texture];
+  std::string text;
+  const auto add = [&](bool differs, const char* word) {
+    if (differs) text += (text.empty() ? "" : ",") + std::string(word);
+  };
+  add(s.magnify == Filter::nearest, "magnify-nearest");
+  add(s.minify == Filter::nearest, "minify-nearest");
+  add(s.mip == MipFilter::none, "levels-none");
+  add(s.mip == MipFilter::nearest, "levels-nearest");
+  add(s.wrapS == Wrap::clampToEdge, "clamp-s");
+  add(s.wrapS == Wrap::mirroredRepeat, "mirror-s");
+  add(s.wrapT == Wrap::clampToEdge, "clamp-t");
+  add(s.wrapT == Wrap::mirroredRepeat, "mirror-t");
+  return text;
+}
+std::string samplerReason(In) { return "the texture's sampler"; }
+
 std::string fresnelReason(In in) {
   return (in.material.fresnel ? "the material's fresnel is " : "--fresnel is ") +
          std::string(fresnelText(in.variant.fresnel));
@@ -165,12 +185,16 @@ constexpr Feature table[] = {
      .name = "color-texture",
      .yes = [](In) -> std::string { return "the material has a colour texture"; },
      .no = [](In) -> std::string { return "the material has none"; },
-     .told = always},
+     .told = always,
+     .form = samplerText<0>,
+     .formReason = samplerReason},
     {.flag = &Variant::normalTexture,
      .define = "NORMAL_TEXTURE",
      .name = "normal-texture",
      .yes = [](In) -> std::string { return "the material has a normal map"; },
-     .no = noNormalTexture},
+     .no = noNormalTexture,
+     .form = samplerText<2>,
+     .formReason = samplerReason},
     {.flag = &Variant::emission,
      .define = "EMISSION",
      .name = "emission",
@@ -181,7 +205,9 @@ constexpr Feature table[] = {
      .name = "emission-texture",
      .yes = [](In) -> std::string { return "the material has one"; },
      .no = [](In) -> std::string { return "the material has none"; },
-     .told = [](const Variant& v) { return v.emission; }},
+     .told = [](const Variant& v) { return v.emission; },
+     .form = samplerText<1>,
+     .formReason = samplerReason},
     {.flag = &Variant::alphaMask,
      .define = "ALPHA_MASK",
      .name = "alpha-mask",
@@ -204,22 +230,30 @@ constexpr Feature table[] = {
      .yes = [](In) -> std::string {
        return "the material has one: it gives metalness, exponent, specular and diffuse";
      },
-     .no = noParameterTexture<&ParameterTextures::metallicRoughness>},
+     .no = noParameterTexture<&ParameterTextures::metallicRoughness>,
+     .form = samplerText<3>,
+     .formReason = samplerReason},
     {.flag = &Variant::occlusionTexture,
      .define = "OCCLUSION_TEXTURE",
      .name = "occlusion-texture",
      .yes = [](In) -> std::string { return "the material has one: it gives ambient"; },
-     .no = noParameterTexture<&ParameterTextures::occlusion>},
+     .no = noParameterTexture<&ParameterTextures::occlusion>,
+     .form = samplerText<4>,
+     .formReason = samplerReason},
     {.flag = &Variant::specularTexture,
      .define = "SPECULAR_TEXTURE",
      .name = "specular-texture",
      .yes = [](In) -> std::string { return "the material has one: it gives specular"; },
-     .no = noParameterTexture<&ParameterTextures::specular>},
+     .no = noParameterTexture<&ParameterTextures::specular>,
+     .form = samplerText<5>,
+     .formReason = samplerReason},
     {.flag = &Variant::transmissionTexture,
      .define = "TRANSMISSION_TEXTURE",
      .name = "transmission-texture",
      .yes = [](In) -> std::string { return "the material has one: it gives transmission"; },
-     .no = noParameterTexture<&ParameterTextures::transmission>},
+     .no = noParameterTexture<&ParameterTextures::transmission>,
+     .form = samplerText<6>,
+     .formReason = samplerReason},
     {.count = &Variant::parameterPlaceCount,
      .define = "PARAMETER_PLACES",
      .name = "parameter-places",
@@ -273,7 +307,7 @@ constexpr Feature table[] = {
 
 std::string fullName(const Feature& f, const Variant& v) {
   std::string name(f.name);
-  if (f.form) name += ":" + f.form(v);
+  if (const std::string form = f.form ? f.form(v) : ""; !form.empty()) name += ":" + form;
   if (f.count) name += ":" + std::to_string(v.*f.count);
   return name;
 }
@@ -302,7 +336,8 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
     if (f.told ? !f.told(v) : v.unlit) continue;
     const bool present = f.value(v) > 0;
     reasons.push_back({std::string(f.name), present, present ? f.yes(in) : f.no(in)});
-    if (present && f.form) reasons.push_back({fullName(f, v), true, f.formReason(in)});
+    if (present && f.form && !f.form(v).empty())
+      reasons.push_back({fullName(f, v), true, f.formReason(in)});
   }
   return reasons;
 }

@@ -1,12 +1,10 @@
 #include "glint/render/gpu_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <utility>
 
 #include "glint/image/mipmaps.h"
-#include "glint/image/srgb.h"
 #include "glint/render/face_mesh.h"
 #include "glint/render/variant.h"
 
@@ -86,51 +84,6 @@ GLenum modeOf(Topology topology) {
                                        : GL_TRIANGLES;
 }
 
-GLint minifyFilter(const Sampler& s) {
-  const bool linear = s.minify == Filter::linear;
-  if (s.mip == MipFilter::none) return linear ? GL_LINEAR : GL_NEAREST;
-  if (s.mip == MipFilter::nearest)
-    return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
-  return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
-}
-
-GLint wrapMode(Wrap wrap) {
-  return wrap == Wrap::repeat        ? GL_REPEAT
-         : wrap == Wrap::clampToEdge ? GL_CLAMP_TO_EDGE
-                                     : GL_MIRRORED_REPEAT;
-}
-
-// Uploads a level piece by piece, each texel's four values through `value(byte, channel)`.
-template <typename Component, typename Value>
-void uploadLevel(GLint level, const ByteImage& from, GLint format, GLenum type, Value value) {
-  glTexImage2D(GL_TEXTURE_2D, level, format, from.width, from.height, 0, GL_RGBA, type, nullptr);
-  const std::size_t across = std::size_t(4) * from.width;
-  const int most = std::max(1, int((std::size_t(1) << 18) / across));  // rows a piece
-  std::vector<Component> rows(across * std::size_t(std::min(most, from.height)));
-  for (int y = 0; y < from.height; y += most) {
-    const int count = std::min(most, from.height - y);
-    const std::uint8_t* in = &from.values[across * std::size_t(y)];
-    for (std::size_t i = 0; i < across * std::size_t(count); ++i) rows[i] = value(in[i], i % 4);
-    glTexSubImage2D(GL_TEXTURE_2D, level, 0, y, from.width, count, GL_RGBA, type, rows.data());
-  }
-}
-
-// Drivers decode sRGB with errors of up to 1.2e-3, and filter 8-bit texels with 3.3e-3. These are
-// filtered as floats are: 16 bits hold c / 255 exactly, and the curve's values need 32 (16 would be
-// off by 7.6e-6).
-void uploadData(GLint level, const ByteImage& from) {
-  uploadLevel<std::uint16_t>(level, from, GL_RGBA16, GL_UNSIGNED_SHORT,
-                             [](std::uint8_t v, std::size_t) { return std::uint16_t(257 * v); });
-}
-
-void uploadColors(GLint level, const ByteImage& from) {
-  std::array<float, 256> curve;
-  for (int i = 0; i < 256; ++i) curve[std::size_t(i)] = decodeSrgb8(std::uint8_t(i));
-  uploadLevel<float>(level, from, GL_RGBA32F, GL_FLOAT, [&](std::uint8_t v, std::size_t channel) {
-    return channel == 3 ? float(v) / 255.0f : curve[v];
-  });
-}
-
 // What a driver cannot take is left out from the pyramid's top. False where nothing was.
 bool fitDriver(DecodedImage& decoded, bool isData) {
   GLint limit = 0;
@@ -147,12 +100,14 @@ bool fitDriver(DecodedImage& decoded, bool isData) {
   return true;
 }
 
-TextureHandle uploadTexture(const DecodedImage& decoded, bool isData) {
+// Codes as they are: glsl/texture.glsl makes values of them.
+TextureHandle uploadTexture(const DecodedImage& decoded) {
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const auto upload = [&](GLint level, const ByteImage& from) {
-    isData ? uploadData(level, from) : uploadColors(level, from);
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, from.width, from.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, from.values.data());
   };
   // From the smallest on, by which the driver guesses the whole pyramid's size: from the largest
   // on, it would reserve that alone, and then everything again.
@@ -160,6 +115,9 @@ TextureHandle uploadTexture(const DecodedImage& decoded, bool isData) {
   for (std::size_t i = decoded.mipLevels.size(); i > 0; --i)
     upload(GLint(i), decoded.mipLevels[i - 1]);
   upload(0, decoded.image);
+  // Texels are fetched one by one; with another filter drivers may take the texture for incomplete.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   return texture;
 }
 
@@ -243,21 +201,12 @@ void GpuScene::bindTexture(const Texture& use, GLuint unit) {
                           "shown with " +
                           std::to_string(decoded.image.width) + " x " +
                           std::to_string(decoded.image.height) + " pixels");
-    texture = uploadTexture(decoded, image.isData);
+    if (decoded.mipLevels.empty() && readsMipLevels(*scene_, use.image))
+      decoded.mipLevels = mipLevels(decoded.image, image.isData);
+    texture = uploadTexture(decoded);
     images_.erase(use.image);
   }
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  const Sampler& s = use.sampler;
-  SamplerHandle& sampler = samplers_[{s.magnify, s.minify, s.mip, s.wrapS, s.wrapT}];
-  if (!sampler) {
-    sampler = SamplerHandle::make();
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER,
-                        s.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST);
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, minifyFilter(s));
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_S, wrapMode(s.wrapS));
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_T, wrapMode(s.wrapT));
-  }
-  glBindSampler(unit, sampler.id());
 }
 
 }  // namespace glint

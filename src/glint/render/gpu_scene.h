@@ -3,7 +3,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,7 +35,7 @@ class GpuScene {
   /// Draws it as the state stands.
   void draw(int mesh, bool faces);
 
-  /// Binds the texture and its sampler to a unit.
+  /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);
 
   /// Whether an image has been given, be it that it was not uploaded yet.
@@ -49,13 +48,11 @@ class GpuScene {
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
-  using SamplerKey = std::tuple<Filter, Filter, MipFilter, Wrap, Wrap>;
   const Scene* scene_;
   DecodedImages images_;
   std::vector<std::string> warnings_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
   std::map<int, TextureHandle> textures_;
-  std::map<SamplerKey, SamplerHandle> samplers_;
 };
 
 }  // namespace glint

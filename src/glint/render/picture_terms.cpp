@@ -76,7 +76,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
     keepOneLight(item, place, term);
   else
     removeLights(v);
-  if (term.kind != Kind::emission) v.emission = v.emissionTexture = false;
+  if (term.kind != Kind::emission) v.dropEmission();
   if (v.program != Shading::environment) return;
   v.output = term.kind == Kind::reflection   ? PixelOutput::reflection
              : term.kind == Kind::refraction ? PixelOutput::refraction
@@ -87,7 +87,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
 void keepGeometry(DrawItem& item, const PictureTerm& term) {
   Variant& v = item.variant;
   v.multisampled = false;
-  v.emission = v.emissionTexture = false;
+  v.dropEmission();
   if (term.kind == Kind::depth) {
     v.output = PixelOutput::depth;
     return;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glint/gl/check.h"
+#include "glint/image/srgb.h"
 #include "glint/render/composition.h"
 
 namespace glint {
@@ -20,7 +21,7 @@ constexpr GLuint parameterUnit = 5;  // and the three after it
 // other depths than its shaders see would go on for ever.
 constexpr int mostLayers = 1024;
 
-enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding };
+enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding, curveBinding };
 
 class Stopwatch {
  public:
@@ -40,6 +41,7 @@ void connect(const Program& program) {
   program.bindBlock("LightBlock", lightBinding);
   program.bindBlock("DrawBlock", drawBinding);
   program.bindBlock("MaterialBlock", materialBinding);
+  program.bindBlock("CurveBlock", curveBinding);
   program.bindSampler("colorTexture", 0);
   program.bindSampler("emissionTexture", 1);
   program.bindSampler("normalTexture", 2);
@@ -205,6 +207,16 @@ const Program& Renderer::layerProgram() {
       .first->second;
 }
 
+void Renderer::needCurve() {
+  if (curve_) return;
+  CurveBlock block;
+  for (std::size_t i = 0; i < srgbDecoded.size(); ++i)
+    block.linearOfCode[i] = glm::vec4(srgbDecoded[i], 0, 0, 0);
+  curve_ = Buffer::make();
+  glBindBuffer(GL_UNIFORM_BUFFER, curve_.id());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+}
+
 Renderer::Picture Renderer::begin(GpuScene& scene, DrawList list, const Look& look) {
   return {*this, scene, std::move(list), look};
 }
@@ -228,6 +240,10 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
   renderer.targetFor(layout_.tileWidth * layout_.scale, layout_.bandHeight * layout_.scale,
                      layout_.samples);
   if (list_.environment) renderer.environment_.upload(list_.environment);
+  const auto readsCodes = [](const DrawItem& item) {
+    return item.variant.colorTexture || item.variant.emissionTexture;
+  };
+  if (std::ranges::any_of(list_.items, readsCodes)) renderer.needCurve();
   glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
   glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
                list_.lights.data(), GL_STREAM_DRAW);
@@ -281,6 +297,7 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
     glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
     if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
+    if (renderer_.curve_) glBindBufferBase(GL_UNIFORM_BUFFER, curveBinding, renderer_.curve_.id());
 
     target.bind();
     glViewport(0, 0, width, height);

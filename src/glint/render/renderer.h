@@ -94,6 +94,7 @@ class Renderer {
   /// Of the target, or null if this driver cannot tell the layers of its samples apart.
   const DepthLayers* layersFor();
   const Program& layerProgram();
+  void needCurve();
 
   GlslSources sources_;
   bool fileNames_;
@@ -109,6 +110,7 @@ class Renderer {
   int askedSamples_ = 0;
   VertexArray noVertices_;
   Buffer frame_;
+  Buffer curve_;  ///< made when a texture is in sRGB
 };
 
 }  // namespace glint

@@ -47,6 +47,7 @@ void readParameters(Variant& v, const Mesh& mesh, const Material& material, cons
   for (std::size_t i = 0; i < 4; ++i) {
     if (!reads[i]) continue;
     const Texture& texture = **textures[i];
+    v.samplers[3 + i] = texture.sampler;
     if (isPerPixel(v.program) && v.colorTexture && samePlace(texture, *material.colorTexture)) {
       v.parameterPlaces[i] = -1;
       continue;
@@ -64,6 +65,12 @@ void Variant::dropParameterTextures() {
   metallicRoughnessTexture = occlusionTexture = specularTexture = transmissionTexture = false;
   parameterPlaces = {};
   parameterPlaceCount = 0;
+  std::fill(samplers.begin() + 3, samplers.end(), Sampler{});
+}
+
+void Variant::dropEmission() {
+  emission = emissionTexture = false;
+  samplers[1] = {};
 }
 
 std::array<const std::optional<Texture>*, 4> parameterTexturesOf(const Material& material) {
@@ -173,6 +180,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
                    look.antiAliasing.count > 1 && mesh.topology == Topology::triangles;
   v.vertexColors = !mesh.colors.empty();
   v.colorTexture = readsTexture(mesh, material.colorTexture);
+  if (v.colorTexture) v.samplers[0] = material.colorTexture->sampler;
   v.alphaMask = material.alphaMode == AlphaMode::mask;
   v.alphaBlend = isBlended(mesh, material);
   if (v.unlit) {
@@ -181,6 +189,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   }
   v.emission = material.emission != glm::dvec3(0.0);
   v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
+  if (v.emissionTexture) v.samplers[1] = material.emissionTexture->sampler;
 
   const bool pixels = isPerPixel(look.shading);
   const ShadingParameters& s = material.shading;
@@ -237,6 +246,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   }
   v.normalTexture = pixels && (lit || environment) && !mesh.tangents.empty() &&
                     readsTexture(mesh, material.normalTexture);
+  if (v.normalTexture) v.samplers[2] = material.normalTexture->sampler;
   readParameters(v, mesh, material, look);
   // Nothing of the surface's side is left where there is neither light nor environment.
   if (!lit && !environment)

@@ -54,6 +54,9 @@ struct Variant {
   bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
   bool emission = false, emissionTexture = false;
   bool alphaMask = false, alphaBlend = false;
+  /// How those that are read are looked up: of colour, emission, normals, and the four textures of
+  /// parameters in their order.
+  std::array<Sampler, 7> samplers{};
   /// Parameters that come from textures, as bits of namespace textured: those that the program
   /// reads; and the textures that give them.
   unsigned textured = 0;
@@ -73,6 +76,7 @@ struct Variant {
 
   /// For what is not shaded.
   void dropParameterTextures();
+  void dropEmission();
 
   auto operator<=>(const Variant&) const = default;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -53,6 +54,8 @@ struct Sampler {
   MipFilter mip = MipFilter::linear;
   Wrap wrapS = Wrap::repeat;
   Wrap wrapT = Wrap::repeat;
+
+  auto operator<=>(const Sampler&) const = default;
 };
 
 /// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads
