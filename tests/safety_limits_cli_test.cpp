@@ -205,8 +205,8 @@ TEST(Holes, OfAGlbAreNotRead) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   // Four gigabytes take seconds to read and hash.
-  const double whole = secondsOf(sample.writeGlb().string());
-  EXPECT_LT(secondsOf(model), 1 + 3 * whole);
+  const double sound = secondsOf(sample.writeGlb().string());
+  EXPECT_LT(secondsOf(model), 1 + 3 * sound);
 }
 
 TEST(Confine, TakesAModelFromStdinThatNamesNoFiles) {
