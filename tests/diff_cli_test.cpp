@@ -302,7 +302,8 @@ TEST(DiffUpdate, NeverSilent) {
   EXPECT_EQ(pictures.diff({"z", "y"}).status, 0);
   // What cannot be read becomes no baseline, nor does a file of another format.
   EXPECT_EQ(pictures.diff({"new/t.png", "text.png", "--update"}).status, 2);
-  EXPECT_THAT(pictures.diff({"new/t.png", "a.exr", "--update"}).err, HasSubstr("is not of the format of"));
+  EXPECT_THAT(pictures.diff({"new/t.png", "a.exr", "--update"}).err,
+              HasSubstr("is not of the format of"));
   EXPECT_FALSE(std::filesystem::exists(pictures / "new/t.png"));
 }
 
