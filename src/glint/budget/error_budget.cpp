@@ -11,6 +11,7 @@
 #include "glint/budget/form_choice.h"
 #include "glint/budget/interpolation_bound.h"
 #include "glint/budget/scene_distance.h"
+#include "glint/budget/varying_error.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/variant.h"
 #include "glint/scene/lights.h"
@@ -65,7 +66,8 @@ struct Setting {
   // How far rounding turns the direction to each light, and to the viewer; radians.
   std::vector<double> turns;
   double viewTurn = 0;
-  double spotTurn = 0;        // the same, each times the turn of its light
+  std::vector<double> normalTurns;  // and the interpolated normal, by instance
+  double spotTurn = 0;              // the same, each times the turn of its light
   double spotSteepness = 0;   // the sum of the intensities of spots times the slope of their ramps
   Surroundings surroundings;  // of the program environment
   bool blinn = false;
@@ -84,11 +86,22 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   const std::vector<glint::Light> given = lightsOf(s.look);
   for (const std::size_t i : shiningLights(given)) s.lights.push_back(given[i]);
   // Positions are floats in eye space, whose rounding is that of the largest coordinates on the way
-  // to them: of the vertices (three products, three sums, the model's own coordinates) and of the
-  // interpolation between them, 16 roundings in all. A lamp or an eye at the distance d sees
-  // them turned by that over d.
+  // to them: of the vertices (three products, three sums, the model's own coordinates), 16
+  // roundings in all, and what interpolation between them adds. A lamp or an eye at the distance d
+  // sees them turned by that over d.
+  const TileLayout layout = tilesFor(look.resolution, look.antiAliasing);
+  double interpolated = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const Material& material = scene.materials[std::size_t(mesh.material)];
+    const VaryingError error =
+        varyingError(mesh, instance.world, material.doubleSided || look.twoSided, s.camera,
+                     look.resolution, layout);
+    s.normalTurns.push_back(std::min(error.normalTurn, 2.0));
+    interpolated = std::max(interpolated, error.place);
+  }
   const double reach = glm::length(s.camera.eye - bounds.center) + 3 * bounds.radius;
-  const double placeError = 16 * u * reach;
+  const double placeError = (16 * u + interpolated) * reach;
   const auto turnAt = [&](double distance) {
     return std::min(placeError / std::max(distance, 1e-300) + 2 * u, 2.0);
   };
@@ -133,8 +146,10 @@ Setting settingFor(const Scene& scene, const Bounds& bounds, const Look& look) {
 // medium x is at least 1 - 1/n^2. Out of it, x is 0 at the critical angle, but there 1 - F is at
 // most the slope of the reflectance times sqrt(x), save for a metal's share. Equal indices refract
 // everything, at grazing incidence too.
-double refractionError(const ShadingParameters& m, const Look& look, bool twoSided) {
-  const double n = std::max(m.ior / look.mediumIor, look.mediumIor / m.ior), square = 2e-6;
+double refractionError(const ShadingParameters& m, const Look& look, bool twoSided,
+                       double normalTurn) {
+  const double n = std::max(m.ior / look.mediumIor, look.mediumIor / m.ior);
+  const double along = 2e-6 + normalTurn, square = 2e-6 + 2 * n * normalTurn;
   const double root = std::sqrt(square), rest = 1 - 1 / (n * n);
   double worst = std::min(root, square / std::sqrt(std::max(rest, 1e-12)));
   if (twoSided || m.ior < look.mediumIor) {
@@ -142,7 +157,7 @@ double refractionError(const ShadingParameters& m, const Look& look, bool twoSid
     const double slope = std::max({exact, look.schlickExponent, 7.0});  // of any form
     worst = std::max(worst, std::min(root, slope * square + m.metalness * root));
   }
-  return 2e-6 * n + worst;
+  return along * n + normalTurn + worst;
 }
 
 // The numbers of the material, and where textures give them the largest that they can give.
@@ -169,32 +184,35 @@ std::vector<double> exponentsOf(const Material& material, const Variant& v, cons
   return exponents;
 }
 
-// What the turn of the directions to lamps and viewer adds to the sum: N.L moves by the turn, a
-// lobe by the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by
-// its slope.
+// What the turn of the normal and of the directions to lamps and viewer adds to the sum: N.L moves
+// by the turn, a lobe by the turn of all (R by twice that of the normal), 1 / d^2 by three times
+// the turn (while that is small), a spot's ramp by its slope.
 double turnError(const Setting& setting, const ShadingParameters& m,
                  const std::vector<double>& exponents, const glm::dvec3& C, const glm::dvec3& S,
-                 const Variant& v) {
+                 const Variant& v, double normalTurn) {
   const double matte = v.diffuse ? m.diffuse * largest(C) : 0.0;
   const double shine = v.specular ? m.specular * largest(S) : 0.0;
-  const auto lobeMoves = [&](double turn) {
+  const auto lobeMoves = [&](bool halfVector, double turn) {
     double most = 0;
     for (const double alpha : exponents)
-      most = std::max(most, lobeTurnBound(alpha, setting.blinn, turn));
+      most = std::max(most, lobeTurnBound(alpha, halfVector, turn));
     return std::min(most, 1.0);
   };
+  const double together = largest(setting.reach.together);
   double error = setting.spotTurn * (matte + shine);
+  error += together * (matte * std::min(normalTurn, 1.0) +
+                       shine * lobeMoves(false, (setting.blinn ? 1 : 2) * normalTurn));
   for (std::size_t i = 0; i < setting.lights.size(); ++i) {
     const double turn = setting.turns[i], most = largest(setting.reach.most[i]);
-    error += most * (matte * std::min(turn, 1.0) + shine * lobeMoves(turn));
+    error += most * (matte * std::min(turn, 1.0) + shine * lobeMoves(setting.blinn, turn));
     if (setting.lights[i].fallsOff && turn > 0)
       error += most * (matte + shine) * (turn < 0.25 ? 3 * turn : 1e6);
   }
-  return error + largest(setting.reach.together) * shine * lobeMoves(setting.viewTurn);
+  return error + together * shine * lobeMoves(setting.blinn, setting.viewTurn);
 }
 
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
-                const Variant& v) {
+                const Variant& v, double normalTurn) {
   const ShadingParameters m = brightestNumbers(material, v);
   FormNeeds& needs = group.needs;
   glm::dvec3 C = m.color;
@@ -234,7 +252,7 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
   // An exponent of the relative error e changes a lobe by at most e / exp(1); the fourth power, two
   // products and a difference give 8 u, where the exponent is above 1, and at most 8 u of it below.
   if (v.textured & textured::exponent) rounding += 8.0 * u * shine;
-  rounding += turnError(setting, m, exponents, C, S, v);
+  rounding += turnError(setting, m, exponents, C, S, v, normalTurn);
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
     const auto [radiance, steep] = setting.surroundings;
@@ -242,17 +260,24 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
     if (v.dielectric) {
       needs.dielectric = true;
       needs.denserSide = needs.denserSide || v.denserSide;
-      const FormNeeds::Mirror mirror{dielectric * radiance * through, m.ior, v.twoSided};
-      if (std::ranges::find(needs.mirrors, mirror) == needs.mirrors.end())
+      const double turn = normalTurn + setting.viewTurn;
+      const FormNeeds::Mirror mirror{dielectric * radiance * through, m.ior, v.twoSided, turn};
+      const auto same = std::ranges::find_if(
+          needs.mirrors, [&](const FormNeeds::Mirror& each) { return each.isLike(mirror); });
+      if (same == needs.mirrors.end())
         needs.mirrors.push_back(mirror);
+      else
+        same->turn = std::max(same->turn, turn);
     }
     // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
     // cosines.
-    rounding +=
-        1e-5 + (2e-6 + 2 * setting.viewTurn) * steep +
-        (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
+    rounding += 1e-5 + (2e-6 + 2 * (setting.viewTurn + normalTurn)) * steep +
+                (m.metalness > 0
+                     ? m.metalness * (1e-6 + 5.0 * (cosineError + normalTurn)) * radiance * through
+                     : 0.0);
     if (v.refraction)
-      rounding += largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided));
+      rounding +=
+          largest(C) * (1e-5 + steep * refractionError(m, setting.look, v.twoSided, normalTurn));
   }
   group.rounding = std::max(group.rounding, rounding);
   double radiance = matte + shine + largest(material.emission);
@@ -312,10 +337,11 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
 using Groups = std::map<std::string, Group>;
 
 // Of one picture. Gives how many triangles of it are blended.
-std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setting,
-                        Shading program) {
+std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setting, Shading program,
+                        double budget) {
   std::size_t blended = 0;
-  for (const Instance& instance : scene.instances) {
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material material =
         editedMaterial(scene.materials[std::size_t(mesh.material)], setting.look);
@@ -324,12 +350,14 @@ std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setti
     if (v.alphaBlend) blended += mesh.indices.size() / 3;
     if (v.unlit) continue;
     Group& group = groups[materialKey(material)];
-    addSurface(group, setting, material, mesh, v);
+    addSurface(group, setting, material, mesh, v, setting.normalTurns[i]);
     if (program == setting.look.shading) continue;
-    group.interpolation = std::max(
-        group.interpolation, interpolationBound({scene, mesh, instance.world, material,
-                                                 setting.look, setting.camera, setting.lights, v},
-                                                program));
+    // One surface that is farther off than the budget is enough for the program to be out.
+    if (group.interpolation > budget) continue;
+    const PlacedMesh placed{scene,        mesh,           instance.world, material,
+                            setting.look, setting.camera, setting.lights, v};
+    group.interpolation =
+        std::max(group.interpolation, interpolationBound(placed, program, budget));
   }
   return blended;
 }
@@ -490,7 +518,7 @@ ResolvedLook resolveSequence(std::size_t count,
         for (const Instance& each : p.scene.instances)
           vertices += i > 0 ? 0 : p.scene.meshes[std::size_t(each.mesh)].positions.size();
       }
-      blended = std::max(blended, addSurfaces(groups, p.scene, settings[i], program));
+      blended = std::max(blended, addSurfaces(groups, p.scene, settings[i], program, *budget));
       if (i == 0)
         all = settings[0];
       else

@@ -51,10 +51,10 @@ std::optional<double> errorBudget(const Look&);
 ///
 /// The bound is that of shading: of the sum and the environment's terms in linear light, before
 /// exposure, at each sample, and of positions in single precision, which turn the directions to
-/// near lamps and to a near eye. Not in it: filtering of textures, the driver's interpolation of
-/// normals, the outline; and points at which the model itself jumps, where N.L rounds to the other
-/// side of 0, or what is left to refract does or nearly does (criticalRing of
-/// glint/shading/bounds.h).
+/// near lamps and to a near eye, and of their interpolation and that of normals (varying_error.h).
+/// Not in it: filtering of textures, frames of normal maps, the outline and needles; and points at
+/// which the model itself jumps, where N.L rounds to the other side of 0, or what is left to
+/// refract does or nearly does (criticalRing of glint/shading/bounds.h).
 ResolvedLook resolveLook(const Scene&, const Bounds&, const Look&);
 
 /// A scene as one picture of a sequence shows it.

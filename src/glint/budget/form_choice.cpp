@@ -76,7 +76,7 @@ struct Lobes {
 // exactness.
 class LobeSearch {
  public:
-  /// A change of form costs `change`.
+  /// A change of form costs `change`. The last candidate is the cheapest.
   LobeSearch(const std::vector<Lobe>& candidates, double change, const FormNeeds& needs,
              const LightReach& lights)
       : candidates_(candidates),
@@ -117,6 +117,8 @@ class LobeSearch {
       for (std::size_t end = shortest; end <= count_; ++end) {
         const Lobes lobes = extended(begun, candidates_[i], from, end);
         if (!(lobes.both() <= budget_)) break;
+        // Whatever the others get, from here on it costs as much.
+        if (lobes.cost + double(count_ - end) * candidates_.back().cost > best_->cost) break;
         if (lobes.cost > best_->cost) continue;
         if (end < count_)
           extend(lobes, end, i + 1);
@@ -146,9 +148,10 @@ Reflectance reflectanceOf(Fresnel fresnel, const FormNeeds& needs, const Look& l
   for (const FormNeeds::Mirror& m : needs.mirrors) {
     const double n1 = look.mediumIor, n2 = m.ior;
     const double error = fresnelFormulaBound(fresnel, n1, n2, look.schlickExponent);
-    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent);
+    double rounding = fresnelRoundingBound(fresnel, n1, n2, look.schlickExponent, m.turn);
     if (m.back)
-      rounding = std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent));
+      rounding =
+          std::max(rounding, fresnelRoundingBound(fresnel, n2, n1, look.schlickExponent, m.turn));
     r.error = std::max(r.error, m.radiance * error);
     r.rounding = std::max(r.rounding, m.radiance * rounding);
   }

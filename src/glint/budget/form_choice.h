@@ -27,7 +27,10 @@ struct FormNeeds {
     double radiance = 0;  ///< that an error of the reflectance is multiplied by
     double ior = 1;
     bool back = false;  ///< seen from within, too
-    bool operator==(const Mirror&) const = default;
+    double turn = 0;    ///< how far normal and view are off, beside rounding at the pixel; radians
+    bool isLike(const Mirror& other) const {  // but for the turn
+      return radiance == other.radiance && ior == other.ior && back == other.back;
+    }
   };
   std::vector<Mirror> mirrors;
   bool denserSide = false;  ///< some of them shows a side in the denser medium

@@ -332,7 +332,7 @@ std::vector<Corner> cornersOf(const Mold& mold, const Light& light, const Camera
 
 }  // namespace
 
-double interpolationBound(const PlacedMesh& p, Shading program) {
+double interpolationBound(const PlacedMesh& p, Shading program, double enough) {
   const Variant& v = p.variant;
   if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
@@ -365,6 +365,7 @@ double interpolationBound(const PlacedMesh& p, Shading program) {
         if (!(e.most < unbounded)) return unbounded;
         errors[i] += light.intensity *
                      (matte * (e.diffuse + 4e-6 * e.most) + shine * (e.specular + 4e-6 * e.most));
+        if (largest(errors[i]) > enough) return largest(errors[i]);
       }
     }
     for (const glm::dvec3& error : errors) worst = std::max(worst, largest(error));

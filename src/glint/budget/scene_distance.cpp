@@ -15,6 +15,8 @@ double distanceToEdge(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3
   return glm::length(p - a - t * way);
 }
 
+}  // namespace
+
 double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t) {
   const auto& [a, b, c] = t;
   const glm::dvec3 n = glm::cross(b - a, c - a);
@@ -26,8 +28,6 @@ double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& 
                : std::min(
                      {distanceToEdge(p, a, b), distanceToEdge(p, b, c), distanceToEdge(p, c, a)});
 }
-
-}  // namespace
 
 SceneDistance::SceneDistance(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
@@ -60,12 +60,20 @@ SceneDistance::SceneDistance(const Scene& scene) {
 
 double SceneDistance::to(const glm::dvec3& point) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Run& run : runs_) {
+  if (runs_.empty()) return least;
+  const auto away = [&](const Run& run) {
     const glm::dvec3 out = glm::max(glm::max(run.low - point, point - run.high), glm::dvec3(0.0));
-    if (!(glm::length(out) < least)) continue;
+    return glm::dot(out, out);
+  };
+  const auto look = [&](const Run& run) {
     for (std::size_t i = run.first; i < run.end; ++i)
       least = std::min(least, distanceToTriangle(point, triangles_[i]));
-  }
+  };
+  // The nearest box first, which leaves out most of the others.
+  const Run& nearest = *std::ranges::min_element(runs_, {}, away);
+  look(nearest);
+  for (const Run& run : runs_)
+    if (&run != &nearest && away(run) < least * least) look(run);
   return least;
 }
 

@@ -8,6 +8,8 @@
 
 namespace glint {
 
+double distanceToTriangle(const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle);
+
 /// How near the triangles, lines and points of a scene come to a place in world space. Boxes around
 /// runs of triangles leave most of them out, so that many lamps and many triangles cost little.
 class SceneDistance {

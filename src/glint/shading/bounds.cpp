@@ -221,12 +221,12 @@ double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
   return std::min(lobeTurnBound(alpha, blinn, vectorError) + row(form).rounding(alpha, gamma), 1.0);
 }
 
-double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent) {
+double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent, double turn) {
   if (n1 == n2) return 0.0;
   // 0 from the thinner side: grazing incidence. R falls from there, for large indices soon to rise
   // again. On the way of one rounding the largest and the least of it count; from there on its
   // slope changes by less than a tenth from one sample to the next.
-  const double steep = criticalCosine(n1, n2), error = cosineError(steep);
+  const double steep = criticalCosine(n1, n2), error = cosineError(steep) + std::min(turn, 1.0);
   const double from = std::max(steep + criticalRing(n1, n2) - error, steep);
   const auto after = [&](double way) {
     const double c = std::min(from + way, 1.0);

@@ -55,8 +55,9 @@ double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn);
 /// What rounding adds to a reflectance whose cosine c is off by 5 u (1 + c), that of a dot product
 /// of rounded unit vectors: the exact R moves most next to grazing incidence, or from criticalRing
 /// on next to the critical angle; the formula's own evaluation is off by 1e-6 (the rational form by
-/// 1.5e-6; the textbook's by what it cancels).
-double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent = 5.0);
+/// 1.5e-6; the textbook's by what it cancels). `turn`: what the cosine is off by beside that.
+double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent = 5.0,
+                            double turn = 0.0);
 
 /// The cosines next to the critical one of which fresnelRoundingBound does not speak, as it does
 /// not of total reflection that rounds to none: R has infinite slope there, and the rounding of the
