@@ -43,7 +43,7 @@ void expectColor(const glm::dvec4& seen, const glm::dvec3& expected, double tole
 
 // A plane across the picture, viewed straight on: one colour, by the sum of docs/architecture.md.
 TEST(ReferenceShading, APlaneUnderADirectionalLight) {
-  const glm::dvec3 L = glm::normalize(glm::dvec3(0.3, -0.2, 0.8)), V(0, 0, 1), N(0, 0, 1);
+  const glm::dvec3 L = glm::normalize(glm::dvec3(0.3, -0.2, 0.8)), N(0, 0, 1);
   const glm::dvec3 C(0.9, 0.5, 0.1), A(0.1, 0.2, 0.3), I(0.6, 0.7, 2), S = 0.25 * C + 0.75;
   const double NoL = L.z, RoV = 2 * NoL * N.z - L.z, NoH = std::sqrt((1 + L.z) / 2);
   Scene scene = sceneOf({{rectangle({-9, -9}, {9, 9}), paint()}});

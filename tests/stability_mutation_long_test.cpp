@@ -172,9 +172,9 @@ const Guard guards[] = {
     {"sampling.glsl", "0.5 * log2(square)", "log2(square)", "M13", "the level of detail"},
     {"sampling.glsl", "shadingPlace = inMiddle ? vec2(0.0) : sum / float(covered);",
      "shadingPlace = vec2(0.0);", "M15", "nothing is shaded outside its triangle"},
-    {"fragment.glsl", "if (base.a < material.emission.a) discard;", "", "P12", "masks"},
-    {"fragment.glsl", "if (base.a < material.emission.a) discard;",
-     "if (base.a <= material.emission.a) discard;", "P12", "the cutoff itself is there"},
+    {"fragment.glsl", "if (base.a < material.alphaCutoff) discard;", "", "P12", "masks"},
+    {"fragment.glsl", "if (base.a < material.alphaCutoff) discard;",
+     "if (base.a <= material.alphaCutoff) discard;", "P12", "the cutoff itself is there"},
 };
 
 class Mutation : public testing::TestWithParam<Guard> {

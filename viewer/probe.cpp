@@ -225,7 +225,8 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
     probe.hit = hits[layers.front().hit];
     setTerms(probe, stage, layers.front(), lightsOf(withFileLights(scene, look)));
     probe.remark = remarkFor(stage, layers);
-    for (const LayerValue& layer : std::views::reverse(layers)) {
+    for (auto each = layers.rbegin(); each != layers.rend(); ++each) {
+      const LayerValue& layer = *each;
       const double alpha =
           stage.items[std::size_t(layer.item)].blended ? layer.attributes.base.a : 1.0;
       probe.expected = layer.radiance * alpha + (1 - alpha) * probe.expected;

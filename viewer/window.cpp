@@ -152,7 +152,8 @@ bool Window::wait(double seconds) {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  return std::exchange(happened_, false) | woken.exchange(false);
+  const bool wasWoken = woken.exchange(false);
+  return std::exchange(happened_, false) || wasWoken;
 }
 
 void Window::wake() {
