@@ -52,7 +52,9 @@ TEST(Flip, AgreesWithThePaper) {
   std::uniform_real_distribution<double> any(0, 1);
   const auto noise = [&](int, int) { return Rgb{any(random), any(random), any(random)}; };
   const std::array<int, 2> sizes[] = {{1, 1}, {1, 40}, {40, 1}, {3, 2}, {17, 33}, {70, 51}};
-  for (const auto& [w, h] : sizes) {
+  for (const std::array<int, 2>& size : sizes) {
+    const int w = size[0],
+              h = size[1];  // a structured binding is captured by no lambda in Clang 14
     for (const double ppd : {67.0206432765823, 20.0, 5.0, 110.0}) {
       const Picture a(w, h, noise);
       // Small differences, large ones, edges, and nothing at all.

@@ -119,17 +119,25 @@ TEST(GlFailure, MakeCurrentRefusesADriverWithoutFunctions) {
 TEST(GlFailure, FirstThatWorksRemarksOnTheOthers) {
   const glint::backends::Opener openers[] = {{"missing", openMissing},
                                              {"gpu", [] { return openEgl("gpu"); }}};
-  const auto context = glint::backends::openFirst(openers);
+  const auto context = glint::backends::openFirst(openers, true);
   EXPECT_THAT(context->remark(), StartsWith("missing: libNoEGL.so.1 or libNoEGL.so.0 not found"));
+  // A library that is not installed is no loss where there is no GPU; one that fails is told.
+  EXPECT_EQ(glint::backends::openFirst(openers, false)->remark(), "");
+  const glint::backends::Opener failing[] = {{"broken", [] { return openOsmesa("no-context"); }},
+                                             {"gpu", [] { return openEgl("gpu"); }}};
+  EXPECT_THAT(glint::backends::openFirst(failing, false)->remark(), StartsWith("broken: "));
 }
 
 TEST(GlFailure, AllReasonsAreToldInOneLine) {
   const glint::backends::Opener openers[] = {{"one", openMissing},
                                              {"two", [] { return openOsmesa("no-context"); }}};
-  const std::string all = failure([&] { glint::backends::openFirst(openers); });
+  const std::string all = failure([&] { glint::backends::openFirst(openers, false); });
   EXPECT_THAT(all, AllOf(StartsWith("no OpenGL context: one: "), HasSubstr("; two: ")));
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 0);
-  EXPECT_THAT(failure([&] { glint::backends::openFirst({openers, 1}); }), Not(HasSubstr("\n")));
+  EXPECT_THAT(failure([&] {
+                glint::backends::openFirst({openers, 1}, false);
+              }),
+              Not(HasSubstr("\n")));
 }
 
 TEST(GlFailure, BackendNames) {

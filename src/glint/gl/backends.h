@@ -16,10 +16,15 @@ struct Symbol {
   void** address;
 };
 
+/// None of a backend's libraries is installed.
+class MissingLibrary : public ContextError {
+ public:
+  using ContextError::ContextError;
+};
+
 /// Opens the first of the libraries that can be opened and has all symbols; it is never closed
-/// (drivers leave threads and exit handlers behind). Throws ContextError: what is missing, and the
-/// remedy
-/// ("install ...").
+/// (drivers leave threads and exit handlers behind). Throws ContextError, or MissingLibrary: what
+/// is missing, and the remedy ("install ...").
 void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> symbols,
                  const char* remedy);
 
@@ -29,11 +34,12 @@ std::unique_ptr<Context> openOsmesa(std::span<const char* const> sonames);
 std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software);
 
 /// Calls openers in turn until one gives a context. The reasons of those that failed become the
-/// context's remark or, if none works, the lines of a ContextError.
+/// context's remark or, if none works, the text of a ContextError. Without a GPU, nothing is lost
+/// by a library that is not installed, and there is no remark about it.
 struct Opener {
   const char* name;
   std::unique_ptr<Context> (*open)();
 };
-std::unique_ptr<Context> openFirst(std::span<const Opener> openers);
+std::unique_ptr<Context> openFirst(std::span<const Opener> openers, bool hasGpu);
 
 }  // namespace glint::backends

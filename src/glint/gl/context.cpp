@@ -3,6 +3,7 @@
 #include <glad/gl.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 
 #include "glint/gl/backends.h"
@@ -52,19 +53,26 @@ void prepareEnvironment(Backend backend) {
   }
 }
 
+/// Whether the kernel shows a GPU: a render node of DRM, or NVIDIA's own driver.
+bool hasGpu() {
+  std::error_code error;
+  return std::filesystem::exists("/dev/dri", error) ||
+         std::filesystem::exists("/dev/nvidiactl", error);
+}
+
 std::unique_ptr<Context> openPrepared(Backend backend) {
   const backends::Opener automatic[] = {egl, osmesa};
   switch (backend) {
     case Backend::egl:
-      return backends::openFirst({&egl, 1});
+      return backends::openFirst({&egl, 1}, hasGpu());
     case Backend::eglSoftware:
-      return backends::openFirst({&eglSoftware, 1});
+      return backends::openFirst({&eglSoftware, 1}, hasGpu());
     case Backend::osmesa:
-      return backends::openFirst({&osmesa, 1});
+      return backends::openFirst({&osmesa, 1}, hasGpu());
     case Backend::automatic:
       break;
   }
-  return backends::openFirst(automatic);
+  return backends::openFirst(automatic, hasGpu());
 }
 
 std::string text(GLenum name) {
@@ -74,15 +82,18 @@ std::string text(GLenum name) {
 
 }  // namespace
 
-std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers) {
-  std::string reasons;
+std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers, bool hasGpu) {
+  std::string reasons, remark;
   for (const Opener& opener : openers) {
     try {
       std::unique_ptr<Context> context = opener.open();
-      context->addRemark(reasons);
+      context->addRemark(remark);
       return context;
     } catch (const ContextError& error) {
-      reasons += (reasons.empty() ? "" : "; ") + std::string(opener.name) + ": " + error.what();
+      const std::string reason = std::string(opener.name) + ": " + error.what();
+      reasons += (reasons.empty() ? "" : "; ") + reason;
+      if (hasGpu || !dynamic_cast<const MissingLibrary*>(&error))
+        remark += (remark.empty() ? "" : "; ") + reason;
     }
   }
   throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context: " + reasons);

@@ -51,7 +51,7 @@ void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> s
     }
     reasons += (reasons.empty() ? "" : "; ") + reason;
   }
-  if (reasons.empty()) reasons = absent + " not found";
+  if (reasons.empty()) throw MissingLibrary(absent + " not found: " + remedy);
   throw ContextError(reasons + ": " + remedy);
 }
 
