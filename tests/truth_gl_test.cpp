@@ -16,6 +16,7 @@
 #include "glint/image/srgb.h"
 #include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_parameters.h"
 #include "gltf_text.h"
 #include "random.h"
 #include "stage.h"

@@ -82,6 +82,10 @@ void hintContext() {
 }  // namespace
 
 Window::Window(const std::string& title, glm::ivec2 size) {
+#ifdef GLFW_PLATFORM
+  // Wayland's library prints an error of its own where there is no such session.
+  if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (!glfwInit())
     throw ContextError("no window: " + lastError() +
                        ": start it in a desktop session or under xvfb-run, or draw offscreen with "

@@ -5,10 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <queue>
 #include <system_error>
+#include <utility>
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
@@ -36,6 +41,30 @@ Shard parseShard(const std::string& text) {
     throw InputError("--shard: '" + printablePath(text) +
                      "' is not K/N with whole numbers, K from 1 to N");
   return shard;
+}
+
+std::vector<bool> membersOf(const Shard& shard, const std::vector<double>& costs) {
+  std::vector<bool> members(costs.size());
+  double sum = 0, largest = 0;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    members[i] = shard.has(i);
+    sum += costs[i];
+    largest = std::max(largest, costs[i]);
+  }
+  if (largest * double(costs.size()) <= 2 * sum) return members;
+  std::vector<std::size_t> order(costs.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return costs[i]; });
+  using Load = std::pair<double, std::size_t>;  // and the shard's number
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
+  for (std::size_t k = 0; k < std::min(shard.of, costs.size()); ++k) loads.emplace(0, k);
+  for (const std::size_t i : order) {
+    const auto [load, number] = loads.top();
+    loads.pop();
+    loads.emplace(load + costs[i], number);
+    members[i] = number + 1 == shard.part;
+  }
+  return members;
 }
 
 ModelList::ModelList(std::vector<std::string> models) : models_(std::move(models)) {

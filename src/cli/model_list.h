@@ -27,6 +27,12 @@ struct Shard {
 /// "K/N", 1 <= K <= N. Throws InputError.
 Shard parseShard(const std::string& text);
 
+/// Which of the models fall to a shard, given what each costs: every `of`-th where the costs are
+/// about the same, else so that the shards cost about the same (each model in turn, the dearest
+/// first, goes to the shard with the least: at most 4/3 of the best, Graham 1969). It depends on
+/// nothing else, so that shards on several machines fit together.
+std::vector<bool> membersOf(const Shard& shard, const std::vector<double>& costs);
+
 /// The models of a run, one after the other: those of the command line, or the lines of a list.
 ///
 /// A line is the path of a model, or a path, a TAB and the name of its picture, or an object of

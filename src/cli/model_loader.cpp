@@ -109,8 +109,9 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     if (options_.list == "-" && isStdin(entry.model))
       throw InputError("--from-list -: " + entry.model + " in it: stdin is the list: give a file");
     const std::string path = modelFile(entry.model);
-    model.hash = modelHash(path);
+    std::future<std::string> hash = startTask([path] { return modelHash(path); });
     if (options_.resume) {
+      model.hash = hash.get();
       PictureOrigin origin{model.hash, {}, options_.bitDepth, {}};
       if (!options_.usesReference()) origin.gl.emplace();
       for (std::size_t i = 0; i < model.pictures.size(); ++i) {
@@ -135,6 +136,7 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     for (const LeftOut& each : leftOut(model.scene, model.look))
       if (each.shows) model.scene.warnings.push_back(leftOutText(each));
     model.decodeTime = since(decode);
+    if (hash.valid()) model.hash = hash.get();
   } catch (const std::exception& failure) {
     model.error = failureOf(failure, entry.model);
     if (isStdin(entry.model) && options_.list != "-") model.error = withoutModelFile(model.error);

@@ -56,6 +56,7 @@ class PicturePlan {
   OutputPattern pattern_;
   std::optional<OutputPattern> referencePattern_;
   Shard shard_;
+  std::vector<bool> members_;  ///< of the shard, by number; empty: every N-th
   bool shardsFrames_;
   bool namesChecked_ = false;
   NamesTaken names_;

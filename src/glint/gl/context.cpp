@@ -141,6 +141,10 @@ std::future<std::unique_ptr<Context>> openContextAsync(Backend backend) {
 
 GlStrings glStrings() { return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)}; }
 
+bool drawsFromOwnMemory() {
+  return GLINT_GLAD_GL_AMD_pinned_memory != 0 && text(GL_RENDERER).starts_with("llvmpipe");
+}
+
 BackendReport probeBackend(Backend backend) {
   BackendReport report{backend, false, {}};
   try {

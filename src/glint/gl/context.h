@@ -95,6 +95,10 @@ struct GlStrings {
 /// Those of the current context.
 GlStrings glStrings();
 
+/// Whether the current context's driver draws from buffers that lie in the program's own memory
+/// (GL_AMD_pinned_memory) as fast as from its own: a software driver, which then needs no copy.
+bool drawsFromOwnMemory();
+
 /// Whether a backend works on this machine.
 struct BackendReport {
   Backend backend;

@@ -39,6 +39,29 @@ Component load(const unsigned char* from) {
   return value;
 }
 
+/// Bytes from the first element to the end of the last, each of them having `bytes`.
+std::size_t spanOf(const AccessorView& view, std::size_t bytes) {
+  return view.count > 0 ? (view.count - 1) * view.stride + bytes : 0;
+}
+
+void readInto(void* to, const AccessorView& view, std::size_t size) {
+  if (!view.file->read(to, view.offset, size))
+    view.messages->fail(view.label + " cannot be read from its file", "check the disk");
+}
+
+/// Where the elements begin; `room` holds them if they come from a file. Null where there are none.
+const unsigned char* elementsOf(const AccessorView& view, std::size_t bytes,
+                                std::vector<unsigned char>& room) {
+  if (view.data || !view.file) return view.data;
+  room.resize(spanOf(view, bytes));
+  readInto(room.data(), view, room.size());
+  return room.data();
+}
+
+std::size_t bytesOf(const AccessorView& view) {
+  return bytesOf(view.componentType) * static_cast<std::size_t>(view.components);
+}
+
 }  // namespace
 
 AccessorView openAccessor(const Document& document, int index, const std::string& label,
@@ -57,32 +80,56 @@ AccessorView openAccessor(const Document& document, int index, const std::string
   const auto bytes = bytesOf(view.componentType) * static_cast<std::size_t>(view.components);
   view.stride = bytes;
 
-  const auto dataOf = [&](int viewIndex, std::size_t offset) {
-    const auto& bufferView = model.bufferViews[static_cast<std::size_t>(viewIndex)];
-    return model.buffers[static_cast<std::size_t>(bufferView.buffer)].data.data() +
-           bufferView.byteOffset + offset;
+  view.label = label;
+  view.messages = &messages;
+
+  const auto pointAt = [&](AccessorView& to, int viewIndex, std::uint64_t offset) {
+    const ViewPlace& place = document.views[static_cast<std::size_t>(viewIndex)];
+    const Document::Stretch& stretch = document.stretches[place.buffer];
+    to.offset = place.offset + offset;
+    if (stretch.bytes.empty())
+      to.file = &document.buffers[place.buffer];
+    else
+      to.data = stretch.bytes.data() + (to.offset - stretch.first);
   };
-  if (accessor.bufferView >= 0) {
-    view.data = dataOf(accessor.bufferView, accessor.byteOffset);
+  if (accessor.bufferView >= 0 && view.count > 0) {
+    pointAt(view, accessor.bufferView, accessor.byteOffset);
     const auto& bufferView = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
     if (bufferView.byteStride) view.stride = bufferView.byteStride;
+    if (!accessor.sparse.isSparse) return view;
   }
-  if (view.data && !accessor.sparse.isSparse) return view;
 
   budget.read(view.count * bytes / 4);
-  view.owned.resize(view.count * bytes);
-  for (std::size_t i = 0; view.data && i < view.count; ++i) {
-    std::memcpy(&view.owned[i * bytes], view.data + i * view.stride, bytes);
+  std::vector<unsigned char> elements(view.count * bytes), room;
+  const unsigned char* from = view.count > 0 ? elementsOf(view, bytes, room) : nullptr;
+  for (std::size_t i = 0; from && i < view.count; ++i) {
+    std::memcpy(&elements[i * bytes], from + i * view.stride, bytes);
   }
+  view.owned = std::move(elements);
   view.data = view.owned.data();
+  view.file = nullptr;
   view.stride = bytes;
   if (!accessor.sparse.isSparse) return view;
 
   const auto& sparse = accessor.sparse;
-  const unsigned char* indices =
-      dataOf(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
+  AccessorView part;
+  part.label = label;
+  part.messages = &messages;
+  part.count = static_cast<std::size_t>(sparse.count);
+  const auto open = [&](int viewIndex, int offset, std::size_t stride,
+                        std::vector<unsigned char>& read) {
+    part.data = nullptr;
+    part.file = nullptr;
+    part.stride = stride;
+    pointAt(part, viewIndex, static_cast<std::uint64_t>(offset));
+    return elementsOf(part, stride, read);
+  };
+  std::vector<unsigned char> indexRoom, valueRoom;
+  if (part.count == 0) return view;
+  const unsigned char* indices = open(sparse.indices.bufferView, sparse.indices.byteOffset,
+                                      bytesOf(sparse.indices.componentType), indexRoom);
   const unsigned char* values =
-      dataOf(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
+      open(sparse.values.bufferView, sparse.values.byteOffset, bytes, valueRoom);
   withIndex(sparse.indices.componentType, [&](auto type) {
     using Index = decltype(type);
     for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
@@ -117,12 +164,25 @@ std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices,
   using Real = typename Vector::value_type;
   std::vector<Vector> result(vertices.count, fallback);
   const int length = std::min<int>(Vector::length(), view.components);
+  if (vertices.count == 0) return result;
+  // As they lie in the file: straight to where they are needed.
+  if (std::is_same_v<Real, float> && view.componentType == 5126 && vertices.all &&
+      view.components == Vector::length() && view.stride == sizeof(Vector)) {
+    const std::size_t size = vertices.count * sizeof(Vector);
+    if (view.data)
+      std::memcpy(static_cast<void*>(result.data()), view.data, size);
+    else
+      readInto(result.data(), view, size);
+    return result;
+  }
+  std::vector<unsigned char> room;
+  const unsigned char* data = elementsOf(view, bytesOf(view), room);
   withComponent(view.componentType, [&](auto type) {
     using Component = decltype(type);
     const double scale = scaleOf<Component>(view, normalize);
     const double least = scale != 1 ? -1.0 : std::numeric_limits<double>::lowest();
     for (std::size_t i = 0; i < vertices.count; ++i) {
-      const unsigned char* from = view.data + vertices[i] * view.stride;
+      const unsigned char* from = data + vertices[i] * view.stride;
       for (int k = 0; k < length; ++k) {
         const auto value = load<Component>(from + static_cast<std::size_t>(k) * sizeof(Component));
         if constexpr (std::is_floating_point_v<Component>) {
@@ -150,12 +210,13 @@ template std::vector<glm::dvec4> gather(const AccessorView&, const VertexList&, 
 std::vector<double> readFlat(const AccessorView& view, bool normalize) {
   const auto width = static_cast<std::size_t>(view.components);
   std::vector<double> numbers(view.count * width);
+  std::vector<unsigned char> room;
+  const unsigned char* data = elementsOf(view, bytesOf(view), room);
   withComponent(view.componentType, [&](auto type) {
     using Component = decltype(type);
     const double scale = scaleOf<Component>(view, normalize);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const unsigned char* from =
-          view.data + i / width * view.stride + i % width * sizeof(Component);
+      const unsigned char* from = data + i / width * view.stride + i % width * sizeof(Component);
       const double value = static_cast<double>(load<Component>(from)) * scale;
       numbers[i] = scale != 1 ? std::max(value, -1.0) : value;
     }
@@ -165,10 +226,21 @@ std::vector<double> readFlat(const AccessorView& view, bool normalize) {
 
 std::vector<std::uint32_t> readIndices(const AccessorView& view) {
   std::vector<std::uint32_t> indices(view.count);
+  if (view.count == 0) return indices;
+  if (view.componentType == 5125 && view.stride == sizeof(std::uint32_t)) {
+    const std::size_t size = view.count * sizeof(std::uint32_t);
+    if (view.data)
+      std::memcpy(indices.data(), view.data, size);
+    else
+      readInto(indices.data(), view, size);
+    return indices;
+  }
+  std::vector<unsigned char> room;
+  const unsigned char* data = elementsOf(view, bytesOf(view), room);
   withIndex(view.componentType, [&](auto type) {
     using Component = decltype(type);
     for (std::size_t i = 0; i < view.count; ++i) {
-      indices[i] = static_cast<std::uint32_t>(load<Component>(view.data + i * view.stride));
+      indices[i] = static_cast<std::uint32_t>(load<Component>(data + i * view.stride));
     }
   });
   return indices;

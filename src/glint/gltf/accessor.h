@@ -9,10 +9,15 @@
 
 namespace glint::gltf {
 
-/// Where the elements of an accessor lie. Points into the document's buffers, or into `owned` where
-/// the elements had to be put together (sparse accessors and those of zeros).
+/// Where the elements of an accessor lie: in the document's buffers; in `owned` where they had to
+/// be put together (sparse accessors and those of zeros); or in a file, from which gather(),
+/// readFlat() and readIndices() read them, or fail.
 struct AccessorView {
   const unsigned char* data = nullptr;
+  const ByteSource* file = nullptr;  ///< where `data` is null
+  std::uint64_t offset = 0;          ///< of the first element in the file
+  std::string label;                 ///< of what it belongs to, in messages
+  const Messages* messages = nullptr;
   std::size_t stride = 0;
   std::size_t count = 0;
   int componentType = 0;  ///< as in glTF, 5120 and on

@@ -11,7 +11,8 @@
 namespace glint::gltf {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+/// A longer stretch is read in pieces, each when it is needed.
+constexpr std::uint64_t maxHeldBytes = std::uint64_t(16) << 20;
 
 /// More than any GPU holds; many buffers may name the same large file.
 constexpr std::uint64_t maxGeometryBytes = std::uint64_t(8) << 30;
@@ -94,43 +95,47 @@ std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
   return ends;
 }
 
-/// Reads of each buffer the stretch in which the views lie that accessors use, and makes the
-/// document's buffer views relative to it.
-std::vector<Bytes> readGeometry(Cursor root, Document& document, const Messages& messages) {
+std::vector<std::string> readVariants(Cursor root) {
+  const Cursor list = root.member("extensions").member("KHR_materials_variants").member("variants");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list.item(i).name());
+  return names;
+}
+
+/// Whether more than one pose can be asked for: what its primitives read is then read again.
+bool canMove(Cursor root, const Document& document) {
+  return root.member("animations").size() > 0 || root.member("skins").size() > 0 ||
+         !document.morphs.empty() || !readVariants(root).empty();
+}
+
+/// Finds of each buffer the stretch in which the views lie that accessors use, and reads it.
+void readGeometry(Cursor root, Document& document, const Messages& messages) {
   const std::vector<std::uint64_t> used = endsOfViews(root, document.views.size());
-  struct Stretch {
-    std::uint64_t first = UINT64_MAX;
-    std::uint64_t end = 0;
-  };
-  std::vector<Stretch> stretches(document.buffers.size());
+  document.stretches.resize(document.buffers.size());
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] == 0) continue;
     const ViewPlace& view = document.views[i];
-    Stretch& stretch = stretches[view.buffer];
-    stretch.first = std::min(stretch.first, view.offset);
-    stretch.end = std::max(stretch.end, view.offset + std::min(used[i], view.size));
+    if (document.absent[view.buffer]) continue;
+    Document::Stretch& stretch = document.stretches[view.buffer];
+    const std::uint64_t end = view.offset + std::min(used[i], view.size);
+    stretch.first = stretch.end > 0 ? std::min(stretch.first, view.offset) : view.offset;
+    stretch.end = std::max(stretch.end, end);
   }
-  const Cursor views = root.member("bufferViews");
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const ViewPlace& view = document.views[i];
-    views.item(i).json()["byteOffset"] =
-        used[i] > 0 ? view.offset - stretches[view.buffer].first : std::uint64_t(0);
-  }
-  std::vector<Bytes> buffers(document.buffers.size());
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const Stretch stretch = document.absent[i] ? Stretch() : stretches[i];
-    if (stretch.end > stretch.first) document.geometryBytes += stretch.end - stretch.first;
+  const bool moves = canMove(root, document);
+  for (std::size_t i = 0; i < document.stretches.size(); ++i) {
+    Document::Stretch& stretch = document.stretches[i];
+    stretch.end = std::max(stretch.first, stretch.end);
+    document.geometryBytes += stretch.end - stretch.first;
     if (document.geometryBytes > maxGeometryBytes) {
       messages.fail("its buffers hold more than 8 GiB", "split the model");
     }
-    buffers[i].resize(stretch.end > stretch.first ? stretch.end - stretch.first : 0);
-    if (!document.buffers[i].read(buffers[i].data(), stretch.first, buffers[i].size()) &&
-        !buffers[i].empty()) {
+    if (!moves && stretch.end - stretch.first > maxHeldBytes) continue;
+    stretch.bytes.resize(stretch.end - stretch.first);
+    if (!stretch.bytes.empty() &&
+        !document.buffers[i].read(stretch.bytes.data(), stretch.first, stretch.bytes.size())) {
       messages.fail("buffers[" + std::to_string(i) + "] cannot be read", "check the disk");
     }
-    if (buffers[i].empty()) buffers[i].push_back(0);  // tinygltf takes it for a missing file
   }
-  return buffers;
 }
 
 std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
@@ -159,13 +164,6 @@ std::vector<int> takeIndices(Cursor root) {
     }
   }
   return result;
-}
-
-std::vector<std::string> readVariants(Cursor root) {
-  const Cursor list = root.member("extensions").member("KHR_materials_variants").member("variants");
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list.item(i).name());
-  return names;
 }
 
 /// What extensions say of primitives and nodes.
@@ -213,9 +211,9 @@ void dropExtras(Json& json) {
   }
 }
 
-/// The part of the document that tinygltf reads, taken out of `json`. Buffers are named by their
-/// number, under which the callbacks hand them over.
-std::string takeGeometry(Json& json, const std::vector<Bytes>& buffers) {
+/// The part of the document that tinygltf reads, taken out of `json`, with a buffer that stands for
+/// all.
+std::string takeGeometry(Json& json) {
   Json part = {{"asset", {{"version", "2.0"}}}};
   for (const char* section : {"bufferViews", "accessors", "meshes", "nodes", "skins", "scenes"}) {
     const auto found = json.find(section);
@@ -232,9 +230,9 @@ std::string takeGeometry(Json& json, const std::vector<Bytes>& buffers) {
   }
   if (const auto scene = json.find("scene"); scene != json.end()) part["scene"] = *scene;
   json.erase("buffers");
-  Json& list = part["buffers"] = Json::array();
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    list.push_back({{"byteLength", buffers[i].size()}, {"uri", std::to_string(i)}});
+  part["buffers"] = {{{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}}};
+  if (part.contains("bufferViews")) {
+    for (Json& view : part["bufferViews"]) view["buffer"] = 0;
   }
   return part.dump();
 }
@@ -281,13 +279,12 @@ Document readDocument(const std::filesystem::path& path, Messages& messages) {
   document.extensions = extensionsOf(root);
   document.skins = skinsOf(root);
   document.morphs = morphsOf(root);
-  std::vector<Bytes> buffers = readGeometry(root, document, messages);
+  readGeometry(root, document, messages);
   const std::vector<int> indices = takeIndices(root);
   document.variants = readVariants(root);
   document.pieces = readPieces(root);
-  const std::string geometry = takeGeometry(document.json, buffers);
-  if (const std::string error = readGeometryModel(document.model, geometry, buffers);
-      !error.empty()) {
+  const std::string geometry = takeGeometry(document.json);
+  if (const std::string error = readGeometryModel(document.model, geometry); !error.empty()) {
     messages.fail("is not glTF 2.0, " + printable(error));
   }
   auto next = indices.begin();

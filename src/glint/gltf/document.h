@@ -25,9 +25,7 @@ struct ViewPlace {
 /// A glTF file, checked, with what its accessors refer to in memory.
 struct Document {
   std::filesystem::path path;
-  /// Accessors, buffer views, meshes, nodes, skins and scenes. Of each buffer only the stretch that
-  /// accessors lie in is held, and only their buffer views point into it: most of a model's bytes
-  /// are images, of which most are never shown.
+  /// Accessors, buffer views, meshes, nodes, skins and scenes, without the buffers' bytes.
   tinygltf::Model model;
   /// Materials, textures, samplers, images and cameras, as they stand in the file: tinygltf cuts
   /// large numbers down to 32 bits and would read images that nothing shows.
@@ -52,8 +50,16 @@ struct Document {
   std::vector<ByteSource> buffers;
   /// Buffers of which nobody says where they lie: neither a uri nor a binary chunk.
   std::vector<bool> absent;
-  std::vector<ViewPlace> views;     ///< all buffer views, as they lie in `buffers`
-  std::uint64_t geometryBytes = 0;  ///< held in `model`
+  std::vector<ViewPlace> views;  ///< all buffer views, as they lie in `buffers`
+  /// Of each buffer the stretch that accessors lie in: most of a model's bytes are images, of which
+  /// most are never shown. A long one of a model that stands still is not held: it is read once,
+  /// from the file to where it is needed.
+  struct Stretch {
+    std::uint64_t first = 0, end = 0;
+    std::vector<unsigned char> bytes;  ///< empty where they are not held
+  };
+  std::vector<Stretch> stretches;
+  std::uint64_t geometryBytes = 0;  ///< of all stretches
 
   /// The absent buffer that an accessor lies in, or -1.
   int absentBufferOf(int accessor) const;

@@ -2,7 +2,9 @@
 #include "glint/scene/material_parameters.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -11,6 +13,7 @@
 #include "glint/gltf/normals.h"
 #include "glint/gltf/tangents.h"
 #include "glint/gltf/topology.h"
+#include "glint/image/task.h"
 
 namespace glint::gltf {
 namespace {
@@ -18,6 +21,17 @@ namespace {
 /// Beyond this distance from its origin, measured in radii, a mesh is stored relative to its
 /// centre.
 constexpr double farAway = 8;
+
+/// Whether `good` holds of all, which it is asked of in any order.
+template <typename Value, typename Good>
+bool allOf(const std::vector<Value>& values, const Good& good) {
+  std::atomic<bool> all = true;
+  inStretches(values.size(), [&](std::size_t begin, std::size_t end) {
+    const auto first = values.begin() + std::ptrdiff_t(begin);
+    if (all && !std::all_of(first, values.begin() + std::ptrdiff_t(end), good)) all = false;
+  });
+  return all;
+}
 
 template <typename Vector>
 bool fitsFloat(const Vector& v) {
@@ -74,7 +88,7 @@ class Builder {
   template <typename Vector>
   void dropNonFinite(std::vector<Vector>& positions);
   template <typename Vector>
-  void place(const std::vector<Vector>& positions);
+  void place(std::vector<Vector> positions);
   void readColors(const Pose& pose);
   void readTexcoords(const Pose& pose, const Material& material);
   void finishNormals();
@@ -147,8 +161,7 @@ bool Builder::readElements() {
         openAccessor(document_, primitive_.indices, label_ + " indices", budget_, messages_);
     budget_.read(view.count);
     indices = readIndices(view);
-    if (const auto largest = std::ranges::max_element(indices);
-        largest != indices.end() && *largest >= vertexCount_) {
+    if (!allOf(indices, [&](std::uint32_t i) { return i < vertexCount_; })) {
       const auto at = std::ranges::find_if(indices, [&](auto i) { return i >= vertexCount_; });
       fail("index " + std::to_string(at - indices.begin()) + " is " + std::to_string(*at) +
            " and there are " + std::to_string(vertexCount_) + " vertices");
@@ -216,7 +229,7 @@ void Builder::applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
 template <typename Vector>
 void Builder::dropNonFinite(std::vector<Vector>& positions) {
   const auto good = [](const Vector& position) { return fitsFloat(position); };
-  if (std::ranges::all_of(positions, good)) return;
+  if (allOf(positions, good)) return;
   auto& indices = built_.mesh.indices;
   const std::size_t corners = cornersOf(built_.mesh.topology);
   std::size_t kept = 0;
@@ -245,16 +258,30 @@ void Builder::dropNonFinite(std::vector<Vector>& positions) {
 }
 
 template <typename Vector>
-void Builder::place(const std::vector<Vector>& positions) {
-  glm::dvec3 low(positions.front()), high = low;
-  for (const Vector& position : positions) {
-    low = glm::min(low, glm::dvec3(position));
-    high = glm::max(high, glm::dvec3(position));
-  }
-  const glm::dvec3 centre = 0.5 * (low + high);
+void Builder::place(std::vector<Vector> positions) {
+  Vector low = positions.front(), high = low;
+  std::mutex joining;
+  inStretches(positions.size(), [&](std::size_t begin, std::size_t end) {
+    Vector least = positions[begin], most = least;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      least = glm::min(least, positions[i]);
+      most = glm::max(most, positions[i]);
+    }
+    const std::lock_guard lock(joining);
+    low = glm::min(low, least);
+    high = glm::max(high, most);
+  });
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
   glm::dvec3& origin = built_.mesh.origin;
-  if (glm::length(centre) > farAway * glm::length(0.5 * (high - low))) origin = centre;
+  const double radius = glm::length(0.5 * (glm::dvec3(high) - glm::dvec3(low)));
+  if (glm::length(centre) > farAway * radius) origin = centre;
   auto& stored = built_.mesh.positions;
+  if constexpr (std::is_same_v<Vector, glm::vec3>) {
+    if (origin == glm::dvec3(0)) {
+      stored = std::move(positions);
+      return;
+    }
+  }
   stored.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     stored[i] = glm::vec3(glm::dvec3(positions[i]) - origin);
@@ -359,7 +386,7 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
   const auto finish = [&](auto positions) {
     dropNonFinite(positions);
     if (mesh.indices.empty()) return false;
-    place(positions);
+    place(std::move(positions));
     return true;
   };
   bool drawn = false;

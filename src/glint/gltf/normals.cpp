@@ -1,8 +1,12 @@
 #include "glint/gltf/normals.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <utility>
+
+#include "glint/image/task.h"
 
 namespace glint::gltf {
 namespace {
@@ -58,11 +62,16 @@ void makeFlat(Mesh& mesh) {
 
 std::size_t mendNormals(Mesh& mesh) {
   std::vector<std::uint32_t> broken;
-  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-    const glm::dvec3 unit = direction(glm::dvec3(mesh.normals[i]));
-    mesh.normals[i] = glm::vec3(unit);
-    if (isZero(unit)) broken.push_back(static_cast<std::uint32_t>(i));
-  }
+  std::mutex adding;
+  inStretches(mesh.normals.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const glm::dvec3 unit = direction(glm::dvec3(mesh.normals[i]));
+      mesh.normals[i] = glm::vec3(unit);
+      if (!isZero(unit)) continue;
+      const std::lock_guard lock(adding);
+      broken.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
   if (broken.empty()) return 0;
 
   struct Sum {
@@ -99,12 +108,15 @@ std::size_t mendNormals(Mesh& mesh) {
 
 bool normalsMayCancel(const Mesh& mesh) {
   // Pairwise cosines above -0.4 leave every mean longer than sqrt((1 - 2 * 0.4) / 3) = 0.25.
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::vec3 &a = mesh.normals[mesh.indices[i]], &b = mesh.normals[mesh.indices[i + 1]],
-                    &c = mesh.normals[mesh.indices[i + 2]];
-    if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < -0.4F) return true;
-  }
-  return false;
+  std::atomic<bool> may = false;
+  inStretches(mesh.indices.size() / 3, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end && !may; i += 3) {
+      const glm::vec3 &a = mesh.normals[mesh.indices[i]], &b = mesh.normals[mesh.indices[i + 1]],
+                      &c = mesh.normals[mesh.indices[i + 2]];
+      if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < -0.4F) may = true;
+    }
+  });
+  return may;
 }
 
 }  // namespace glint::gltf

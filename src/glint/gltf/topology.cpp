@@ -14,7 +14,7 @@ void dropDegenerate(std::vector<std::uint32_t>& indices, std::size_t corners) {
   for (std::size_t i = 0; i < indices.size(); i += corners) {
     const std::uint32_t* v = &indices[i];
     if (v[0] == v[1] || (corners == 3 && (v[1] == v[2] || v[2] == v[0]))) continue;
-    std::copy(v, v + corners, indices.begin() + static_cast<std::ptrdiff_t>(kept));
+    if (kept != i) std::copy(v, v + corners, indices.begin() + static_cast<std::ptrdiff_t>(kept));
     kept += corners;
   }
   indices.resize(kept);
@@ -68,14 +68,15 @@ VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCo
     list.count = list.ids.size();
     return list;
   }
-  std::vector<std::uint32_t> place(vertexCount, 0);
-  for (const std::uint32_t index : indices) place[index] = 1;
-  list.count = std::accumulate(place.begin(), place.end(), std::size_t(0));
+  std::vector<std::uint8_t> isUsed(vertexCount, 0);
+  for (const std::uint32_t index : indices) isUsed[index] = 1;
+  list.count = std::accumulate(isUsed.begin(), isUsed.end(), std::size_t(0));
   list.all = list.count == vertexCount;
   if (list.all) return list;
+  std::vector<std::uint32_t> place(vertexCount, 0);
   list.ids.reserve(list.count);
   for (std::uint32_t i = 0; i < vertexCount; ++i) {
-    if (place[i] == 0) continue;
+    if (isUsed[i] == 0) continue;
     place[i] = static_cast<std::uint32_t>(list.ids.size());
     list.ids.push_back(i);
   }

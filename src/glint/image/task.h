@@ -79,4 +79,13 @@ void inParallel(int threads, std::size_t count, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// Calls work(begin, end) for stretches that make up 0 to count, on as many threads as there are
+/// processors; a stretch is long enough that few elements start no thread.
+template <typename Work>
+void inStretches(std::size_t count, const Work& work) {
+  constexpr std::size_t length = std::size_t(1) << 16;
+  inParallel(0, (count + length - 1) / length,
+             [&](std::size_t i, int) { work(i * length, std::min(count, (i + 1) * length)); });
+}
+
 }  // namespace glint

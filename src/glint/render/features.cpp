@@ -1,6 +1,7 @@
 #include "glint/render/features.h"
 
 #include "glint/scene/look_text.h"
+#include "glint/scene/material_parameters.h"
 
 namespace glint {
 namespace {

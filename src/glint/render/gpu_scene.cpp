@@ -1,9 +1,11 @@
 #include "glint/render/gpu_scene.h"
 
 #include <algorithm>
+#include <deque>
 #include <span>
 #include <utility>
 
+#include "glint/gl/context.h"
 #include "glint/image/mipmaps.h"
 #include "glint/render/face_mesh.h"
 #include "glint/render/variant.h"
@@ -11,59 +13,109 @@
 namespace glint {
 namespace {
 
-// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at
-// it.
+// Shorter arrays are copied: a buffer of their own costs more.
+constexpr std::size_t leastInPlace = std::size_t(1) << 20;  // bytes
+
+// Has the driver read a buffer where the program has it.
+void setInPlace(const Buffer& buffer, const void* bytes, std::size_t size) {
+  glBindBuffer(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, buffer.id());
+  glBufferData(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, GLsizeiptr(size), bytes, GL_STATIC_DRAW);
+  glBindBuffer(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, 0);
+}
+
+// Gathers attribute arrays one after the other in a single buffer, long ones that the scene keeps
+// each in a buffer that lies there; then points a vertex array at them.
 class VertexLayout {
  public:
+  explicit VertexLayout(bool inPlace) : inPlace_(inPlace) {}
+
+  /// An array of the scene.
   template <typename Vector>
-  void add(GLuint location, std::span<const Vector> values) {
-    if (values.empty()) return;
-    const auto* bytes = reinterpret_cast<const char*>(values.data());
-    attributes_.push_back({location, Vector::length(), bytes, values.size_bytes(), size_});
-    size_ += values.size_bytes();
+  void addKept(GLuint location, const std::vector<Vector>& values,
+               std::span<const std::uint32_t> source = {}) {
+    addBytes(location, values, source, true);
   }
-  // With `source`, vertex i is a copy of source[i].
+  /// An array that lives until upload().
   template <typename Vector>
-  void add(GLuint location, std::span<const Vector> values, std::span<const std::uint32_t> source) {
-    if (values.empty() || source.empty()) return add(location, values);
-    std::vector<char>& copy = copies_.emplace_back(source.size() * sizeof(Vector));
-    auto* to = reinterpret_cast<Vector*>(copy.data());
-    for (std::size_t i = 0; i < source.size(); ++i) to[i] = values[source[i]];
-    add(location, std::span<const Vector>(to, source.size()));
+  void add(GLuint location, const std::vector<Vector>& values,
+           std::span<const std::uint32_t> source = {}) {
+    addBytes(location, values, source, false);
   }
-  void upload() const {
-    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(size_), nullptr, GL_STATIC_DRAW);
-    for (const Attribute& a : attributes_) {
-      glBufferSubData(GL_ARRAY_BUFFER, GLintptr(a.offset), GLsizeiptr(a.size), a.bytes);
-      glVertexAttribPointer(a.location, a.components, GL_FLOAT, GL_FALSE, 0,
-                            reinterpret_cast<const void*>(a.offset));
-      glEnableVertexAttribArray(a.location);
+  std::vector<Buffer> upload() const {
+    std::vector<Buffer> buffers;
+    if (size_ > 0) {
+      glBindBuffer(GL_ARRAY_BUFFER, buffers.emplace_back(Buffer::make()).id());
+      glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(size_), nullptr, GL_STATIC_DRAW);
+      for (const Attribute& a : attributes_) {
+        if (a.inPlace) continue;
+        glBufferSubData(GL_ARRAY_BUFFER, GLintptr(a.offset), GLsizeiptr(a.size), a.bytes);
+        point(a);
+      }
     }
+    for (const Attribute& a : attributes_) {
+      if (!a.inPlace) continue;
+      const Buffer& own = buffers.emplace_back(Buffer::make());
+      setInPlace(own, a.bytes, a.size);
+      glBindBuffer(GL_ARRAY_BUFFER, own.id());
+      point(a);
+    }
+    return buffers;
   }
 
  private:
   struct Attribute {
     GLuint location;
     GLint components;
-    const char* bytes;
+    const void* bytes;
     std::size_t size, offset;
+    bool inPlace;
   };
+  // With `source`, vertex i is a copy of source[i].
+  template <typename Vector>
+  void addBytes(GLuint location, const std::vector<Vector>& values,
+                std::span<const std::uint32_t> source, bool isKept) {
+    if (values.empty()) return;
+    const void* bytes = values.data();
+    std::size_t size = values.size() * sizeof(Vector);
+    if (!source.empty()) {
+      std::vector<char>& copy = copies_.emplace_back(source.size() * sizeof(Vector));
+      auto* to = reinterpret_cast<Vector*>(copy.data());
+      for (std::size_t i = 0; i < source.size(); ++i) to[i] = values[source[i]];
+      bytes = copy.data();
+      size = copy.size();
+    }
+    const bool inPlace = inPlace_ && isKept && source.empty() && size >= leastInPlace;
+    attributes_.push_back({location, Vector::length(), bytes, size, inPlace ? 0 : size_, inPlace});
+    if (!inPlace) size_ += size;
+  }
+  static void point(const Attribute& a) {
+    glVertexAttribPointer(a.location, a.components, GL_FLOAT, GL_FALSE, 0,
+                          reinterpret_cast<const void*>(a.offset));
+    glEnableVertexAttribArray(a.location);
+  }
+
+  bool inPlace_;
   std::vector<Attribute> attributes_;
   std::vector<std::vector<char>> copies_;
   std::size_t size_ = 0;
 };
 
-// The coordinates by which a texture is looked up, with its transform.
-std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
-  if (std::size_t(texture.texcoord) >= mesh.texcoords.size()) return {};
-  std::vector<glm::vec2> places = mesh.texcoords[std::size_t(texture.texcoord)];
-  if (texture.transform != glm::dmat3x2(1.0))
-    for (glm::vec2& place : places) place = glm::vec2(texture.transform * glm::dvec3(place, 1));
-  return places;
+// Those of the mesh by which a texture is looked up, before its transform; null where it has none.
+const std::vector<glm::vec2>* plainTexcoords(const Mesh& mesh, const Texture& texture) {
+  const auto set = std::size_t(texture.texcoord);
+  return set < mesh.texcoords.size() && !mesh.texcoords[set].empty() ? &mesh.texcoords[set]
+                                                                     : nullptr;
 }
 
-std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const std::optional<Texture>& texture) {
-  return texture ? texcoordsOf(mesh, *texture) : std::vector<glm::vec2>();
+bool transforms(const Texture& texture) { return texture.transform != glm::dmat3x2(1.0); }
+
+std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
+  const auto* const plain = plainTexcoords(mesh, texture);
+  if (!plain) return {};
+  std::vector<glm::vec2> places = *plain;
+  if (transforms(texture))
+    for (glm::vec2& place : places) place = glm::vec2(texture.transform * glm::dvec3(place, 1));
+  return places;
 }
 
 // Those of the faces' centroids, at the vertices that carry the faces.
@@ -124,7 +176,7 @@ TextureHandle uploadTexture(const DecodedImage& decoded) {
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene, DecodedImages images)
-    : scene_(&scene), images_(std::move(images)) {}
+    : scene_(&scene), inPlace_(drawsFromOwnMemory()), images_(std::move(images)) {}
 
 void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
   scene_ = &scene;
@@ -132,6 +184,11 @@ void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
     geometries_.erase({mesh, false});
     geometries_.erase({mesh, true});
   }
+  // Those that lie elsewhere now are no longer where the driver reads them.
+  std::erase_if(geometries_, [&](const auto& entry) {
+    const void* const place = entry.second.inPlace;
+    return place && place != scene.meshes[std::size_t(entry.first.first)].positions.data();
+  });
 }
 
 const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
@@ -142,44 +199,57 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   if (!isNew) return g;
 
   g.array = VertexArray::make();
-  g.vertices = Buffer::make();
   g.indices = Buffer::make();
   glBindVertexArray(g.array.id());
-  glBindBuffer(GL_ARRAY_BUFFER, g.vertices.id());
   const FaceMesh faceMesh = faces ? makeFaceMesh(mesh) : FaceMesh{};
   const std::span<const std::uint32_t> source = faceMesh.source;
   const Material& material = scene_->materials[std::size_t(mesh.material)];
-  VertexLayout layout;
-  layout.add(0, std::span(mesh.positions), source);
-  layout.add(1, faces ? std::span(faceMesh.normals) : std::span(mesh.normals));
-  layout.add(2, std::span(mesh.colors), source);
-  const auto colorPlaces = texcoordsOf(mesh, material.colorTexture);
-  const auto emissionPlaces = texcoordsOf(mesh, material.emissionTexture);
-  const auto normalPlaces = texcoordsOf(mesh, material.normalTexture);
-  layout.add(3, std::span(colorPlaces), source);
-  layout.add(4, std::span(emissionPlaces), source);
+  VertexLayout layout(inPlace_);
+  layout.addKept(0, mesh.positions, source);
+  if (faces)
+    layout.add(1, faceMesh.normals);
+  else
+    layout.addKept(1, mesh.normals);
+  layout.addKept(2, mesh.colors, source);
+  std::deque<std::vector<glm::vec2>> made;  // keeps its elements' places
+  const auto addTexcoords = [&](GLuint location, const std::optional<Texture>& texture) {
+    if (!texture) return;
+    if (transforms(*texture))
+      layout.add(location, made.emplace_back(texcoordsOf(mesh, *texture)), source);
+    else if (const auto* const plain = plainTexcoords(mesh, *texture))
+      layout.addKept(location, *plain, source);
+  };
+  addTexcoords(3, material.colorTexture);
+  addTexcoords(4, material.emissionTexture);
   if (!faces && !mesh.tangents.empty()) {
-    layout.add(6, std::span(mesh.tangents));
-    layout.add(7, std::span(normalPlaces));
+    layout.addKept(6, mesh.tangents);
+    addTexcoords(7, material.normalTexture);
   }
-  std::vector<std::vector<glm::vec2>> parameterTexcoords;
+  GLuint location = 8;
   for (const Texture* looked : parameterPlaces(material)) {
-    const auto places = texcoordsOf(mesh, *looked);
-    parameterTexcoords.push_back(faces ? centralPlaces(faceMesh, places) : places);
+    if (faces)
+      layout.add(location, made.emplace_back(centralPlaces(faceMesh, texcoordsOf(mesh, *looked))));
+    else
+      addTexcoords(location, *looked);
+    ++location;
   }
-  for (std::size_t i = 0; i < parameterTexcoords.size(); ++i)
-    layout.add(GLuint(8 + i), std::span(std::as_const(parameterTexcoords[i])));
-  if (faces) layout.add(5, std::span(faceMesh.centers));
+  if (faces) layout.add(5, faceMesh.centers);
   // Points and lines have no faces: of a line the last vertex counts for flat shading.
   if (mesh.topology != Topology::triangles && !mesh.normals.empty())
-    layout.add(5, std::span(mesh.positions));
-  layout.upload();
+    layout.addKept(5, mesh.positions);
+  g.vertices = layout.upload();
   const auto& indices = faces ? faceMesh.indices : mesh.indices;
+  const std::size_t indexBytes = indices.size() * sizeof indices[0];
+  const bool indicesInPlace = inPlace_ && !faces && indexBytes >= leastInPlace;
+  if (indicesInPlace) setInPlace(g.indices, indices.data(), indexBytes);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof indices[0]),
-               indices.data(), GL_STATIC_DRAW);
+  if (!indicesInPlace)
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indexBytes), indices.data(), GL_STATIC_DRAW);
+  if (inPlace_) g.inPlace = mesh.positions.data();
   g.mode = modeOf(mesh.topology);
   g.count = GLsizei(indices.size());
+  // Those of the faces are the same triangles, each begun at another corner.
+  if (mesh.topology == Topology::triangles) g.runs = makeTriangleRuns(mesh);
   return g;
 }
 
@@ -192,6 +262,23 @@ void GpuScene::draw(int mesh, bool faces, std::size_t times, const Buffer* indic
   else
     glDrawElementsInstanced(g.mode, g.count, GL_UNSIGNED_INT, nullptr, GLsizei(times));
   if (indices) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
+}
+
+bool GpuScene::findShown(int mesh, bool faces, const RunView& view) {
+  firsts_.clear();
+  counts_.clear();
+  appendShown(geometry(mesh, faces).runs, view, firsts_, counts_);
+  return !counts_.empty();
+}
+
+void GpuScene::drawShown(int mesh, bool faces) {
+  const Geometry& g = geometry(mesh, faces);
+  glBindVertexArray(g.array.id());
+  std::vector<const void*> offsets(firsts_.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i)
+    offsets[i] = reinterpret_cast<const void*>(firsts_[i] * sizeof(std::uint32_t));
+  glMultiDrawElements(g.mode, counts_.data(), GL_UNSIGNED_INT, offsets.data(),
+                      GLsizei(offsets.size()));
 }
 
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {

@@ -8,12 +8,14 @@
 
 #include "glint/gl/handles.h"
 #include "glint/render/decode.h"
+#include "glint/render/triangle_runs.h"
 #include "glint/scene/scene.h"
 
 namespace glint {
 
-/// A scene's meshes and textures in the driver's memory, each put there when first needed. Lives
-/// and dies in one context; the scene must outlive it.
+/// A scene's meshes and textures in the driver's memory, each put there when first needed; a software
+/// driver reads long arrays where the scene has them. Lives and dies in one context; the scene must
+/// outlive it, and its meshes may change only as pose() says.
 class GpuScene {
  public:
   GpuScene(const Scene& scene, DecodedImages images);
@@ -24,9 +26,12 @@ class GpuScene {
 
   struct Geometry {
     VertexArray array;
-    Buffer vertices, indices;
+    std::vector<Buffer> vertices;
+    Buffer indices;
+    const void* inPlace = nullptr;  ///< the mesh's positions, if the driver reads them there
     GLenum mode = 0;
     GLsizei count = 0;
+    std::vector<TriangleRun> runs;  ///< of triangles
   };
 
   /// The mesh, or for the program `flat` its faces.
@@ -35,6 +40,10 @@ class GpuScene {
   /// Draws it, so many times, as the state stands; with other indices, as many as its own, if there
   /// are any.
   void draw(int mesh, bool faces, std::size_t times = 1, const Buffer* indices = nullptr);
+  /// Finds what may be seen of it, for drawShown(); false if nothing is.
+  bool findShown(int mesh, bool faces, const RunView& view);
+  /// Draws what was found, in its order.
+  void drawShown(int mesh, bool faces);
 
   /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);
@@ -50,10 +59,13 @@ class GpuScene {
 
  private:
   const Scene* scene_;
+  bool inPlace_;
   DecodedImages images_;
   std::vector<std::string> warnings_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
   std::map<int, TextureHandle> textures_;
+  std::vector<std::uint32_t> firsts_;  ///< of the stretches found last
+  std::vector<std::int32_t> counts_;
 };
 
 }  // namespace glint

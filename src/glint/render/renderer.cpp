@@ -295,6 +295,8 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
     for (std::size_t i = 0; i < samples.size() && i < std::size(frame.samples); ++i)
       frame.samples[i] = glm::vec4(samples[i] - 0.5f, 0, 0);
     frame.projection = glm::mat4(projection(list_.camera, lower, upper, renderer_.clipControl_));
+    projection_ = frame.projection;
+    tilePixels_ = {width, height};
     if (!list_.camera.orthographic) {
       const glm::dvec2 reach =
           glm::dvec2(list_.camera.halfHeight * list_.camera.aspect, list_.camera.halfHeight);
@@ -366,6 +368,14 @@ void Renderer::Picture::bindDraw(std::size_t i) {
 
 void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
   const DrawItem& item = list_.items[calls_[i].first];
+  const bool isFlat = item.variant.program == Shading::flat;
+  // Layers of what is blended are told apart by all that is drawn of it.
+  const bool whole =
+      item.blended || calls_[i].count > 1 || scene_.geometry(item.mesh, isFlat).runs.empty();
+  const bool culls = item.faces == FaceSide::front;
+  if (!whole && !scene_.findShown(item.mesh, isFlat,
+                                  {projection_, item.draw.eyeFromModel, tilePixels_, culls}))
+    return;
   if (programs_[i] != used_) (used_ = programs_[i])->use();
   bindDraw(i);
   glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(), materialOffsets_[i],
@@ -381,7 +391,10 @@ void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
     for (GLuint k = 0; k < 4; ++k)
       if (read[k]) scene_.bindTexture(**textures[k], parameterUnit + k);
   }
-  scene_.draw(item.mesh, item.variant.program == Shading::flat, calls_[i].count, indices);
+  if (whole)
+    scene_.draw(item.mesh, isFlat, calls_[i].count, indices);
+  else
+    scene_.drawShown(item.mesh, isFlat);
 }
 
 Image Renderer::draw(GpuScene& scene, const Bounds& bounds, const Look& look) {

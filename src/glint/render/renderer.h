@@ -76,6 +76,8 @@ class Renderer {
     std::vector<GLintptr> drawOffsets_, materialOffsets_;  ///< of each call
     std::vector<const Program*> programs_;                 ///< of each call
     const Program* used_ = nullptr;                        ///< by the call before
+    glm::mat4 projection_{1};                              ///< of the tile being drawn
+    glm::ivec2 tilePixels_{0};
     std::vector<float> scratch_;
     RenderTimes times_;
   };

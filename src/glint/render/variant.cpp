@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "glint/render/opacity.h"
+#include "glint/scene/material_parameters.h"
 #include "glint/shading/lobe.h"
 
 namespace glint {
@@ -137,11 +138,6 @@ std::vector<std::size_t> shiningLights(const std::vector<Light>& lights) {
 
 Shading programOf(const Look& look) {
   return look.shading == Shading::automatic ? Shading::phong : look.shading;
-}
-
-double lobeExponent(const Material& material, const Look& look) {
-  const double alpha = material.shading.exponent;
-  return usesBlinn(look.shading) ? look.blinnFactor * alpha : alpha;
 }
 
 HighlightForms highlightOf(const Material& material, const Look& look) {

@@ -108,9 +108,6 @@ std::vector<const Texture*> parameterPlaces(const Material&);
 /// The program that a look is drawn by as it stands.
 Shading programOf(const Look&);
 
-/// The exponent of the material's lobe under this look: Phong's, or Blinn-Phong's.
-double lobeExponent(const Material&, const Look&);
-
 /// The forms that draw a material's highlight: those asked for, except that `integer` becomes
 /// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
 /// `none` does where the exponent is 0. An exponent that comes from a texture is no whole number;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "glint/image/error.h"
+#include "glint/image/task.h"
 #include "glint/shading/angles.h"
 
 namespace glint {
@@ -20,15 +22,53 @@ bool isUnseen(const Scene& scene, const Instance& instance) {
          (material.alphaMode == AlphaMode::mask && material.alpha < material.alphaCutoff);
 }
 
-template <typename Visit>
-void forEachVertex(const Scene& scene, bool unseen, Visit visit) {
+// A box that grows.
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high = -low;
+  void add(const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  void add(const Box& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+  bool isEmpty() const { return !(low.x <= high.x); }
+};
+
+// The largest square of a distance from a point, in units of `scale`: huge and tiny models neither
+// over- nor underflow.
+struct Farthest {
+  glm::dvec3 from;
+  double scale;
+  double square = 0;
+  void add(const glm::dvec3& p) {
+    const glm::dvec3 d = (p - from) / scale;
+    square = std::max(square, glm::dot(d, d));
+  }
+  void add(const Farthest& other) { square = std::max(square, other.square); }
+};
+
+// Adds every vertex of what is drawn; of what nothing is seen if `unseen`.
+template <typename Sum>
+Sum overVertices(const Scene& scene, bool unseen, const Sum& none) {
+  Sum sum = none;
+  std::mutex joining;
   for (const Instance& instance : scene.instances) {
     if (isUnseen(scene, instance) != unseen) continue;
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const glm::dmat3 linear(instance.world);
     const glm::dvec3 offset = linear * mesh.origin + glm::dvec3(instance.world[3]);
-    for (std::uint32_t i : mesh.indices) visit(linear * glm::dvec3(mesh.positions[i]) + offset);
+    inStretches(mesh.indices.size(), [&](std::size_t begin, std::size_t end) {
+      Sum part = none;
+      for (std::size_t i = begin; i < end; ++i)
+        part.add(linear * glm::dvec3(mesh.positions[mesh.indices[i]]) + offset);
+      const std::lock_guard lock(joining);
+      sum.add(part);
+    });
   }
+  return sum;
 }
 
 glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise) {
@@ -131,26 +171,17 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
 }  // namespace
 
 Bounds boundsOf(const Scene& scene) {
-  const double inf = std::numeric_limits<double>::infinity();
-  glm::dvec3 low(inf), high(-inf);
-  const auto extend = [&](const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  };
-  forEachVertex(scene, false, extend);
+  Box box = overVertices(scene, false, Box());
   // A model of which nothing is seen is framed all the same.
-  const bool unseen = !(low.x <= high.x);
-  if (unseen) forEachVertex(scene, true, extend);
-  if (!(low.x <= high.x)) return {};
-  Bounds bounds{low + (high - low) * 0.5, 0};
-  const double scale = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const bool unseen = box.isEmpty();
+  if (unseen) box = overVertices(scene, true, Box());
+  if (box.isEmpty()) return {};
+  const glm::dvec3 size = box.high - box.low;
+  Bounds bounds{box.low + size * 0.5, 0};
+  const double scale = std::max({size.x, size.y, size.z});
   if (!(scale > 0)) return bounds;
-  double square = 0;  // in units of scale: huge and tiny models neither over- nor underflow
-  forEachVertex(scene, unseen, [&](const glm::dvec3& p) {
-    const glm::dvec3 d = (p - bounds.center) / scale;
-    square = std::max(square, glm::dot(d, d));
-  });
-  bounds.radius = scale * std::sqrt(square);
+  const Farthest farthest = overVertices(scene, unseen, Farthest{bounds.center, scale});
+  bounds.radius = scale * std::sqrt(farthest.square);
   return bounds;
 }
 

@@ -104,6 +104,11 @@ Material editedMaterial(const Material& material, const Look& look) {
   return edited;
 }
 
+double lobeExponent(const Material& material, const Look& look) {
+  const double alpha = material.shading.exponent;
+  return usesBlinn(look.shading) ? look.blinnFactor * alpha : alpha;
+}
+
 void checkMaterialNames(const Scene& scene, const Look& look) {
   std::set<std::string> known;
   for (const Material& m : scene.materials)

@@ -49,6 +49,9 @@ std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
 /// An edited number takes the place of a texture that gave it.
 Material editedMaterial(const Material&, const Look&);
 
+/// The exponent of a material's lobe under a look: Phong's, or Blinn-Phong's.
+double lobeExponent(const Material&, const Look&);
+
 /// Throws InputError if an edit is of a material that the scene does not have.
 void checkMaterialNames(const Scene&, const Look&);
 

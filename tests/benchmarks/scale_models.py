@@ -1,0 +1,86 @@
+"""Models of any size for measurements: bumpy spheres, and many nodes of one of them. Each is made
+once and kept in the folder given."""
+import array
+import json
+import math
+import os
+import struct
+
+
+def write_glb(path, document, chunk):
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunk += b"\0" * (-len(chunk) % 4)
+    with open(path + ".part", "wb") as file:
+        file.write(struct.pack("<III", 0x46546C67, 2, 28 + len(text) + len(chunk)))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+        file.write(struct.pack("<I4s", len(chunk), b"BIN\0") + chunk)
+    os.replace(path + ".part", path)
+
+
+def sphere(triangles):
+    """The bytes of positions, normals and 32-bit indices of a UV sphere of about as many triangles,
+    its radius 1 + 0.05 sin(12 longitude) sin(9 latitude)."""
+    rows = max(2, round(math.sqrt(triangles / 4)))
+    columns = 2 * rows
+    positions, normals = array.array("f"), array.array("f")
+    for i in range(rows + 1):
+        v = math.pi * i / rows
+        sv, cv = math.sin(v), math.cos(v)
+        s9, c9 = math.sin(9 * v), 9 * math.cos(9 * v)
+        for j in range(columns + 1):
+            u = 2 * math.pi * j / columns
+            su, cu, s12 = math.sin(u), math.cos(u), math.sin(12 * u)
+            r = 1 + 0.05 * s12 * s9
+            ru, rv = 0.6 * math.cos(12 * u) * s9, 0.05 * s12 * c9
+            x, y, z = sv * cu, cv, sv * su
+            positions.extend((r * x, r * y, r * z))
+            # The direction of dP/du x dP/dv, both divided by sin(v) at most.
+            a, b = rv, ru / max(sv, 1e-6)
+            n = (r * x - a * cv * cu + b * su, r * y + a * sv, r * z - a * cv * su - b * cu)
+            length = math.sqrt(n[0] ** 2 + n[1] ** 2 + n[2] ** 2)
+            normals.extend((n[0] / length, n[1] / length, n[2] / length))
+    indices = array.array("I")
+    for i in range(rows):
+        for j in range(columns):
+            k = i * (columns + 1) + j
+            m = k + columns + 1
+            if i > 0:
+                indices.extend((k, k + 1, m))
+            if i < rows - 1:
+                indices.extend((k + 1, m + 1, m))
+    return positions, normals, indices
+
+
+def document_of(positions, normals, indices, nodes):
+    sizes = [4 * len(positions), 4 * len(normals), 4 * len(indices)]
+    vertices = len(positions) // 3
+    return {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": nodes,
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.5, 0.3, 1]}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2,
+                                    "material": 0}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": vertices, "type": "VEC3",
+             "min": [-1.05] * 3, "max": [1.05] * 3},
+            {"bufferView": 1, "componentType": 5126, "count": vertices, "type": "VEC3"},
+            {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteOffset": sum(sizes[:i]), "byteLength": sizes[i]}
+                        for i in range(3)],
+        "buffers": [{"byteLength": sum(sizes)}],
+    }
+
+
+def sphere_model(folder, triangles, nodes=1):
+    """The path of a model of so many nodes, each a sphere of so many triangles."""
+    path = os.path.join(folder, f"sphere-{triangles}-{nodes}.glb")
+    if os.path.exists(path):
+        return path
+    parts = sphere(triangles)
+    side = math.ceil(nodes ** (1 / 3) - 1e-9)
+    places = [{"mesh": 0, "translation": [3 * (i % side), 3 * (i // side % side),
+                                          3 * (i // side ** 2)]} for i in range(nodes)]
+    write_glb(path, document_of(*parts, places if nodes > 1 else [{"mesh": 0}]),
+              b"".join(part.tobytes() for part in parts))
+    return path
