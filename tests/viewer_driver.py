@@ -241,7 +241,7 @@ SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 # Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
 TIME = 215           # tab Picture, of a model that is animated
-INTENSITY = 224      # tab Lights, three lights of which a directional one is selected
+INTENSITY = 249      # tab Lights, three lights of which a directional one is selected
 
 
 def drag_slider(viewer, name, start, end):

@@ -296,7 +296,9 @@ void App::buildInterface() {
   if (options_.settings.panel) {
     ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_, menuHeight_));
     ImGui::SetNextWindowSize(ImVec2(panelWidth_, io.DisplaySize.y - menuHeight_));
-    ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
     PanelContext context{session_, options_.settings};
     context.picture = shownResult_.a.get();
     context.resolution = resolution_;

@@ -33,7 +33,9 @@ void App::menuBar() {
     if (ImGui::MenuItem(find.c_str())) chosen = Action::palette;
   }
   ImGui::EndMainMenuBar();
-  if (chosen) execute(*chosen);
+  if (!chosen) return;
+  ImGui::SetWindowFocus(nullptr);  // else keys would work in what had the focus before
+  execute(*chosen);
 }
 
 void App::openPalette(bool materialsAlone) { palette_ = {true, true, materialsAlone, {}, 0, {}}; }

@@ -238,11 +238,19 @@ void App::drawOverPicture() {
                   held ? IM_COL32(255, 214, 120, 255) : IM_COL32(255, 255, 255, 150), s);
     const std::vector<Difference> all =
         exact ? std::vector<Difference>{} : differences(document.a, *document.b);
-    const std::string a = exact ? "A" : "A: " + sideText(all, true);
-    const float width = ImGui::CalcTextSize(a.c_str()).x;
-    write(std::max(10 * s, x - width - 10 * s), 6 * s, a);
-    write(x + 10 * s, (x - width - 10 * s < 10 * s ? 30 : 6) * s,
-          exact ? "exact reference" : "B: " + sideText(all, false));
+    // As much as there is room for.
+    const auto side = [&](bool isA, float room) {
+      std::string text = isA ? "A: " : "B: ";
+      for (std::size_t most = 3; most-- > 0;) {
+        text.resize(3);
+        text += sideText(all, isA, most);
+        if (ImGui::CalcTextSize(text.c_str()).x < room) return text;
+      }
+      return text.substr(0, 1);
+    };
+    const std::string a = exact ? "A" : side(true, x - 24 * s);
+    write(x - ImGui::CalcTextSize(a.c_str()).x - 10 * s, 6 * s, a);
+    write(x + 10 * s, 6 * s, exact ? "exact reference" : side(false, size.x - x - 24 * s));
   } else if (compares && document.compare == CompareMode::blink) {
     write(
         10 * s, 6 * s,

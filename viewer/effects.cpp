@@ -116,14 +116,16 @@ std::vector<Difference> differences(const Look& a, const Look& b) {
   return all;
 }
 
-std::string sideText(const std::vector<Difference>& all, bool a) {
+std::string sideText(const std::vector<Difference>& all, bool a, std::size_t most) {
   if (all.empty()) return "the same look";
   std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 2); ++i) {
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
     const std::string& value = a ? all[i].a : all[i].b;
     text += (i > 0 ? ", " : "") + all[i].what + " " + (value == "-" ? "as it was" : value);
   }
-  if (all.size() > 2) text += ", and " + std::to_string(all.size() - 2) + " more";
+  if (all.size() > most)
+    text += (most > 0 ? ", and " : "") + std::to_string(all.size() - most) +
+            (most > 0 ? " more" : " differences");
   return text;
 }
 

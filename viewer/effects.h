@@ -22,7 +22,7 @@ struct Difference {
 /// of the picture is left out.
 std::vector<Difference> differences(const Look& a, const Look& b);
 
-/// What one of two looks is, beside the other: the first differences, for one line.
-std::string sideText(const std::vector<Difference>&, bool a);
+/// What one of two looks is, beside the other: the first `most` differences, for one line.
+std::string sideText(const std::vector<Difference>&, bool a, std::size_t most = 2);
 
 }  // namespace glint::viewer

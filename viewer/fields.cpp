@@ -31,7 +31,7 @@ struct LabelState {
 };
 LabelState lastLabel;
 
-// Where the pointer or the ring rests.
+// Where the pointer rests.
 struct Rest {
   ImVec2 place{-1, -1};
   Clock::time_point since{};
@@ -185,7 +185,7 @@ void label(const std::string& text, bool edited) {
 void tooltip(const std::string& text) {
   const bool overLabel = std::exchange(lastLabel.hovered, false);
   const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || overLabel;
-  if (ImGui::IsItemActive() || !(hovered || ringHere())) return;
+  if (ImGui::IsItemActive() || !hovered) return;
   const ImVec2 place = ImGui::GetItemRectMin();
   const int frame = ImGui::GetFrameCount();
   if (place.x != rest.place.x || place.y != rest.place.y || frame > rest.frame + 1)

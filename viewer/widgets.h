@@ -30,8 +30,8 @@ ImVec4 colorOf(const glm::dvec3&);
 /// highlighted.
 void label(const std::string& text, bool edited = false);
 
-/// The tooltip of what was drawn last, or of its label, once the pointer or the keyboard's ring has
-/// rested there. It stands beside the panel, where it hides no row.
+/// The tooltip of what was drawn last, or of its label, once the pointer has rested there. It
+/// stands beside the panel, where it hides no row.
 void tooltip(const std::string& text);
 /// Seconds until a tooltip is due; infinite if none is waited for.
 double tooltipDue();
