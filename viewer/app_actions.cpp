@@ -12,7 +12,8 @@ namespace glint::viewer {
 namespace {
 
 // A press of a key moves the camera by so much.
-constexpr double turn = 5, shift = 0.05, closer = 0.9;  // degrees; of the picture's height; factor
+constexpr double turnStep = 5, shiftStep = 0.05,
+                 nearerStep = 0.9;  // degrees; of the picture's height; factor
 
 bool framesAnew(Action command) {
   return (command >= Action::front && command <= Action::isometric) || command == Action::fit ||
@@ -280,40 +281,40 @@ void App::executeCamera(Action command) {
       resetCamera(d.a);
       break;
     case Action::turnLeft:
-      moveCamera([&](const Pose& p) { return orbited(p, -turn, 0, pivot_); });
+      moveCamera([&](const Pose& p) { return orbited(p, -turnStep, 0, pivot_); });
       break;
     case Action::turnRight:
-      moveCamera([&](const Pose& p) { return orbited(p, turn, 0, pivot_); });
+      moveCamera([&](const Pose& p) { return orbited(p, turnStep, 0, pivot_); });
       break;
     case Action::turnUp:
-      moveCamera([&](const Pose& p) { return orbited(p, 0, turn, pivot_); });
+      moveCamera([&](const Pose& p) { return orbited(p, 0, turnStep, pivot_); });
       break;
     case Action::turnDown:
-      moveCamera([&](const Pose& p) { return orbited(p, 0, -turn, pivot_); });
+      moveCamera([&](const Pose& p) { return orbited(p, 0, -turnStep, pivot_); });
       break;
     case Action::shiftLeft:
-      moveCamera([&](const Pose& p) { return panned(p, shift, 0); });
+      moveCamera([&](const Pose& p) { return panned(p, shiftStep, 0); });
       break;
     case Action::shiftRight:
-      moveCamera([&](const Pose& p) { return panned(p, -shift, 0); });
+      moveCamera([&](const Pose& p) { return panned(p, -shiftStep, 0); });
       break;
     case Action::shiftUp:
-      moveCamera([&](const Pose& p) { return panned(p, 0, shift); });
+      moveCamera([&](const Pose& p) { return panned(p, 0, shiftStep); });
       break;
     case Action::shiftDown:
-      moveCamera([&](const Pose& p) { return panned(p, 0, -shift); });
+      moveCamera([&](const Pose& p) { return panned(p, 0, -shiftStep); });
       break;
     case Action::nearer:
-      dolly(glm::dvec2(resolution_) / 2.0, closer);
+      dolly(glm::dvec2(resolution_) / 2.0, nearerStep);
       break;
     case Action::farther:
-      dolly(glm::dvec2(resolution_) / 2.0, 1 / closer);
+      dolly(glm::dvec2(resolution_) / 2.0, 1 / nearerStep);
       break;
     case Action::rollLeft:
-      moveCamera([&](const Pose& p) { return rolled(p, turn); });
+      moveCamera([&](const Pose& p) { return rolled(p, turnStep); });
       break;
     case Action::rollRight:
-      moveCamera([&](const Pose& p) { return rolled(p, -turn); });
+      moveCamera([&](const Pose& p) { return rolled(p, -turnStep); });
       break;
     case Action::nextCamera:
       if (session_.model && !session_.model->scene.cameras.empty()) {
