@@ -64,15 +64,31 @@ void beginTyping(ImGuiID id, double value) {
   ImGui::ClearActiveID();
 }
 
-// Beside the panel, or above what it belongs to where there is no room.
-void besidePanel(float width) {
-  const ImVec2 corner = ImGui::GetItemRectMin();
-  const float gap = 8 * style().scale;
-  if (style().panelLeft > width + 2 * gap && corner.x >= style().panelLeft)
-    ImGui::SetNextWindowPos(ImVec2(style().panelLeft - gap, corner.y), ImGuiCond_Always,
-                            ImVec2(1, 0));
-  else
-    ImGui::SetNextWindowPos(ImVec2(corner.x, corner.y - gap / 2), ImGuiCond_Always, ImVec2(0, 1));
+// A text beside the panel; where there is no room, above what it belongs to, or below the row that
+// follows. As bright in a row that is grey.
+void showBeside(const std::string& text, const ImVec4& color) {
+  const ImVec2 corner = ImGui::GetItemRectMin(), screen = ImGui::GetIO().DisplaySize;
+  const float gap = 8 * style().scale, font = ImGui::GetFontSize();
+  const float room = style().panelLeft - 2 * gap;
+  const bool beside = room > 10 * font && corner.x >= style().panelLeft;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float width = std::min(24 * font, (beside ? room : screen.x - 2 * gap) - 2 * padding.x);
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+  const ImVec2 size(words.x + 2 * padding.x, words.y + 2 * padding.y);
+  ImVec2 at(style().panelLeft - gap - size.x, std::min(corner.y, screen.y - size.y - gap));
+  if (!beside) {
+    at.x = std::clamp(corner.x, gap, std::max(gap, screen.x - size.x - gap));
+    at.y = corner.y - size.y - gap / 2;
+    if (at.y < 0) at.y = ImGui::GetItemRectMax().y + ImGui::GetFrameHeightWithSpacing();
+  }
+  ImGui::SetNextWindowPos(at);
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(padding.x + width);
+  ImGui::TextColored(color, "%s", text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 using Reading = std::function<TypedNumber(const std::string&)>;
@@ -94,15 +110,7 @@ std::optional<double> typed(ImGuiID id, const Reading& read) {
   if (ImGui::IsItemActive()) typing.begins = 0;
   const TypedNumber now = read(typing.text);
   typing.error = typing.text == typing.first ? "" : now.error;
-  if (!typing.error.empty()) {
-    const float width = ImGui::GetFontSize() * 20;
-    besidePanel(width);
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(width);
-    ImGui::TextColored(colorOf(theme::error), "%s", typing.error.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-  }
+  if (!typing.error.empty()) showBeside(typing.error, colorOf(theme::error));
   if (!ImGui::IsItemDeactivated()) {
     if (typing.begins == 0 && !ImGui::IsItemActive()) typing = {};
     return {};
@@ -192,13 +200,7 @@ void tooltip(const std::string& text) {
     rest = {place, Clock::now(), frame};
   rest.frame = frame;
   if (std::chrono::duration<double>(Clock::now() - rest.since).count() < tooltipAfter) return;
-  const float width = ImGui::GetFontSize() * 24;
-  besidePanel(width);
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(width);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  showBeside(text, colorOf(theme::text));
 }
 
 double tooltipDue() {
