@@ -1,5 +1,5 @@
-# What desktops and Debian want of an installed glint, and `cpack`, which makes Debian packages: glint,
-# glint-viewer, libglint-dev, python3-glint. `.ci/packages` makes, installs and uses them.
+# What desktops and Debian want of an installed glint, and `cpack`, which makes Debian packages:
+# glint, glint-viewer, libglint-dev, python3-glint. `.ci/packages` makes, installs and uses them.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(share ${CMAKE_INSTALL_DATADIR})
 
@@ -91,6 +91,7 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME glint)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_CONTACT "The glint authors <glint@localhost>")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

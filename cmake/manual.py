@@ -288,8 +288,9 @@ def markdown(whole):
         "# Options\n",
         "All options of all commands, made from the same table as `glint COMMAND --help`, the manual",
         "pages and the shells' completions. `--name value` and `--name=value` both work. Vectors are",
-        "`x,y,z`; colours `r,g,b` in linear light, or `#rrggbb` in sRGB. The options of a look (from",
-        '"Shading" on) are the keys of look files too, and the names by which C++ and Python set them.\n',
+        "`x,y,z`; colours `r,g,b` in linear light, or `#rrggbb` in sRGB. The options of",
+        "[a look](#a-look) are the keys of look files too, and the names by which C++ and Python set",
+        "them.\n",
         "`glint --help-json` and `glint-viewer --help-json` tell the same to programs.\n",
     ]
     shared = None
