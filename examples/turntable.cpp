@@ -4,10 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "glint/gl/context.h"
-#include "glint/gltf/scene_file.h"
-#include "glint/image/picture_writer.h"
-#include "glint/render/renderer.h"
+#include "glint/compare.h"
+#include "glint/glint.h"
 
 int main(int argc, char** argv) try {
   const int count = argc == 4 ? std::atoi(argv[2]) : 0;
@@ -15,21 +13,13 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "turntable MODEL COUNT NAME\n");
     return 2;
   }
-  glint::Scene scene = glint::loadGltf(argv[1]);
-  const glint::Bounds bounds = glint::boundsOf(scene);
-  glint::Look look;
-  look.resolution = {192, 192};
-
-  const auto context = glint::openContext(glint::Backend::automatic);
-  context->makeCurrent();
-  glint::Renderer renderer;
-  glint::GpuScene uploaded(scene, glint::decodeImages(scene, look));  // once, for all pictures
+  glint::Session session;
+  const glint::Model model = glint::Model::load(argv[1]);  // once, for all pictures
   for (int i = 0; i < count; ++i) {
     const std::string path = argv[3] + ("-" + std::to_string(i)) + ".png";
-    const glint::Look turned = glint::turnedLook(look, scene, bounds, 360.0 * i / count);
-    const auto writer = glint::openPictureWriter(path, look.resolution.x, look.resolution.y);
-    writer->write(renderer.draw(uploaded, bounds, turned));
-    writer->finish();  // only now is there a file
+    const std::string degrees = std::to_string(360.0 * i / count);
+    glint::writePicture(path, session.drawCodes(model, {{"resolution", "192,192"},
+                                                        {"camera-azimuth-angle", degrees}}));
     std::printf("%s\n", path.c_str());
   }
 } catch (const glint::Error& error) {

@@ -23,6 +23,7 @@ ARROWS = {
     "study": ["budget", "reference", "models"],
     "stability": ["budget", "reference", "gltf"],
     "options": ["study", "stability", "gltf"],
+    "api": ["options", "reference"],
     "cli": ["options"],
     "viewer": ["options"],
     "models": [],
@@ -45,6 +46,8 @@ def reachable(library):
 def room_of(path, root):
     parts = path.relative_to(root).parts
     if parts[0] == "src":
+        if parts[1] == "glint" and len(parts) == 3:
+            return "api"  # its headers: glint/glint.h
         return parts[2] if parts[1] == "glint" else parts[1]
     return parts[0]
 
@@ -97,6 +100,8 @@ PLANTED = {
     "src/glint/reference/b.cpp": ('#include "glint/render/renderer.h"', "what draws with GL"),
     "src/glint/study/a.cpp": ("#include <imgui.h>", "only the viewer may include <imgui.h>"),
     "src/glint/attic/a.cpp": ("", "no library"),
+    "src/glint/glint.h": ('#include "glint/image/image.h"', None),
+    "src/glint/gltf/easy.cpp": ('#include "glint/glint.h"', "gltf may not include api"),
     "src/cli/main.cpp": ('#include "image/image.h"', "there is no src/cli/image/image.h"),
     "src/cli/window.cpp": ('#include "viewer/panel.h"', "cli may not include viewer"),
     "viewer/panel.h": ('#include <GLFW/glfw3.h>\n#include "glint/render/renderer.h"', None),

@@ -288,7 +288,7 @@ TEST(ListOfJson, WrongLinesFailAlone) {
 TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
   Folder folder("thumbnails");
   std::string command;
-  std::istringstream entry(contents(GLINT_SOURCE_DIR "/src/cli/glint.thumbnailer"));
+  std::istringstream entry(contents(GLINT_SOURCE_DIR "/packaging/glint.thumbnailer"));
   for (std::string line; std::getline(entry, line);)
     if (line.starts_with("Exec=")) command = line.substr(5);
   ASSERT_TRUE(command.starts_with("glint render "));

@@ -30,8 +30,9 @@ def check(holds, what):
         sys.exit("not so: " + what)
 
 
-run("cmake", "--install", build, "--prefix", prefix, "--component", "glint")
-check(not list(prefix.rglob("glint-viewer")), "the viewer is a part of its own")
+for component in ("glint", "dev"):
+    run("cmake", "--install", build, "--prefix", prefix, "--component", component)
+check(not list(prefix.rglob("glint-viewer*")), "the viewer is a part of its own")
 include = prefix / "include"
 check((include / "glint/scene/scene.h").is_file(), "headers are installed")
 for header in include.rglob("*.h"):

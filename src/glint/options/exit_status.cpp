@@ -5,21 +5,27 @@
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "glint/gl/context.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/options/help.h"
+#include "glint/options/help_json.h"
 #include "glint/options/outputs.h"
 
 namespace glint {
 
 namespace {
 
-/// The body's status, or 0 after --help and --version.
+/// The body's status, or 0 after --help, --help-json and --version.
 int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   try {
+    if (argc == 2 && std::string_view(argv[1]) == "--help-json") {
+      std::cout << helpJson(app);
+      return done;
+    }
     app.parse(argc, argv);
     return body();
   } catch (const CLI::Success& success) {

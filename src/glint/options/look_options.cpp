@@ -1,17 +1,12 @@
 #include "glint/options/look_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <deque>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "glint/budget/cost_file.h"
-#include "glint/image/error.h"
-#include "glint/image/read_files.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
-#include "glint/scene/material_key.h"
 
 namespace glint {
 namespace {
@@ -25,13 +20,6 @@ std::string defaultText(const Parameter& p) {
   return " [default: " + text + "]";
 }
 
-/// Takes back what `by` sets.
-void clearEdit(MaterialEdit& edit, const MaterialEdit& by) {
-  forEachEdit([&](auto part) {
-    if (by.*part) (edit.*part).reset();
-  });
-}
-
 bool hasBudget(const Look& look) {
   return look.maxError.has_value() || look.shading == Shading::automatic;
 }
@@ -43,19 +31,6 @@ struct LookOptions {
   std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
   std::string lookFile, saveFile;
 };
-
-void mergeMaterials(Look& look, const Look& options) {
-  const auto all = options.material.find("");
-  if (all != options.material.end())
-    for (auto& [key, edit] : look.material) clearEdit(edit, all->second);
-  for (const auto& [key, from] : options.material) {
-    // What is said of all of a name stands above what the look says of one of them.
-    for (auto& [other, edit] : look.material)
-      if (!key.empty() && other.starts_with(key + "#")) clearEdit(edit, from);
-    mergeEdit(look.material[key], from);
-  }
-  std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
-}
 
 LookSource addLookOptions(CLI::App& app) {
   auto state = std::make_shared<LookOptions>();
@@ -88,32 +63,13 @@ LookSource addLookOptions(CLI::App& app) {
 }
 
 Look LookSource::operator()() const {
-  Look look;
-  if (!options_->lookFile.empty()) readLookFile(look, options_->lookFile);
-  Look materials;
-  const auto given = [&](const char* name) {
-    return std::ranges::any_of(options_->options, [&](const auto& each) {
-      return each.first->name == name && each.second->count() > 0;
-    });
-  };
-  for (const auto& [one, other] :
-       {std::pair("light", "no-lights"), std::pair("camera-intrinsics", "camera-view-angle"),
-        std::pair("camera-intrinsics", "camera-orthographic")})
-    if (given(one) && given(other))
-      throw InputError("--" + std::string(one) + " and --" + other + ": give one of them");
+  std::vector<std::pair<std::string, std::string>> given;
+  if (!options_->lookFile.empty()) given.emplace_back("look", options_->lookFile);
   for (const auto& [p, option] : options_->options) {
     if (option->count() == 0) continue;
-    if (p->name == "light") {  // in place of the file's, and of its having none
-      look.light.reset();
-      look.noLights = false;
-    }
-    if (p->name == "environment") look.hdriFile.clear();
-    Look& target = p->name == "material" ? materials : look;
-    for (const std::string& text : option->results()) p->read(target, text);
+    for (const std::string& text : option->results()) given.emplace_back(p->name, text);
   }
-  mergeMaterials(look, materials);
-  if (!look.hdriFile.empty()) noteReadFile(look.hdriFile);
-  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
+  const Look look = lookFrom(given);
   if (!options_->saveFile.empty() && !hasBudget(look))
     writeText(options_->saveFile, saveLook(look));
   return look;

@@ -34,8 +34,4 @@ class LookSource {
 /// Adds the options of the look, from its table, with --look and --save-look.
 LookSource addLookOptions(CLI::App&);
 
-/// Gives the look the options' materials, which beat its own also where the look speaks of one
-/// material and the option of all.
-void mergeMaterials(Look& look, const Look& options);
-
 }  // namespace glint

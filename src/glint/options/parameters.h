@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "glint/scene/look.h"
@@ -62,6 +63,16 @@ void readLook(Look& look, const std::string& json, const std::string& source);
 /// What a look file's text holds beats all that `look` says, as options on the command line do: its
 /// lights those of the file, a material of all those by name. The key "glint-look" may be missing.
 void readLookOver(Look& look, const std::string& json, const std::string& source);
+
+/// The look that options add up to, by their names without "--" and their texts: each beats those
+/// of its name before it, but that lights and materials add up; "look" is a look file, which stands
+/// below all others, in whatever place. Throws InputError, also where two of them contradict each
+/// other.
+Look lookFrom(const std::vector<std::pair<std::string, std::string>>& options);
+
+/// Gives the look the options' materials, which beat its own also where the look speaks of one
+/// material and the option of all.
+void mergeMaterials(Look& look, const Look& options);
 
 /// The text of a look in a look file, or in a picture (PNG or EXR) that glint has written.
 /// Throws InputError if the file cannot be read or holds no look.

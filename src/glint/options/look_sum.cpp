@@ -1,0 +1,69 @@
+#include <algorithm>
+
+#include "glint/budget/cost_file.h"
+#include "glint/image/error.h"
+#include "glint/image/read_files.h"
+#include "glint/options/parameters.h"
+#include "glint/scene/material_key.h"
+
+namespace glint {
+namespace {
+
+using GivenOptions = std::vector<std::pair<std::string, std::string>>;
+
+/// Takes back what `by` sets.
+void clearEdit(MaterialEdit& edit, const MaterialEdit& by) {
+  forEachEdit([&](auto part) {
+    if (by.*part) (edit.*part).reset();
+  });
+}
+
+void checkContradictions(const GivenOptions& options) {
+  const auto given = [&](const char* name) {
+    return std::ranges::any_of(options, [&](const auto& each) { return each.first == name; });
+  };
+  for (const auto& [one, other] :
+       {std::pair("light", "no-lights"), std::pair("camera-intrinsics", "camera-view-angle"),
+        std::pair("camera-intrinsics", "camera-orthographic")})
+    if (given(one) && given(other))
+      throw InputError("--" + std::string(one) + " and --" + other + ": give one of them");
+}
+
+}  // namespace
+
+void mergeMaterials(Look& look, const Look& options) {
+  const auto all = options.material.find("");
+  if (all != options.material.end())
+    for (auto& [key, edit] : look.material) clearEdit(edit, all->second);
+  for (const auto& [key, from] : options.material) {
+    // What is said of all of a name stands above what the look says of one of them.
+    for (auto& [other, edit] : look.material)
+      if (!key.empty() && other.starts_with(key + "#")) clearEdit(edit, from);
+    mergeEdit(look.material[key], from);
+  }
+  std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
+}
+
+Look lookFrom(const GivenOptions& options) {
+  Look look, materials;
+  for (const auto& [name, text] : options)
+    if (name == "look") readLookFile(look, text);
+  checkContradictions(options);
+  bool lit = false;
+  for (const auto& [name, text] : options) {
+    if (name == "look") continue;
+    if (name == "light" && !lit) {  // in place of the file's, and of its having none
+      look.light.reset();
+      look.noLights = false;
+      lit = true;
+    }
+    if (name == "environment") look.hdriFile.clear();
+    setParameter(name == "material" ? materials : look, name, text);
+  }
+  mergeMaterials(look, materials);
+  if (!look.hdriFile.empty()) noteReadFile(look.hdriFile);
+  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
+  return look;
+}
+
+}  // namespace glint
