@@ -28,7 +28,7 @@ HEAVY = {
         "src/glint/stability/plots.cpp", "src/glint/stability/profile.cpp",
         "src/glint/stability/search.cpp", "src/glint/stability/suite.cpp",
         "src/glint/study/page.cpp", "src/glint/study/plot.cpp", "src/glint/study/report.cpp",
-        "src/cli/*", "viewer/edits.cpp", "viewer/look_merge.cpp", "viewer/materials.cpp", "viewer/panel_info.cpp",
+        "src/cli/*", "viewer/edits.cpp", "viewer/effects.cpp", "viewer/look_merge.cpp", "viewer/materials.cpp",
         "viewer/probe.cpp", "viewer/recovery.cpp", "viewer/settings.cpp", "viewer/widgets.cpp",
         "models/*", "tests/*"],
     # 2 to 5

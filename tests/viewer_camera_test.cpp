@@ -79,9 +79,58 @@ TEST(CameraControl, DollyKeepsWhatIsUnderTheCursor) {
     return ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
   };
   const glm::dvec3 before = onPlane(look);
-  setPose(look, dollied(pose, 0.5, centered));
+  setPose(look, dollied(pose, 0.5, focalPlanePoint(pose, centered)));
   expectNear(onPlane(look), before, 1e-12);
   EXPECT_NEAR(look.cameraPosition->z, 3, 1e-12);
+}
+
+TEST(CameraControl, NoNumberOfStepsGoesThroughThePoint) {
+  const Scene scene = square();
+  const Bounds bounds = boundsOf(scene);
+  for (const bool orthographic : {false, true}) {
+    Look look;
+    look.resolution = {800, 600};
+    look.cameraPosition = {1, 2, 6};
+    look.cameraFocalPoint = {0.2, 0, -3};  // behind the surface
+    look.cameraOrthographic = orthographic;
+    const glm::dvec3 point(0.3, -0.4, 0);
+    const auto seenAt = [&] {
+      const Camera camera = cameraFor(scene, bounds, look);
+      const glm::dvec3 eye = glm::transpose(camera.axes) * (point - camera.eye);
+      return glm::dvec2(eye) / (orthographic ? 1 : -eye.z) / camera.halfHeight;
+    };
+    const glm::dvec2 first = seenAt();
+    for (int i = 0; i < 60; ++i) setPose(look, dollied(poseOf(scene, bounds, look), 0.88, point));
+    EXPECT_GT(look.cameraPosition->z, 0);
+    EXPECT_NEAR(glm::length(*look.cameraPosition - point),
+                glm::length(glm::dvec3(1, 2, 6) - point) * std::pow(0.88, 60), 1e-9);
+    EXPECT_NEAR(glm::length(seenAt() - first), 0, 1e-6);
+  }
+}
+
+TEST(CameraControl, APivotStaysWhereItIsSeen) {
+  const Scene scene = square();
+  const Bounds bounds = boundsOf(scene);
+  Look look;
+  look.resolution = {800, 600};
+  look.cameraPosition = {1, 2, 6};
+  look.cameraFocalPoint = {0.2, 0, -3};
+  const glm::dvec3 pivot(0.7, -0.4, 0.1);
+  const auto seenAt = [&](const Look& l) {
+    const Camera camera = cameraFor(scene, bounds, l);
+    const glm::dvec3 eye = glm::transpose(camera.axes) * (pivot - camera.eye);
+    return glm::dvec3(eye);
+  };
+  const glm::dvec3 first = seenAt(look);
+  const Pose pose = poseOf(scene, bounds, look);
+  Look turned = look;
+  setPose(turned, orbited(pose, 40, 25, pivot));
+  expectNear(seenAt(turned), first, 1e-12);
+  EXPECT_GT(glm::length(*turned.cameraPosition - *look.cameraPosition), 1);
+  // About the focal point it is the same as without.
+  setPose(turned, orbited(pose, 40, 25, pose.focalPoint));
+  setPose(look, orbited(pose, 40, 25));
+  expectNear(*turned.cameraPosition, *look.cameraPosition, 1e-12);
 }
 
 TEST(CameraControl, StandardViewsLookTheirWay) {

@@ -44,6 +44,7 @@ class Viewer:
     """A display, a window on it, and a folder of its own with a copy of the model."""
 
     screen = (1400, 840)
+    top = 20     # pixels at scale 1: the menu, below which the picture begins
     panel = 372  # pixels at scale 1; rows of the tab Shading below, as in viewer/panel.cpp
 
     def __init__(self, model, *options, screen=None, dpi=None):
@@ -53,6 +54,8 @@ class Viewer:
         self.options = options
         self.errors = os.path.join(self.folder, "errors")
         self.screen = screen or self.screen
+        scale = float(options[options.index("--scale") + 1]) if "--scale" in options else (dpi or 96) / 96
+        self.top = round(self.top * scale)
         width, height = self.screen
         read, write = os.pipe()
         self.server = subprocess.Popen(
@@ -154,7 +157,7 @@ class Viewer:
     def settled(self, shaded=False, quiet=0.35):
         """The screen once it has not changed for a while."""
         last, since = self.capture(), time.monotonic()
-        picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65)
+        picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65 - self.top)
 
         def still():
             nonlocal last, since
@@ -170,7 +173,7 @@ class Viewer:
         shown = []
 
         def same():
-            shown[:] = [self.x.capture(0, 0, *size)]
+            shown[:] = [self.x.capture(0, self.top, *size)]
             return shown[0] == expected
         try:
             wait_for(what, same, PATIENCE / 3)
@@ -180,7 +183,8 @@ class Viewer:
 
     def crop(self, screen, size, width=None):
         across = 3 * (width or self.screen[0])
-        return b"".join(screen[y * across:y * across + 3 * size[0]] for y in range(size[1]))
+        return b"".join(screen[y * across:y * across + 3 * size[0]]
+                        for y in range(self.top, self.top + size[1]))
 
     # What a person can ask for.
 
@@ -230,14 +234,14 @@ class Viewer:
 
 # Centres of widgets in the tab Shading of a model with one material, scale 1.
 PANEL_LEFT = 1000
-TWO_SIDED = (PANEL_LEFT + 174, 193)
-ROW = {"ambient": 295, "diffuse": 320, "specular": 345, "exponent": 370, "metalness": 395}
+TWO_SIDED = (PANEL_LEFT + 174, 213)
+ROW = {"ambient": 315, "diffuse": 340, "specular": 365, "exponent": 390, "metalness": 415}
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 
 # Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
-TIME = 195           # tab Picture, of a model that is animated
-INTENSITY = 204      # tab Lights, three lights of which a directional one is selected
+TIME = 215           # tab Picture, of a model that is animated
+INTENSITY = 249      # tab Lights, three lights of which a directional one is selected
 
 
 def drag_slider(viewer, name, start, end):

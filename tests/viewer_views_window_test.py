@@ -95,7 +95,7 @@ def test_the_probe_tells_what_the_reference_has():
         exact = viewer.render(*plain, "--rendering-backend", "reference", ending="pfm")
         viewer.key("F7")  # the tab Info
         for x, y in ((480, 420), (440, 347), (20, 30)):
-            viewer.move(x, y)
+            viewer.move(x, y + viewer.top)
             viewer.settled()
             viewer.key("ctrl+shift+c")
 

@@ -105,7 +105,11 @@ def test_fast_clicks_are_all_taken():
 
 def test_a_click_picks_the_material():
     with Viewer(TEAPOT) as viewer:
-        viewer.click(20, 20)  # the background: all materials
+        viewer.click(20, 40)  # the background: what is selected stays
+        drag_slider(viewer, "diffuse", 0.4, 0.7)
+        assert list(viewer.picture()[1]["material"]) == ["Glazed ceramic"]
+        viewer.key("ctrl+z")
+        viewer.key("ctrl+a")
         drag_slider(viewer, "diffuse", 0.4, 0.7)
         assert list(viewer.picture()[1]["material"]) == [""]
         viewer.key("ctrl+z")

@@ -1,7 +1,9 @@
 #include "actions.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace glint::viewer {
@@ -11,14 +13,19 @@ namespace {
 enum Key : int {
   space = 32,
   comma = 44,
+  minus = 45,
   period = 46,
   slash = 47,
+  equal = 61,
+  bracketLeft = 91,
+  bracketRight = 93,
   enter = 257,
   tab = 258,
   insert = 260,
   del = 261,
   rightArrow = 262,
   leftArrow = 263,
+  down = 264,
   up = 265,
   pageUp = 266,
   pageDown = 267,
@@ -26,6 +33,7 @@ enum Key : int {
   f2 = 291,
   f8 = 297,
   f9 = 298,
+  f10 = 299,
   f12 = 301,
 };
 
@@ -33,23 +41,28 @@ constexpr std::pair<int, const char*> names[] = {
     {space, "Space"},    {comma, "Comma"},      {period, "Period"},  {enter, "Enter"},
     {tab, "Tab"},        {insert, "Insert"},    {del, "Delete"},     {up, "Up"},
     {leftArrow, "Left"}, {rightArrow, "Right"}, {pageUp, "Page Up"}, {pageDown, "Page Down"},
+    {minus, "-"},        {equal, "="},          {down, "Down"},      {bracketLeft, "["},
+    {bracketRight, "]"},
 };
 
 constexpr bool control = true, shift = true, repeats = true, no = false;
 
 constexpr ActionInfo actionTable[] = {
-    {Action::help, "General", "show keys and mouse", slash, no, shift},
-    {Action::togglePanel, "General", "hide or show the panel", f9},
-    {Action::tabShading, "General", "tab Shading of the panel", f2},
-    {Action::tabLights, "General", "tab Lights", f2 + 1},
-    {Action::tabCamera, "General", "tab Camera", f2 + 2},
-    {Action::tabPicture, "General", "tab Picture", f2 + 3},
-    {Action::tabCompare, "General", "tab Compare", f2 + 4},
-    {Action::tabInfo, "General", "tab Info: pixel, model, frame, shaders, log", f2 + 5},
-    {Action::nextPlot, "General", "next plot: lobe, Fresnel, widths", f8},
-    {Action::previousPlot, "General", "previous plot", f8, no, shift},
-    {Action::quit, "General", "close the window; asks if something is not saved", 'Q'},
-    {Action::open, "Files", "open a model or a look (or drop it on the window)", 'O', control},
+    {Action::help, "Help", "show keys and mouse", slash, no, shift},
+    {Action::palette, "Help", "find an action or a material by words", 'P', control},
+    {Action::menu, "Help", "open the menu", f10},
+    {Action::toPanel, "Panel", "go to the panel: arrows, Space and Enter work in it", down},
+    {Action::togglePanel, "Panel", "hide or show it", f9},
+    {Action::tabShading, "Panel", "tab Shading", f2},
+    {Action::tabLights, "Panel", "tab Lights", f2 + 1},
+    {Action::tabCamera, "Panel", "tab Camera", f2 + 2},
+    {Action::tabPicture, "Panel", "tab Picture", f2 + 3},
+    {Action::tabCompare, "Panel", "tab Compare", f2 + 4},
+    {Action::tabInfo, "Panel", "tab Info: pixel, model, frame, shaders, log", f2 + 5},
+    {Action::nextPlot, "Panel", "next plot: lobe, Fresnel, widths", f8},
+    {Action::previousPlot, "Panel", "previous plot", f8, no, shift},
+    {Action::open, "Files", "open a model, look, environment or measured material (or drop it)",
+     'O', control},
     {Action::reload, "Files", "read the model again; the edits stay", up},
     {Action::saveLook, "Files", "save the look (for glint render --look)", 'S', control},
     {Action::saveLookAs, "Files", "save the look under a name", 'S', control, shift},
@@ -58,16 +71,19 @@ constexpr ActionInfo actionTable[] = {
      shift},
     {Action::screenshot, "Files", "save the picture as PNG under the next free name", f12},
     {Action::screenshotAs, "Files", "save the picture under a name", f12, no, shift},
+    {Action::quit, "Files", "close the window; asks if something is not saved", 'Q'},
     {Action::undo, "Edit", "undo", 'Z', control, no, repeats},
     {Action::redo, "Edit", "redo (also Ctrl+Y)", 'Z', control, shift, repeats},
     {Action::nextMaterial, "Material", "select the next one", pageDown, no, no, repeats},
     {Action::previousMaterial, "Material", "select the previous one", pageUp, no, no, repeats},
+    {Action::allMaterials, "Material", "select all of them", 'A', control},
     {Action::findMaterial, "Material", "find one by name", 'F', control},
     {Action::nextPreset, "Material", "next preset", 'M', no, no, repeats},
     {Action::previousPreset, "Material", "previous preset", 'M', no, shift, repeats},
     {Action::copyMaterial, "Material", "copy as text", 'C', control},
     {Action::pasteMaterial, "Material", "paste from text", 'V', control},
     {Action::resetMaterial, "Material", "take back all edits", 'R', control},
+    {Action::fitMeasured, "Material", "fit to the measured one that is open", 'F', no, shift},
     {Action::copyPixel, "Material", "copy the values of the pixel under the cursor", 'C', control,
      shift},
     {Action::nextProgram, "Shading", "next program", 'P'},
@@ -81,6 +97,8 @@ constexpr ActionInfo actionTable[] = {
     {Action::nextLight, "Lights", "select the next one", 'G'},
     {Action::addLight, "Lights", "one more", insert},
     {Action::removeLight, "Lights", "remove the selected one", del},
+    {Action::switchLight, "Lights", "switch the selected one off, or on again", 'Z'},
+    {Action::soloLight, "Lights", "the selected one alone, or all again", 'Z', no, shift},
     {Action::defaultLights, "Lights", "the file's again, or the default one", del, no, shift},
     {Action::noLights, "Lights", "ambient light alone, on or off", 'L', control},
     {Action::nextEnvironment, "Lights", "next environment", 'Y'},
@@ -101,6 +119,18 @@ constexpr ActionInfo actionTable[] = {
     {Action::fit, "Camera", "show the whole model from here", 'F'},
     {Action::resetCamera, "Camera", "first view again", enter},
     {Action::nextCamera, "Camera", "next camera of the file", 'W', no, shift},
+    {Action::turnLeft, "Camera", "turn to the left", leftArrow, no, shift, repeats},
+    {Action::turnRight, "Camera", "turn to the right", rightArrow, no, shift, repeats},
+    {Action::turnUp, "Camera", "turn upwards", up, no, shift, repeats},
+    {Action::turnDown, "Camera", "turn downwards", down, no, shift, repeats},
+    {Action::shiftLeft, "Camera", "move to the left", leftArrow, control, no, repeats},
+    {Action::shiftRight, "Camera", "move to the right", rightArrow, control, no, repeats},
+    {Action::shiftUp, "Camera", "move upwards", up, control, no, repeats},
+    {Action::shiftDown, "Camera", "move downwards", down, control, no, repeats},
+    {Action::nearer, "Camera", "nearer to what is in the middle", equal, no, no, repeats},
+    {Action::farther, "Camera", "farther from it", minus, no, no, repeats},
+    {Action::rollLeft, "Camera", "roll to the left", bracketLeft, no, no, repeats},
+    {Action::rollRight, "Camera", "roll to the right", bracketRight, no, no, repeats},
     {Action::play, "Animation", "play, or stop", space},
     {Action::earlier, "Animation", "a tenth of a second back", leftArrow, no, no, repeats},
     {Action::later, "Animation", "a tenth of a second on", rightArrow, no, no, repeats},
@@ -118,6 +148,8 @@ constexpr ActionInfo actionTable[] = {
     {Action::normals, "Overlays", "normals as colours", 'N'},
     {Action::facing, "Overlays", "front faces blue, back faces red", 'K'},
     {Action::clipped, "Overlays", "pixels that are clipped, or not numbers", 'C'},
+    {Action::outline, "Overlays", "outline of the selected material", 'I'},
+    {Action::lightHandles, "Overlays", "handles by which lights are dragged", 'O'},
 };
 
 }  // namespace
@@ -129,6 +161,17 @@ const ActionInfo& infoOf(Action command) {
                        [&](const ActionInfo& i) { return i.command == command; });
 }
 
+std::span<const MenuInfo> menus() {
+  static constexpr std::string_view file[] = {"Files"}, edit[] = {"Edit"},
+                                    material[] = {"Material", "Shading"}, light[] = {"Lights"},
+                                    view[] = {"Camera", "Animation", "Picture", "Overlays"},
+                                    compare[] = {"Compare"}, panel[] = {"Panel"}, help[] = {"Help"};
+  static constexpr MenuInfo table[] = {{"File", file},   {"Edit", edit}, {"Material", material},
+                                       {"Light", light}, {"View", view}, {"Compare", compare},
+                                       {"Panel", panel}, {"Help", help}};
+  return table;
+}
+
 std::string keyText(const ActionInfo& info) {
   if (info.command == Action::help) return "? or H, F1";
   std::string text = info.control ? "Ctrl+" : "";
@@ -137,6 +180,55 @@ std::string keyText(const ActionInfo& info) {
     if (key == info.key) return text + name;
   if (info.key >= f1 && info.key <= f12) return text + "F" + std::to_string(info.key - f1 + 1);
   return text + char(info.key);
+}
+
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string lowered(text);
+  for (char& c : lowered)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return lowered;
+}
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::istringstream stream(lower(text));
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// 0: a word does not occur; 1: all do; 2: each begins a word.
+int match(const std::vector<std::string>& words, const std::string& text) {
+  int best = 2;
+  for (const std::string& word : words) {
+    bool begins = false, occurs = false;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      occurs = true;
+      begins = begins || at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]));
+    }
+    if (!occurs) return 0;
+    if (!begins) best = 1;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Finding> findings(std::string_view text, std::span<const std::string> materials,
+                              bool materialsAlone) {
+  const std::vector<std::string> words = wordsOf(text);
+  std::vector<Finding> found[2];
+  const auto consider = [&](Finding finding, const std::string& searched) {
+    if (const int m = match(words, lower(searched))) found[2 - m].push_back(std::move(finding));
+  };
+  if (!materialsAlone)
+    for (const ActionInfo& info : actionTable) {
+      const std::string shown = std::string(info.section) + ": " + std::string(info.help);
+      consider({info.command, -1, shown, keyText(info)}, shown + " " + keyText(info));
+    }
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    consider({{}, int(i), "Material: " + materials[i], {}}, "material " + materials[i]);
+  std::ranges::move(found[1], std::back_inserter(found[0]));
+  return std::move(found[0]);
 }
 
 }  // namespace glint::viewer

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace glint::viewer {
 
-/// What keys and buttons do. The one table of actions() gives each its key and its help, in this
-/// order.
+/// What keys, menus, buttons and the palette do. The one table of actions() gives each its key and
+/// its help, in this order.
 enum class Action {
   help,
+  palette,
+  menu,
+  toPanel,
   togglePanel,
   tabShading,
   tabLights,
@@ -19,7 +24,6 @@ enum class Action {
   tabInfo,
   nextPlot,
   previousPlot,
-  quit,
   open,
   reload,
   saveLook,
@@ -28,16 +32,19 @@ enum class Action {
   saveModelAs,
   screenshot,
   screenshotAs,
+  quit,
   undo,
   redo,
   nextMaterial,
   previousMaterial,
+  allMaterials,
   findMaterial,
   nextPreset,
   previousPreset,
   copyMaterial,
   pasteMaterial,
   resetMaterial,
+  fitMeasured,
   copyPixel,
   nextProgram,
   nextHighlight,
@@ -50,6 +57,8 @@ enum class Action {
   nextLight,
   addLight,
   removeLight,
+  switchLight,
+  soloLight,
   defaultLights,
   noLights,
   nextEnvironment,
@@ -69,6 +78,18 @@ enum class Action {
   fit,
   resetCamera,
   nextCamera,
+  turnLeft,
+  turnRight,
+  turnUp,
+  turnDown,
+  shiftLeft,
+  shiftRight,
+  shiftUp,
+  shiftDown,
+  nearer,
+  farther,
+  rollLeft,
+  rollRight,
   play,
   earlier,
   later,
@@ -86,6 +107,8 @@ enum class Action {
   normals,
   facing,
   clipped,
+  outline,
+  lightHandles,
   count,  ///< none: how many there are
 };
 
@@ -98,9 +121,29 @@ struct ActionInfo {
 };
 
 std::span<const ActionInfo> actions();
+
+/// A menu of the bar, with the sections of the table that stand in it, in this order.
+struct MenuInfo {
+  std::string_view name;
+  std::span<const std::string_view> sections;
+};
+std::span<const MenuInfo> menus();
+
 const ActionInfo& infoOf(Action);
 
 /// "Ctrl+Shift+S".
 std::string keyText(const ActionInfo&);
+
+/// What the palette lists: an action, or a material to be selected.
+struct Finding {
+  std::optional<Action> action;
+  int material = -1;       ///< an index of those searched; of a material alone
+  std::string text, keys;  ///< "Camera: front view", "1"
+};
+
+/// The actions and materials in whose text, section and keys each of the words occurs, in either
+/// case; those in which a word of the text begins so come first. No words: all.
+std::vector<Finding> findings(std::string_view words, std::span<const std::string> materials,
+                              bool materialsAlone = false);
 
 }  // namespace glint::viewer

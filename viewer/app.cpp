@@ -14,6 +14,7 @@
 #include "imgui_versions.h"
 #include "interface.h"
 #include "materials.h"
+#include "theme.h"
 #include "widgets.h"
 #include "xdg.h"
 
@@ -39,6 +40,7 @@ App::App(Window& window, Look look, AppOptions options)
   if (!options_.look.empty())
     attempt([&] { readLookFile(session_.lookOnDisk, options_.look.string()); });
   lookState_ = stateOf(options_.look);
+  hintUntil_ = Clock::now() + std::chrono::seconds(10);
   if (!options_.model.empty()) load(options_.model);
 }
 
@@ -71,12 +73,17 @@ void App::layout() {
   const glm::ivec2 size = window_.size();
   ratio_ = size.x > 0 ? double(framebuffer_.x) / size.x : 1;
   const float scale = widgets::style().scale;
-  panelWidth_ =
-      options_.settings.panel ? std::min(std::round(372 * scale), float(size.x) * 0.6f) : 0;
+  panelWidth_ = options_.settings.panel
+                    ? std::min(std::round(float(options_.settings.panelWidth) * scale),
+                               std::round(float(size.x) * 0.75f))
+                    : 0;
   statusHeight_ = std::round(imgui::fontHeight() + 10 * scale);
+  menuHeight_ = imgui::fontHeight() + 2 * ImGui::GetStyle().FramePadding.y;
+  widgets::style().panelLeft = float(size.x) - panelWidth_;
   const auto pixels = [&](float coordinates) { return int(std::lround(coordinates * ratio_)); };
-  resolution_ = glm::max(framebuffer_ - glm::ivec2(pixels(panelWidth_), pixels(statusHeight_)),
-                         glm::ivec2(1));
+  resolution_ =
+      glm::max(framebuffer_ - glm::ivec2(pixels(panelWidth_), pixels(statusHeight_ + menuHeight_)),
+               glm::ivec2(1));
 }
 
 void App::setTitle() {
@@ -118,6 +125,7 @@ bool App::somethingDue() {
     due = true;
   }
   if (session_.playing) due = true;
+  if (tooltipDue_ && now >= *tooltipDue_) due = true;
   if (shownResult_.request.preview && seconds(now - lastChange_) >= restAfter) due = true;
   if (recovery_.waiting())
     recovery_.keep(session_.document.a, session_.unsaved(),
@@ -139,6 +147,11 @@ void App::run() {
   auto lastFrame = Clock::now(), lastAdvance = lastFrame;
   const auto frame = [&](bool draw) {
     const auto now = Clock::now();
+    // A first arrow in a window that has the focus puts the ring on its first widget.
+    if (ringWanted_ > 0) {
+      if (!panelFocused_) ImGui::SetWindowFocus("panel");
+      imgui::setKey(GLFW_KEY_DOWN, --ringWanted_ % 2 == 1);
+    }
     interface.begin(seconds(now - lastFrame));
     lastFrame = now;
     buildInterface();
@@ -147,10 +160,17 @@ void App::run() {
     session_.history.settle(session_.document, gestureActive(), session_.playing);
   };
   while (!quitting_) {
-    const double patience = session_.playing               ? 0.01
-                            : shownResult_.request.preview ? restAfter
-                            : recovery_.waiting()          ? 0.2
-                                                           : 0.5;
+    double patience = session_.playing               ? 0.01
+                      : shownResult_.request.preview ? restAfter
+                      : recovery_.waiting()          ? 0.2
+                                                     : 0.5;
+    const double tip = widgets::tooltipDue();
+    tooltipDue_.reset();
+    if (std::isfinite(tip)) {
+      patience = std::min(patience, tip);
+      tooltipDue_ = Clock::now() +
+                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(tip));
+    }
     const bool happened = window_.wait(patience);
     if (!(somethingDue() || happened)) continue;
 
@@ -159,7 +179,11 @@ void App::run() {
     // Each group of events in a frame of its own, then one more, as ImGui places what has just
     // appeared only then; the last one is drawn.
     do {
-      const auto events = window_.input().take();
+      auto events = window_.input().take();
+      for (InputEvent& event : events) {
+        event.forWidgets = isForWidgets(event);
+        event.presses = pressesLikeSpace(event);
+      }
       interface.feed(events);
       applyInput(events);
       frame(false);
@@ -191,46 +215,6 @@ void App::run() {
   tellLog();
 }
 
-void App::applyInput(const std::deque<InputEvent>& events) {
-  for (const InputEvent& e : events) {
-    if (e.kind == InputEvent::Kind::drop) open(e.path);
-    if (e.kind == InputEvent::Kind::key && e.down) key(e);
-    if (e.kind == InputEvent::Kind::character && e.code == '?' && !ImGui::GetIO().WantTextInput &&
-        !dialogs_.open())
-      execute(Action::help);
-  }
-}
-
-void App::key(const InputEvent& e) {
-  const bool control = (e.modifiers & GLFW_MOD_CONTROL) != 0;
-  const bool shift = (e.modifiers & GLFW_MOD_SHIFT) != 0;
-  if (dialogs_.open()) {
-    if (e.code == GLFW_KEY_ESCAPE) dialogs_.pressEscape();
-    if (e.code == GLFW_KEY_ENTER || e.code == GLFW_KEY_KP_ENTER) dialogs_.pressEnter();
-    return;
-  }
-  if (ImGui::GetIO().WantTextInput) return;
-  if (e.code == GLFW_KEY_ESCAPE) {
-    if (helpShown_)
-      helpShown_ = false;
-    else if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-      execute(Action::quit);
-    return;
-  }
-  if (e.code == GLFW_KEY_F1 || (e.code == GLFW_KEY_H && !control && !shift))
-    return execute(Action::help);
-  if (control && !shift && e.code == GLFW_KEY_Y) return execute(Action::redo);
-  for (const ActionInfo& info : actions()) {
-    if (info.command == Action::help) continue;  // comes as a character, on any keyboard
-    if (info.key == e.code && info.control == control && info.shift == shift) {
-      if (!e.repeated || info.repeats) execute(info.command);
-      // As under a hand: one step of undo.
-      if (e.repeated && info.repeats) lastScroll_ = Clock::now();
-      return;
-    }
-  }
-}
-
 void App::statusBar() {
   const ImGuiIO& io = ImGui::GetIO();
   ImGui::SetNextWindowPos(ImVec2(0, io.DisplaySize.y - statusHeight_));
@@ -254,18 +238,20 @@ void App::statusBar() {
   const float room = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   std::string left = session_.status;
-  if (loading_.valid())
-    left = "reading " + loadingPath_.filename().string() + " ...";
-  else if (painter_->saving())
+  if (painter_->saving())
     left = "saving the picture ...";
   else if (painter_->pending() && seconds(Clock::now() - lastChange_) > 0.25)
     left = "drawing ...";
-  if (left.empty()) left = "? shows the keys";
+  if (!acted_ || Clock::now() < hintUntil_)
+    left += (left.empty() ? "" : "   ") +
+            std::string(
+                "Ctrl+P finds every action, F1 shows keys and mouse; drag the picture to "
+                "turn it, click it to select");
   left = left.substr(0, left.find('\n'));
   ImGui::PushClipRect(at, ImVec2(at.x + std::max(0.0f, room - width - 16), at.y + statusHeight_),
                       true);
   if (session_.statusIsError)
-    ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "%s", left.c_str());
+    ImGui::TextColored(widgets::colorOf(theme::error), "%s", left.c_str());
   else
     ImGui::TextDisabled("%s", left.c_str());
   ImGui::PopClipRect();
@@ -277,65 +263,49 @@ void App::statusBar() {
   ImGui::End();
 }
 
-void App::helpWindow() {
-  if (!helpShown_) return;
+// The panel's left edge, by which it is made wider.
+void App::panelEdge() {
   const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x / 2, io.DisplaySize.y / 2), ImGuiCond_Always,
-                          ImVec2(0.5f, 0.5f));
-  const float font = ImGui::GetFontSize();
-  const float width = std::min(font * 90, io.DisplaySize.x * 0.96f);
-  const bool wide = width > font * 75;
-  ImGui::SetNextWindowSize(ImVec2(width, std::min(font * 54, io.DisplaySize.y * 0.96f)));
-  ImGui::Begin("Keys and mouse", &helpShown_,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
-  const auto line = [&](const std::string& key, std::string_view text) {
-    ImGui::TextColored(ImVec4(0.95f, 0.78f, 0.4f, 1), "%s", key.c_str());
-    ImGui::SameLine(font * 9);
-    ImGui::TextWrapped("%s", std::string(text).c_str());
-  };
-  ImGui::Columns(wide ? 3 : 2, "keys", false);
-  ImGui::TextDisabled("Mouse over the picture");
-  line("left drag", "turn the camera about what it looks at");
-  line("middle drag", "move the camera sideways (also Shift + left)");
-  line("right drag", "nearer, farther");
-  line("wheel", "nearer to, farther from what is under the cursor");
-  line("Ctrl+left drag", "roll");
-  line("click", "select the material under the cursor");
-  ImGui::Spacing();
-  ImGui::TextDisabled("Panel");
-  line("double-click", "reset a value");
-  line("Ctrl+click", "type a value, beyond the slider too");
-  std::string_view section;
-  for (const ActionInfo& info : actions()) {
-    if (info.section != section) {
-      if (info.section == (wide ? "Edit" : "Shading") || (wide && info.section == "Camera"))
-        ImGui::NextColumn();
-      ImGui::Spacing();
-      section = info.section;
-      ImGui::TextDisabled("%s", std::string(section).c_str());
-    }
-    line(keyText(info), info.help);
-  }
-  ImGui::Columns(1);
+  const float s = widgets::style().scale, width = 6 * s;
+  ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_ - width / 2, menuHeight_));
+  ImGui::SetNextWindowSize(ImVec2(width, io.DisplaySize.y - menuHeight_));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::Begin("panel edge", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PopStyleVar(2);
+  ImGui::InvisibleButton("edge", ImVec2(width, io.DisplaySize.y - menuHeight_));
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    options_.settings.panelWidth = Settings{}.panelWidth;
+  else if (ImGui::IsItemActive() && io.MouseDelta.x != 0)
+    options_.settings.panelWidth =
+        std::clamp(double(io.DisplaySize.x - io.MousePos.x) / double(s), 240.0,
+                   std::max(240.0, double(io.DisplaySize.x) * 0.75 / double(s)));
   ImGui::End();
 }
 
 void App::buildInterface() {
   const ImGuiIO& io = ImGui::GetIO();
+  menuBar();
   pictureArea();
   statusBar();
-  probeShown_ = false;
+  probeShown_ = panelFocused_ = false;
   if (options_.settings.panel) {
-    ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_, 0));
-    ImGui::SetNextWindowSize(ImVec2(panelWidth_, io.DisplaySize.y));
+    ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_, menuHeight_));
+    ImGui::SetNextWindowSize(ImVec2(panelWidth_, io.DisplaySize.y - menuHeight_));
     ImGui::Begin("panel", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
     PanelContext context{session_, options_.settings};
     context.picture = shownResult_.a.get();
     context.resolution = resolution_;
     context.preview = shownResult_.request.preview;
     context.comparison = comparisonText();
     context.probeShown = &probeShown_;
+    context.thumbnails = &thumbnails_;
     session_.plotShown = false;
     context.probe = probe_ ? &*probe_ : nullptr;
     context.uiMilliseconds = uiMilliseconds_;
@@ -344,9 +314,14 @@ void App::buildInterface() {
       window_.resize(glm::ivec2(glm::dvec2(size + framebuffer_ - resolution_) / ratio_));
     };
     drawPanel(context);
+    panelFocused_ = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
     ImGui::End();
+    panelEdge();
+    if (const std::string problem = widgets::takeProblem(); !problem.empty())
+      session_.fail(problem);
   }
   helpWindow();
+  paletteWindow();
   dialogs_.draw();
 }
 

@@ -5,8 +5,11 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "actions.h"
+#include "camera_control.h"
 #include "compose.h"
 #include "dialogs.h"
 #include "error_map.h"
@@ -18,6 +21,7 @@
 #include "reference_task.h"
 #include "session.h"
 #include "settings.h"
+#include "thumbnails.h"
 #include "window.h"
 
 namespace glint::viewer {
@@ -53,26 +57,61 @@ class App {
 
   // app.cpp: frames
   bool somethingDue();
-  void applyInput(const std::deque<InputEvent>& events);
-  void key(const InputEvent& event);
   void buildInterface();
   void statusBar();
-  void helpWindow();
+  void panelEdge();
   void layout();
   void setTitle();
   void tellLog();
   void advance(double passed);
   bool gestureActive() const;
 
+  // app_keys.cpp: who takes a key, and what the table's keys do
+  bool isForWidgets(const InputEvent&) const;
+  bool pressesLikeSpace(const InputEvent&) const;
+  void applyInput(const std::deque<InputEvent>& events);
+  void key(const InputEvent& event);
+  void paletteKey(int code);
+
+  // app_menu.cpp: the menu, the palette and the help, which stand on the table of actions
+  void menuBar();
+  void openPalette(bool materialsAlone);
+  void paletteWindow();
+  void take(const Finding&);
+  void helpWindow();
+
   // app_view.cpp: the picture as a thing to touch
   void pictureArea();
   void handlePicture(glm::dvec2 mouse, bool hovered, bool active);
+  void dragPicture(glm::dvec2 mouse);
+  void moveCamera(const std::function<Pose(const Pose&)>& move);
+  /// Nearer to the surface at a pixel, or the point of the focal plane there, by a factor.
+  void dolly(glm::dvec2 pixel, double factor);
+  std::optional<Hit> hitAt(glm::dvec2 pixel) const;
+  void setPivot(glm::dvec2 pixel);
+  void drawPivot();
+  void drawProgress();
+  /// Where a point of the world is seen, in window coordinates; empty if behind the camera.
+  std::optional<glm::dvec2> placeOf(const glm::dvec3& world) const;
+
+  // app_lights.cpp: lights as things to drag in the picture
+  struct LightHandle {
+    std::size_t light = 0;
+    bool aim = false;       ///< of a spot: what it shines at
+    glm::dvec2 place{0.0};  ///< window coordinates
+    bool behind = false;    ///< it points to a light behind the model
+  };
+  std::vector<LightHandle> lightHandles() const;
+  std::optional<LightHandle> handleAt(glm::dvec2 mouse) const;
+  void drawLightHandles();
+  void dragLight(glm::dvec2 mouse);
   void drawOverPicture();
   std::string comparisonText() const;
 
   // app_picture.cpp: what is drawn
   void updatePicture();
   PaintRequest wanted(bool& moving);
+  bool probesB(const Document&) const;
   void receive(PaintResult);
   void updateReference();
   void composeScreen();
@@ -93,6 +132,10 @@ class App {
   void saveModelTo(const std::string& path, bool sure);
   void savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure);
   void open(const std::string& path);
+  void openEnvironment(const std::string& path);
+  void openMeasured(const std::string& path);
+  static std::string endingOf(const std::filesystem::path&);
+  std::string freeName(const std::string& stem, const std::string& ending) const;
   void load(const std::filesystem::path& path);
   void finishLoading();
   void offerRecovered();
@@ -106,6 +149,7 @@ class App {
   Dialogs dialogs_;
   Recovery recovery_;
   Screen screen_;
+  Thumbnails thumbnails_;
 
   std::future<std::unique_ptr<Model>> loading_;
   std::filesystem::path loadingPath_, nextPath_;  ///< nextPath_: to be read after that
@@ -129,18 +173,38 @@ class App {
   double uiMilliseconds_ = 0;
   Clock::time_point lastChange_{}, lastScroll_{}, lastPlayed_{};
 
-  glm::ivec2 framebuffer_{1}, resolution_{1};  ///< pixels
-  double ratio_ = 1;                           ///< pixels per window coordinate
-  float panelWidth_ = 0, statusHeight_ = 0;    ///< window coordinates
-  bool helpShown_ = false, quitting_ = false;
+  glm::ivec2 framebuffer_{1}, resolution_{1};                 ///< pixels
+  double ratio_ = 1;                                          ///< pixels per window coordinate
+  float panelWidth_ = 0, statusHeight_ = 0, menuHeight_ = 0;  ///< window coordinates
+  bool helpShown_ = false, menuWanted_ = false, quitting_ = false;
+  float helpScroll_ = 0;  ///< lines, to be scrolled next
+  std::optional<Clock::time_point> tooltipDue_;
+  bool panelFocused_ = false;  ///< the panel has the focus of ImGui, be the ring seen or not
+  int ringWanted_ = 0;  ///< frames in which the keyboard's ring is still to be put on the panel
+  Clock::time_point
+      hintUntil_{};  ///< the first hint is shown till then, and till something is done
+  bool acted_ = false;
+  struct Palette {
+    bool open = false, appearing = false, materialsAlone = false;
+    std::string words;
+    int at = 0;  ///< of the findings
+    std::vector<Finding> found;
+  } palette_;
+  std::optional<glm::dvec3> pivot_;   ///< that drags turn about; empty: the focal point
   std::optional<glm::dvec2> cursor_;  ///< over the picture, its pixels
   std::optional<Probe> probe_;
   bool probeStale_ = true, probeShown_ = false;
   bool dragged_ = false, draggingDivider_ = false;
+  std::optional<LightHandle> draggedLight_;
+  bool wasBeyond_ = false;  ///< the ball's rim, in a drag of a direction
   glm::dvec2 pressedAt_{0};
-  std::size_t told_ = 0;  ///< lines of the log
+  std::optional<glm::dvec3> pressedPoint_;  ///< that a drag of the right button goes to
+  std::size_t told_ = 0;                    ///< lines of the log
 
   FileState modelState_, lookState_, glslState_;
+  std::optional<Clock::time_point> missingSince_;  ///< the model's file
+  bool toldMissing_ = false;
+  std::set<std::filesystem::path> mayReplace_;  ///< without asking again
 
   // Last: their threads end before what they report to.
   std::unique_ptr<Painter> painter_;

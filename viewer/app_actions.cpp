@@ -9,6 +9,18 @@
 #include "materials.h"
 
 namespace glint::viewer {
+namespace {
+
+// A press of a key moves the camera by so much.
+constexpr double turnStep = 5, shiftStep = 0.05,
+                 nearerStep = 0.9;  // degrees; of the picture's height; factor
+
+bool framesAnew(Action command) {
+  return (command >= Action::front && command <= Action::isometric) || command == Action::fit ||
+         command == Action::resetCamera || command == Action::nextCamera;
+}
+
+}  // namespace
 
 void App::attempt(const std::function<void()>& action) {
   try {
@@ -30,15 +42,15 @@ void App::setCompare(CompareMode mode, bool exact) {
 
 void App::pick(glm::dvec2 pixel) {
   if (!session_.model) return;
-  attempt([&] {
-    Look look = session_.document.a;
-    look.resolution = resolution_;
-    const Camera camera = cameraFor(session_.model->scene, session_.model->bounds, look);
-    const auto hit = session_.model->picker->pick(
-        session_.model->scene, rayThrough(camera, pixel, resolution_), look.twoSided);
-    session_.material = hit ? hit->material : -1;
-    session_.say("selected " + materialLabel(session_.model->scene, session_.material));
-  });
+  const auto hit = hitAt(pixel);
+  if (!hit) {
+    const std::string key = keyText(infoOf(Action::allMaterials));
+    return session_.say(
+        "nothing there: " + materialLabel(session_.model->scene, session_.material) +
+        (session_.material < 0 ? " stay" : " stays") + " selected (" + key + ": all)");
+  }
+  session_.material = hit->material;
+  session_.say("selected " + materialLabel(session_.model->scene, session_.material));
 }
 
 glm::dmat3 App::cameraAxes() const {
@@ -60,6 +72,23 @@ void App::execute(Action command) {
     case Action::help:
       helpShown_ = !helpShown_;
       break;
+    case Action::palette:
+      openPalette(false);
+      break;
+    case Action::menu:
+      menuWanted_ = true;
+      break;
+    case Action::toPanel:
+      options_.settings.panel = true;
+      ringWanted_ = 2;
+      session_.say(
+          "in the panel: arrows go on, Space changes, Enter types, Backspace resets, "
+          "Escape leaves");
+      break;
+    case Action::allMaterials:
+      session_.material = -1;
+      session_.say("selected all materials");
+      break;
     case Action::tabShading:
     case Action::tabLights:
     case Action::tabCamera:
@@ -78,8 +107,7 @@ void App::execute(Action command) {
       break;
     }
     case Action::findMaterial:
-      options_.settings.panel = session_.findWanted = true;
-      session_.wantedTab = 0;
+      openPalette(true);
       break;
     case Action::togglePanel:
       options_.settings.panel = !options_.settings.panel;
@@ -88,7 +116,7 @@ void App::execute(Action command) {
       quit();
       break;
     case Action::open:
-      dialogs_.askPath("Open a model or a look",
+      dialogs_.askPath("Open a model, look, environment or measured material",
                        session_.model && session_.model->path.has_parent_path()
                            ? session_.model->path.parent_path().string() + "/"
                            : "./",
@@ -104,11 +132,10 @@ void App::execute(Action command) {
       }
       [[fallthrough]];
     case Action::saveLookAs:
-      dialogs_.askPath("Save the look as",
-                       session_.lookPath.empty()
-                           ? nextFreeName(".", stem, ".json").filename().string()
-                           : session_.lookPath.string(),
-                       false, [this](const std::string& path) { saveLookTo(path, false); });
+      dialogs_.askPath(
+          "Save the look as",
+          session_.lookPath.empty() ? freeName(stem, ".json") : session_.lookPath.string(), false,
+          [this](const std::string& path) { saveLookTo(path, false); });
       break;
     case Action::saveModel:
       if (session_.model) saveModelTo(session_.model->path.string(), false);
@@ -119,12 +146,10 @@ void App::execute(Action command) {
                          false, [this](const std::string& path) { saveModelTo(path, false); });
       break;
     case Action::screenshot:
-      savePictureTo(nextFreeName(".", stem, ".png").filename().string(), resolution_,
-                    d.a.noBackground, false);
+      savePictureTo(freeName(stem, ".png"), resolution_, d.a.noBackground, false);
       break;
     case Action::screenshotAs:
-      dialogs_.askPicture(nextFreeName(".", stem, ".png").filename().string(), resolution_,
-                          d.a.noBackground,
+      dialogs_.askPicture(freeName(stem, ".png"), resolution_, d.a.noBackground,
                           [this](const std::string& path, glm::ivec2 size, bool transparent) {
                             savePictureTo(path, size, transparent, false);
                           });
@@ -202,6 +227,12 @@ void App::execute(Action command) {
     case Action::clipped:
       overlay(Overlay::clipped);
       break;
+    case Action::lightHandles:
+      session_.lightHandles = !session_.lightHandles;
+      break;
+    case Action::outline:
+      overlay(Overlay::outline);
+      break;
     default:  // those of the camera
       break;
   }
@@ -209,6 +240,7 @@ void App::execute(Action command) {
 
 void App::executeCamera(Action command) {
   Document& d = session_.document;
+  if (framesAnew(command)) pivot_.reset();
   switch (command) {
     case Action::front:
       setView(d.a, StandardView::front);
@@ -247,6 +279,42 @@ void App::executeCamera(Action command) {
       break;
     case Action::resetCamera:
       resetCamera(d.a);
+      break;
+    case Action::turnLeft:
+      moveCamera([&](const Pose& p) { return orbited(p, -turnStep, 0, pivot_); });
+      break;
+    case Action::turnRight:
+      moveCamera([&](const Pose& p) { return orbited(p, turnStep, 0, pivot_); });
+      break;
+    case Action::turnUp:
+      moveCamera([&](const Pose& p) { return orbited(p, 0, turnStep, pivot_); });
+      break;
+    case Action::turnDown:
+      moveCamera([&](const Pose& p) { return orbited(p, 0, -turnStep, pivot_); });
+      break;
+    case Action::shiftLeft:
+      moveCamera([&](const Pose& p) { return panned(p, shiftStep, 0); });
+      break;
+    case Action::shiftRight:
+      moveCamera([&](const Pose& p) { return panned(p, -shiftStep, 0); });
+      break;
+    case Action::shiftUp:
+      moveCamera([&](const Pose& p) { return panned(p, 0, shiftStep); });
+      break;
+    case Action::shiftDown:
+      moveCamera([&](const Pose& p) { return panned(p, 0, -shiftStep); });
+      break;
+    case Action::nearer:
+      dolly(glm::dvec2(resolution_) / 2.0, nearerStep);
+      break;
+    case Action::farther:
+      dolly(glm::dvec2(resolution_) / 2.0, 1 / nearerStep);
+      break;
+    case Action::rollLeft:
+      moveCamera([&](const Pose& p) { return rolled(p, turnStep); });
+      break;
+    case Action::rollRight:
+      moveCamera([&](const Pose& p) { return rolled(p, -turnStep); });
       break;
     case Action::nextCamera:
       if (session_.model && !session_.model->scene.cameras.empty()) {

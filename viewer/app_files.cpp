@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cctype>
 #include <ctime>
 
 #include "app.h"
+#include "effects.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
@@ -55,6 +57,7 @@ void App::finishLoading() {
     requested_.reset();
     failed_.reset();
     probe_.reset();
+    pivot_.reset();
     screenStale_ = probeStale_ = true;
     const std::size_t warnings = session_.log.size() - before;
     session_.say("read " + session_.model->path.string() +
@@ -105,7 +108,20 @@ bool App::watch() {
   if (session_.model && !loading_.valid()) {
     const FileState now = stateOf(session_.model->path);
     // A file that is gone is being replaced; it is read when it is back.
-    if (now != modelState_ && now != FileState{}) load(session_.model->path);
+    if (now != modelState_ && now != FileState{}) {
+      load(session_.model->path);
+      missingSince_.reset();
+    } else if (now != FileState{}) {
+      missingSince_.reset();
+    } else if (!missingSince_) {
+      missingSince_ = Clock::now();
+    } else if (!toldMissing_ && seconds(Clock::now() - *missingSince_) > 2) {
+      toldMissing_ = tried = true;
+      session_.fail(session_.model->path.string() +
+                    " is no longer there: what is shown stays; save the model under a name to keep "
+                    "it");
+    }
+    if (!missingSince_) toldMissing_ = false;
   }
   if (!session_.lookPath.empty()) {
     const FileState now = stateOf(session_.lookPath);
@@ -135,8 +151,35 @@ bool App::watch() {
   return tried;
 }
 
+// In lower case: cameras and other systems write .HDR.
+std::string App::endingOf(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+void App::openEnvironment(const std::string& path) {
+  Look& look = session_.document.a;
+  look.hdriFile = path;
+  const std::string reason =
+      withoutEffect(look, session_.model ? &session_.model->scene : nullptr, "hdri-file");
+  session_.say("the environment is " + path + (reason.empty() ? "" : "; " + reason));
+}
+
+void App::openMeasured(const std::string& path) {
+  attempt([&] {
+    session_.measured = std::make_shared<const MeasuredMaterial>(path);
+    options_.settings.panel = true;
+    session_.wantedTab = 0;
+    session_.say("read " + path + ": its plot stands below the material");
+  });
+}
+
 void App::open(const std::string& path) {
   const fs::path file(path);
+  const std::string ending = endingOf(file);
+  if (ending == ".hdr" || ending == ".exr") return openEnvironment(path);
+  if (ending == ".binary") return openMeasured(path);
   if (file.extension() == ".json" || file.extension() == ".look") {
     attempt([&] {
       Look look;
@@ -171,6 +214,8 @@ void App::saveLookTo(const std::string& path, bool sure, std::function<void()> t
 }
 
 void App::saveModelTo(const std::string& path, bool sure) {
+  // What it was allowed to replace once it may write again.
+  sure = sure || mayReplace_.contains(fs::weakly_canonical(path));
   if (!sure && fs::exists(path)) {
     dialogs_.ask("Replace?",
                  path + " exists. Write the materials into it? Everything else in it stays.",
@@ -180,6 +225,7 @@ void App::saveModelTo(const std::string& path, bool sure) {
   attempt([&] {
     session_.saveModel(path);
     modelState_ = stateOf(session_.model->path);
+    mayReplace_.insert(fs::weakly_canonical(path));
   });
 }
 
@@ -204,22 +250,30 @@ void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transpare
   });
 }
 
+// Beside the model, as it was given.
+std::string App::freeName(const std::string& stem, const std::string& ending) const {
+  const fs::path folder = session_.model ? session_.model->path.parent_path() : fs::path();
+  const fs::path name = nextFreeName(folder.empty() ? "." : folder, stem, ending).filename();
+  return (folder / name).string();
+}
+
 void App::quit() {
   if (!session_.unsaved()) {
     quitting_ = true;
     return;
   }
   std::vector<Dialogs::Answer> answers;
-  answers.push_back(
-      {"Save the look", [this] {
-         const auto quitNow = [this] { quitting_ = !session_.unsaved(); };
-         if (!session_.lookPath.empty())
-           return saveLookTo(session_.lookPath.string(), true, quitNow);
-         const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
-         dialogs_.askPath(
-             "Save the look as", nextFreeName(".", stem, ".json").filename(), false,
-             [this, quitNow](const std::string& path) { saveLookTo(path, false, quitNow); });
-       }});
+  answers.push_back({"Save the look", [this] {
+                       const auto quitNow = [this] { quitting_ = !session_.unsaved(); };
+                       if (!session_.lookPath.empty())
+                         return saveLookTo(session_.lookPath.string(), true, quitNow);
+                       const std::string stem =
+                           session_.model ? session_.model->path.stem().string() : "glint";
+                       dialogs_.askPath("Save the look as", freeName(stem, ".json"), false,
+                                        [this, quitNow](const std::string& path) {
+                                          saveLookTo(path, false, quitNow);
+                                        });
+                     }});
   if (session_.model) {
     Look rest = session_.document.a;
     rest.material = session_.saved.material;

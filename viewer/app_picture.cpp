@@ -22,6 +22,17 @@ CodePicture codesOf(const DrawnPicture& picture) {
 
 }  // namespace
 
+// Whether the pixel under the cursor shows B. A look in another pose of the model has no surfaces
+// here to be asked.
+bool App::probesB(const Document& document) const {
+  if (!cursor_ || !comparesLooks(document) ||
+      !samePose(glint::poseOf(document.a), glint::poseOf(*document.b)))
+    return false;
+  return document.compare == CompareMode::blink ||
+         (document.compare == CompareMode::split &&
+          cursor_->x >= std::lround(document.divider * resolution_.x));
+}
+
 // What the window wants to show now.
 PaintRequest App::wanted(bool& moving) {
   const auto now = Clock::now();
@@ -50,10 +61,14 @@ PaintRequest App::wanted(bool& moving) {
     if (want.preview) want.b->antiAliasing = want.a.antiAliasing;
   }
   want.overlay = session_.overlay;
+  want.outlined = want.overlay == Overlay::outline ? session_.material : -1;
   // Once the picture itself is there.
-  if (probeShown_ && isWhole && want.a.antiAliasing.mode != AntiAliasing::Mode::none) {
-    want.plain = want.a;
-    want.plain->antiAliasing = {AntiAliasing::Mode::none, 1};
+  if (probeShown_ && isWhole) {
+    const Look& probed = probesB(document) && want.b ? *want.b : want.a;
+    if (probed.antiAliasing.mode != AntiAliasing::Mode::none) {
+      want.plain = probed;
+      want.plain->antiAliasing = {AntiAliasing::Mode::none, 1};
+    }
   }
   return want;
 }
@@ -168,7 +183,8 @@ void App::updateProbe() {
   probe_.reset();
   if (!cursor_ || shownResult_.request.preview) return;
   attempt([&] {
-    const DrawnPicture& a = *shownResult_.a;
+    const bool isB = shownResult_.b && probesB(session_.document);
+    const DrawnPicture& a = isB ? *shownResult_.b : *shownResult_.a;
     const Model& model = *session_.model;
     const glm::ivec2 at =
         glm::clamp(glm::ivec2(glm::floor(*cursor_)), glm::ivec2(0), a.look.resolution - 1);
@@ -181,9 +197,18 @@ void App::updateProbe() {
       return;
     }
     const Image* plain = shownResult_.plain ? &shownResult_.plain->linear : nullptr;
+    Look withoutSamples = a.asked;
+    withoutSamples.antiAliasing = {AntiAliasing::Mode::none, 1};
+    if (plain && shownResult_.plain->asked != withoutSamples) plain = nullptr;  // of the other side
     if (a.look.antiAliasing.mode == AntiAliasing::Mode::none) plain = &a.linear;
     probe_ = probePixel({model.scene, *model.images, model.bounds, *model.picker, a.list}, a.look,
                         a.linear, plain, at);
+    probe_->side = isB ? 'B' : 'A';
+    if (const DrawnPicture* other = isB ? shownResult_.a.get() : shownResult_.b.get();
+        other && comparesLooks(session_.document) && other->look.resolution == a.look.resolution) {
+      const float* rgba = other->linear.row(at.y) + std::size_t(4) * std::size_t(at.x);
+      probe_->other = glm::vec3(rgba[0], rgba[1], rgba[2]);
+    }
     if (probe_->hit) session_.hovered = probe_->hit->material;
   });
 }
@@ -194,7 +219,9 @@ void App::present() {
   glDisable(GL_SCISSOR_TEST);
   glClearColor(0.1f, 0.1f, 0.1f, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  if (shownResult_.a) screen_.show(0, 0, resolution_.x, resolution_.y, framebuffer_.y);
+  if (shownResult_.a)
+    screen_.show(0, int(std::lround(double(menuHeight_) * ratio_)), resolution_.x, resolution_.y,
+                 framebuffer_.y);
   checkGl("window");
 }
 

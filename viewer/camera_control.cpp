@@ -79,7 +79,7 @@ void setPose(Look& look, const Pose& pose) {
   if (pose.viewAngle != 30 || look.cameraViewAngle) look.cameraViewAngle = pose.viewAngle;
 }
 
-Pose orbited(const Pose& pose, double right, double upwards) {
+Pose orbited(const Pose& pose, double right, double upwards, std::optional<glm::dvec3> pivot) {
   Pose moved = pose;
   const Axes axes = axesOf(pose);
   const glm::dvec3 up = glm::normalize(pose.up);
@@ -90,7 +90,18 @@ Pose orbited(const Pose& pose, double right, double upwards) {
   const double limit = 0.5 * radians;
   const double wanted = std::clamp(now - upwards * radians, limit, std::numbers::pi - limit);
   back = turned(back, side, wanted - now);
-  moved.position = pose.focalPoint + glm::normalize(back) * axes.distance;
+  if (!pivot) {
+    moved.position = pose.focalPoint + glm::normalize(back) * axes.distance;
+    return moved;
+  }
+  // The camera's axes turn from (right, up, back) to these; so does what stands about the pivot.
+  const glm::dmat3 was(axes.right, axes.up, axes.back);
+  const glm::dmat3 is(side, glm::cross(back, side), back);
+  const auto carried = [&](const glm::dvec3& p) {
+    return *pivot + is * (glm::transpose(was) * (p - *pivot));
+  };
+  moved.focalPoint = carried(pose.focalPoint);
+  moved.position = moved.focalPoint + glm::normalize(back) * axes.distance;
   return moved;
 }
 
@@ -104,11 +115,16 @@ Pose panned(const Pose& pose, double right, double down) {
   return moved;
 }
 
-Pose dollied(const Pose& pose, double factor, glm::dvec2 cursor) {
+glm::dvec3 focalPlanePoint(const Pose& pose, glm::dvec2 cursor) {
   const Axes axes = axesOf(pose);
   const double half = axes.distance * std::tan(pose.viewAngle * radians / 2);
+  return pose.focalPoint + (axes.right * cursor.x + axes.up * cursor.y) * half;
+}
+
+Pose dollied(const Pose& pose, double factor, const glm::dvec3& point) {
+  const Axes axes = axesOf(pose);
   Pose moved = pose;
-  moved.focalPoint += (axes.right * cursor.x + axes.up * cursor.y) * (half * (1 - factor));
+  moved.focalPoint = point + (pose.focalPoint - point) * factor;
   moved.position = moved.focalPoint + axes.back * (axes.distance * factor);
   return moved;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "glint/scene/camera.h"
 #include "glint/scene/look.h"
@@ -21,18 +22,21 @@ Pose poseOf(const Scene&, const Bounds&, const Look&);
 /// Puts a pose into a look, in place of everything else that it says about the camera.
 void setPose(Look&, const Pose&);
 
-/// Turns about the focal point: to the right about `up`, then upwards; degrees. Stops half a degree
-/// short of looking along `up`.
-Pose orbited(const Pose&, double right, double upwards);
+/// Turns about the focal point, or about `pivot`, which then stays where it is in the picture: to
+/// the right about `up`, then upwards; degrees. Stops half a degree short of looking along `up`.
+Pose orbited(const Pose&, double right, double upwards, std::optional<glm::dvec3> pivot = {});
 
 /// Moves the camera with what it looks at, so that the focal plane follows a hand that moves by
 /// (right, down) as shares of the picture's height.
 Pose panned(const Pose&, double right, double down);
 
-/// Changes the distance to the focal plane by a factor. The point of the focal plane under the
-/// cursor stays where it is; the cursor is in units of half the picture's height from its centre,
-/// x to the right, y upwards.
-Pose dollied(const Pose&, double factor, glm::dvec2 cursor);
+/// The point of the focal plane under a cursor; the cursor is in units of half the picture's height
+/// from its centre, x to the right, y upwards.
+glm::dvec3 focalPlanePoint(const Pose&, glm::dvec2 cursor);
+
+/// Changes the distance to a point by a factor above 0. The point stays where it is in the picture
+/// and is never passed.
+Pose dollied(const Pose&, double factor, const glm::dvec3& point);
 
 /// Turns the camera about the way it looks; degrees, counter-clockwise as the picture is seen.
 Pose rolled(const Pose&, double angle);

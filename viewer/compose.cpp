@@ -62,7 +62,10 @@ CompareNumbers compareNumbers(const CodePicture& a, const CodePicture& b) {
       here = std::max(here, d);
       sum += std::uint64_t(d);
     }
-    numbers.largest = std::max(numbers.largest, here);
+    if (here > numbers.largest) {
+      numbers.largest = here;
+      numbers.where = {int(p % std::size_t(a.width)), int(p / std::size_t(a.width))};
+    }
     numbers.pixels += here > 0;
   }
   numbers.mean = double(sum) / (3.0 * double(pixels));

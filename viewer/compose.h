@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "document.h"
@@ -16,6 +17,7 @@ struct CodePicture {
 
 struct CompareNumbers {
   int largest = 0;         ///< 8-bit levels
+  glm::ivec2 where{0};     ///< a pixel of the largest
   double mean = 0;         ///< over all pixels and channels
   std::size_t pixels = 0;  ///< that differ
 };

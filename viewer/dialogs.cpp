@@ -4,12 +4,26 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
+#include "theme.h"
+#include "widgets.h"
 namespace glint::viewer {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool isOpened(std::string ending) {
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  static const char* const all[] = {".glb", ".gltf", ".json", ".look", ".hdr", ".exr", ".binary"};
+  return std::ranges::find(all, ending) != std::end(all);
+}
+
+}  // namespace
 
 void Dialogs::askPath(std::string title, std::string path, bool existing, PathAction action) {
   kind_ = Kind::path;
@@ -74,8 +88,8 @@ void Dialogs::drawPath(bool escape) {
   ImGui::SetNextItemWidth(width);
   const bool entered = ImGui::InputText(
       "##path", &text_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  if (existing_) drawFiles(width);
-  const int chosen = drawButtons(existing_ ? "Open" : "Save", entered, escape);
+  const bool picked = existing_ && drawFiles(width);
+  const int chosen = drawButtons(existing_ ? "Open" : "Save", entered || picked, escape);
   std::error_code error;
   if (chosen > 0 && !text_.empty() && !fs::is_directory(text_, error)) {
     const PathAction action = std::move(pathAction_);
@@ -87,7 +101,7 @@ void Dialogs::drawPath(bool escape) {
   }
 }
 
-void Dialogs::drawFiles(float width) {
+bool Dialogs::drawFiles(float width) {
   std::error_code error;
   const fs::path typed(text_);
   const fs::path folder = fs::is_directory(typed, error) ? typed
@@ -101,24 +115,32 @@ void Dialogs::drawFiles(float width) {
       std::error_code ignored;
       if (each.is_directory(ignored))
         listed_.push_back(each.path().filename().string() + "/");
-      else if (ending == ".glb" || ending == ".gltf" || ending == ".json")
+      else if (isOpened(ending))
         listed_.push_back(each.path().filename().string());
     }
     std::sort(listed_.begin(), listed_.end());
     if (folder.has_parent_path() || folder == ".") listed_.insert(listed_.begin(), "../");
   }
-  if (ImGui::BeginListBox("##files", ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * 12))) {
-    for (const std::string& name : listed_)
-      if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
-        fs::path chosen = fs::path(listedFolder_) / name;
-        if (name.back() == '/') {
-          text_ = fs::weakly_canonical(chosen, error).string() + "/";
-        } else {
-          text_ = chosen.lexically_normal().string();
-        }
+  bool picked = false;
+  const float lines = std::clamp(
+      ImGui::GetIO().DisplaySize.y / ImGui::GetTextLineHeightWithSpacing() - 12, 4.0f, 12.0f);
+  if (ImGui::BeginListBox("##files",
+                          ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * lines))) {
+    if (listed_.empty()) ImGui::TextDisabled("nothing here that can be opened");
+    for (const std::string& name : listed_) {
+      const fs::path chosen = fs::path(listedFolder_) / name;
+      const bool now = text_ == chosen.lexically_normal().string();
+      if (ImGui::Selectable(
+              name.c_str(), now,
+              ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowDoubleClick)) {
+        text_ = name.back() == '/' ? fs::weakly_canonical(chosen, error).string() + "/"
+                                   : chosen.lexically_normal().string();
+        picked = name.back() != '/' && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
       }
+    }
     ImGui::EndListBox();
   }
+  return picked;
 }
 
 int Dialogs::drawButtons(const char* text, bool entered, bool escape) {
@@ -145,7 +167,7 @@ void Dialogs::drawPicture(bool enter, bool escape) {
   if (ImGui::SmallButton("x 4")) size_ = windowSize_ * 4;
   ImGui::Checkbox("transparent background", &transparent_);
   const bool possible = size_.x >= 1 && size_.y >= 1 && size_.x <= 32768 && size_.y <= 32768;
-  if (!possible) ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "from 1 to 32768 pixels");
+  if (!possible) ImGui::TextColored(widgets::colorOf(theme::error), "from 1 to 32768 pixels");
   const int chosen = drawButtons("Save", enter, escape);
   if (chosen > 0 && possible && !text_.empty()) {
     const PictureAction action = std::move(pictureAction_);
@@ -159,19 +181,26 @@ void Dialogs::drawPicture(bool enter, bool escape) {
   }
 }
 
+// Enter at the keyboard's ring presses what is there.
+bool Dialogs::pressedAtRing(bool enter) {
+  return enter && ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
+}
+
 void Dialogs::drawQuestion(bool enter, bool escape) {
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
   ImGui::TextUnformatted(text_.c_str());
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   int chosen = -1;
-  if (enter) chosen = 0;
+  if (enter && !ImGui::GetIO().NavVisible) chosen = 0;
   if (escape) chosen = int(answers_.size()) - 1;
   for (std::size_t i = 0; i < answers_.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     const float least = ImGui::GetFontSize() * 6;
     const float fits = ImGui::CalcTextSize(answers_[i].text.c_str()).x + ImGui::GetFontSize();
-    if (ImGui::Button(answers_[i].text.c_str(), ImVec2(std::max(least, fits), 0))) chosen = int(i);
+    if (ImGui::Button(answers_[i].text.c_str(), ImVec2(std::max(least, fits), 0)) ||
+        pressedAtRing(enter))
+      chosen = int(i);
   }
   if (chosen < 0) return;
   const auto action = answers_[std::size_t(chosen)].action;

@@ -37,7 +37,9 @@ class Dialogs {
   void close();
   void drawPath(bool escape);
   void drawPicture(bool enter, bool escape);
-  void drawFiles(float width);
+  /// True if a file was double-clicked.
+  bool drawFiles(float width);
+  static bool pressedAtRing(bool enter);
   /// The buttons at the end: 1 to go on, -1 to give up, else 0.
   int drawButtons(const char* text, bool entered, bool escape);
   void drawQuestion(bool enter, bool escape);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
@@ -87,6 +88,19 @@ void editLights(Session& session, Action command, const glm::dmat3& axes) {
   std::vector<Light> lights = shownLights(scene, look);
   const std::size_t count = lights.size();
   session.light = std::min(session.light, count > 0 ? count - 1 : 0);
+  if (command == Action::switchLight || command == Action::soloLight) {
+    if (count == 0) return session.say("there is no light");
+    const bool solo = command == Action::soloLight;
+    (solo ? soloLight : switchLight)(lights, session.light, session.lightsOff);
+    const bool on = lights[session.light].intensity != glm::dvec3(0.0);
+    const std::string became = setLights(look, scene, bounds, std::move(lights));
+    return session.say("light " + std::to_string(session.light + 1) +
+                       (solo ? ": alone, or all"
+                        : on ? ": on"
+                             : ": off") +
+                       (became.empty() ? "" : "; " + became));
+  }
+  if (command != Action::nextLight) session.lightsOff.clear();  // their places change
   if (command == Action::addLight) {
     if (count >= maxLights) return session.say("no more lights than these are possible");
     Light sun;
@@ -130,6 +144,24 @@ void nextAnimation(Session& session) {
   session.say("animation " + look.animation + " " + all[next].name);
 }
 
+void fitToMeasured(Session& session) {
+  if (!session.model || !session.measured) {
+    session.say("open a measured material (MERL .binary) first: Ctrl+O");
+    return;
+  }
+  Look& look = session.document.a;
+  const Scene& scene = session.model->scene;
+  const ShadingParameters s = effectiveParameters(scene, look, session.material);
+  const FitForm form{usesBlinn(look.shading), look.blinnFactor};
+  const ShadingParameters nearest = fitted(*session.measured, form, s);
+  setParameters(look, materialKey(scene, session.material), nearest);
+  const FitError error = errorOf(*session.measured, nearest, form);
+  char text[120];
+  std::snprintf(text, sizeof text, "exponent %.4g, %.3g RMSE: %.3g %% of what was measured",
+                nearest.exponent, error.rmse, 100 * error.relative);
+  session.say(materialLabel(scene, session.material) + ": " + text);
+}
+
 bool editMaterial(Session& session, Action command) {
   Look& look = session.document.a;
   switch (command) {
@@ -148,6 +180,9 @@ bool editMaterial(Session& session, Action command) {
     case Action::resetMaterial:
       resetMaterial(look, materialKey(session.model->scene, session.material));
       session.say(materialLabel(session.model->scene, session.material) + " as in the file");
+      return true;
+    case Action::fitMeasured:
+      fitToMeasured(session);
       return true;
     default:
       return false;
@@ -213,10 +248,13 @@ bool edit(Session& session, Action command, const glm::dmat3& axes) {
     case Action::nextLight:
     case Action::addLight:
     case Action::removeLight:
+    case Action::switchLight:
+    case Action::soloLight:
       editLights(session, command, axes);
       return true;
     case Action::defaultLights:
       look.light.reset();
+      session.lightsOff.clear();
       look.noLights = false;
       session.say("the lights that stand without any of your own");
       return true;

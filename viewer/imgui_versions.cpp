@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -130,6 +131,38 @@ void setFocus(bool gained) {
 }
 
 #endif
+
+namespace {
+
+bool pressed(ImGuiKey key) {
+#if IMGUI_VERSION_NUM >= 18700
+  return ImGui::IsKeyPressed(key, false);
+#else
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+#endif
+}
+
+}  // namespace
+
+bool enterPressed() { return pressed(ImGuiKey_Enter) || pressed(keypadEnter); }
+bool backspacePressed() { return pressed(ImGuiKey_Backspace); }
+
+void beginFlattened(const char* name) {
+#if IMGUI_VERSION_NUM >= 19090
+  ImGui::BeginChild(name, ImVec2(0, 0), ImGuiChildFlags_NavFlattened);
+#else
+  ImGui::BeginChild(name, ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
+#endif
+}
+
+void image(unsigned texture, float width, float height) {
+#if IMGUI_VERSION_NUM >= 19140
+  ImGui::Image(ImTextureID(texture), ImVec2(width, height));
+#else
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): GL's names, as ImGui's own part for GL takes them
+  ImGui::Image(reinterpret_cast<ImTextureID>(std::intptr_t(texture)), ImVec2(width, height));
+#endif
+}
 
 // From 1.92 on letters are drawn as they are needed, at any size.
 #if IMGUI_VERSION_NUM >= 19200

@@ -13,8 +13,18 @@ void scroll(float x, float y);
 /// A key of GLFW's; those that no widget asks for are passed over.
 void setKey(int key, bool down);
 void setModifiers(bool control, bool shift, bool alt);
+/// Whether the key went down since the last frame; while a widget has it.
+bool enterPressed();
+bool backspacePressed();
 /// The window has gained or lost the focus; with it all keys and buttons are let go.
 void setFocus(bool gained);
+
+/// A child window over what is left, into which the keyboard's ring goes as into the window itself.
+/// Ends with ImGui::EndChild().
+void beginFlattened(const char* name);
+
+/// A picture of GL's name `texture`.
+void image(unsigned texture, float width, float height);
 
 /// The fonts have been added.
 void buildFonts();

@@ -18,6 +18,9 @@ struct InputEvent {
   bool repeated = false;  ///< key
   int modifiers = 0;      ///< GLFW's
   std::string path;       ///< drop
+  /// key: a widget takes it, not the table of actions; see App::isForWidgets.
+  bool forWidgets = true;
+  bool presses = false;  ///< key: Enter, where it does what Space does
 };
 
 /// What the window system reported, in order. ImGui 1.86 has no queue of its own: given all at

@@ -10,6 +10,7 @@
 
 #include "glint/gl/context.h"
 #include "imgui_versions.h"
+#include "theme.h"
 #include "widgets.h"
 
 namespace glint::viewer {
@@ -48,27 +49,32 @@ void chooseColors() {
   s.ItemSpacing = ImVec2(6, 5);
   s.WindowPadding = ImVec2(10, 8);
   s.ScrollbarSize = 12;
-  const auto grey = [](float v, float a = 1) { return ImVec4(v, v, v * 1.04f, a); };
-  const ImVec4 accent(0.26f, 0.48f, 0.80f, 1.0f), bright(0.34f, 0.58f, 0.92f, 1.0f);
-  s.Colors[ImGuiCol_WindowBg] = grey(0.13f);
-  s.Colors[ImGuiCol_PopupBg] = grey(0.16f, 0.99f);
-  s.Colors[ImGuiCol_FrameBg] = grey(0.20f);
-  s.Colors[ImGuiCol_FrameBgHovered] = grey(0.26f);
-  s.Colors[ImGuiCol_FrameBgActive] = grey(0.30f);
-  s.Colors[ImGuiCol_Button] = grey(0.25f);
-  s.Colors[ImGuiCol_ButtonHovered] = grey(0.33f);
-  s.Colors[ImGuiCol_ButtonActive] = accent;
-  s.Colors[ImGuiCol_SliderGrab] = accent;
-  s.Colors[ImGuiCol_SliderGrabActive] = bright;
-  s.Colors[ImGuiCol_CheckMark] = bright;
-  s.Colors[ImGuiCol_Header] = grey(0.24f);
-  s.Colors[ImGuiCol_HeaderHovered] = grey(0.31f);
-  s.Colors[ImGuiCol_HeaderActive] = accent;
-  s.Colors[ImGuiCol_Tab] = grey(0.18f);
-  s.Colors[ImGuiCol_TabHovered] = bright;
-  s.Colors[ImGuiCol_TabActive] = accent;
-  s.Colors[ImGuiCol_TitleBgActive] = grey(0.20f);
-  s.Colors[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.45f);
+  const auto set = [&](ImGuiCol which, const glm::dvec3& c, float alpha = 1) {
+    s.Colors[which] = ImVec4(float(c.r), float(c.g), float(c.b), alpha);
+  };
+  set(ImGuiCol_Text, theme::text);
+  set(ImGuiCol_TextDisabled, theme::dim);
+  set(ImGuiCol_WindowBg, theme::window);
+  set(ImGuiCol_PopupBg, theme::popup);
+  set(ImGuiCol_MenuBarBg, theme::menu);
+  set(ImGuiCol_FrameBg, theme::frame);
+  set(ImGuiCol_FrameBgHovered, theme::frameHovered);
+  set(ImGuiCol_FrameBgActive, theme::frameActive);
+  set(ImGuiCol_Button, theme::button);
+  set(ImGuiCol_ButtonHovered, theme::buttonHovered);
+  set(ImGuiCol_ButtonActive, theme::accent);
+  set(ImGuiCol_SliderGrab, theme::accent);
+  set(ImGuiCol_SliderGrabActive, theme::mark);
+  set(ImGuiCol_CheckMark, theme::mark);
+  set(ImGuiCol_Header, theme::header);
+  set(ImGuiCol_HeaderHovered, theme::headerHovered);
+  set(ImGuiCol_HeaderActive, theme::accent);
+  set(ImGuiCol_Tab, theme::frame);
+  set(ImGuiCol_TabHovered, theme::bright);
+  set(ImGuiCol_TabActive, theme::accent);
+  set(ImGuiCol_TitleBgActive, theme::frame);
+  set(ImGuiCol_NavHighlight, theme::hovered);
+  set(ImGuiCol_ModalWindowDimBg, glm::dvec3(0.0), 0.45f);
 }
 
 const char* getClipboard(void* window) {
@@ -90,6 +96,7 @@ Interface::Interface(Window& window, double scale) : window_(window) {
   io.IniFilename = nullptr;
   io.BackendPlatformName = "glint";
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   imgui::setClipboard(getClipboard, setClipboard, &window);
   imgui::beginInput();
   chooseColors();
@@ -125,7 +132,9 @@ void Interface::feed(const std::deque<InputEvent>& events) {
         break;
       case Kind::key:
         if (e.code >= 0 && std::size_t(e.code) < held_.size()) held_[std::size_t(e.code)] = e.down;
-        imgui::setKey(e.code, e.down);
+        if (e.forWidgets || !e.down) imgui::setKey(e.presses ? GLFW_KEY_SPACE : e.code, e.down);
+        if (!e.down && (e.code == GLFW_KEY_ENTER || e.code == GLFW_KEY_KP_ENTER))
+          imgui::setKey(GLFW_KEY_SPACE, false);
         break;
       case Kind::character:
         ImGui::GetIO().AddInputCharacter(unsigned(e.code));

@@ -17,7 +17,7 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  /// Hands events over to the next frame.
+  /// Hands events over to the next frame, but for keys that are not for widgets.
   void feed(const std::deque<InputEvent>& events);
   /// Begins a frame; `seconds` since the last one.
   void begin(double seconds);

@@ -94,6 +94,28 @@ void changeType(Light& light, Light::Type type, const Bounds& bounds, const glm:
   }
 }
 
+void switchLight(std::vector<Light>& lights, std::size_t i, SwitchedOff& off) {
+  Light& light = lights[i];
+  const glm::dvec3 dark(0.0);
+  if (light.intensity != dark) {
+    off[i] = std::exchange(light.intensity, dark);
+    return;
+  }
+  const auto found = off.find(i);
+  light.intensity = found == off.end() ? glm::dvec3(1.0) : found->second;
+  off.erase(i);
+}
+
+void soloLight(std::vector<Light>& lights, std::size_t i, SwitchedOff& off) {
+  const auto isOn = [](const Light& light) { return light.intensity != glm::dvec3(0.0); };
+  bool alone = isOn(lights[i]);
+  for (std::size_t k = 0; k < lights.size(); ++k) alone = alone && (k == i || !isOn(lights[k]));
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const bool on = alone ? isOn(lights[k]) || off.contains(k) : k == i;
+    if (on != isOn(lights[k])) switchLight(lights, k, off);
+  }
+}
+
 Light anotherLight(const Light& from, const Bounds& bounds, const glm::dmat3& axes) {
   Light light = from;
   if (light.type == Light::Type::directional || light.type == Light::Type::camera) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ void changeType(Light&, Light::Type, const Bounds&, const glm::dmat3& axes);
 
 /// Makes a point or spot fall off with distance, or not: its light at the model's centre stays.
 void setFallOff(Light&, bool, const Bounds&);
+
+/// Lights that are switched off have the intensity 0 in the look; what they had, by their places.
+using SwitchedOff = std::map<std::size_t, glm::dvec3>;
+
+/// Switches a light off, or on again: with intensity 1 where what it had is not known.
+void switchLight(std::vector<Light>&, std::size_t light, SwitchedOff&);
+
+/// Leaves a light alone on, or, if it is, switches all that were off on again.
+void soloLight(std::vector<Light>&, std::size_t light, SwitchedOff&);
 
 /// One light more, mirrored from this one.
 Light anotherLight(const Light&, const Bounds&, const glm::dmat3& axes);

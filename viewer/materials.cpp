@@ -1,6 +1,7 @@
 #include "materials.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -40,6 +41,27 @@ Material effectiveMaterial(const Scene& scene, const Look& look, int index) {
 
 ShadingParameters effectiveParameters(const Scene& scene, const Look& look, int index) {
   return effectiveMaterial(scene, look, index).shading;
+}
+
+ValueSpread spreadOf(const Scene& scene, const Look& look, const MaterialParameter& p) {
+  ValueSpread spread{std::numeric_limits<double>::infinity(),
+                     -std::numeric_limits<double>::infinity()};
+  for (const int index : drawnMaterials(scene)) {
+    const double value = effectiveParameters(scene, look, index).*p.value;
+    spread.least = std::min(spread.least, value);
+    spread.most = std::max(spread.most, value);
+  }
+  return spread;
+}
+
+bool haveOneColor(const Scene& scene, const Look& look) {
+  std::optional<glm::dvec3> first;
+  for (const int index : drawnMaterials(scene)) {
+    const glm::dvec3 color = effectiveParameters(scene, look, index).color;
+    if (first && *first != color) return false;
+    first = color;
+  }
+  return true;
 }
 
 void setParameters(Look& look, const std::string& key, const ShadingParameters& values) {

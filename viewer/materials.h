@@ -26,6 +26,15 @@ Material effectiveMaterial(const Scene&, const Look&, int index);
 /// they are not.
 ShadingParameters effectiveParameters(const Scene&, const Look&, int index);
 
+/// The smallest and the largest value of a parameter among the materials that are drawn.
+struct ValueSpread {
+  double least = 0, most = 0;
+  bool mixed() const { return least != most; }
+};
+ValueSpread spreadOf(const Scene&, const Look&, const MaterialParameter&);
+/// Whether all materials that are drawn have one colour.
+bool haveOneColor(const Scene&, const Look&);
+
 /// Sets all parameters of a material.
 void setParameters(Look&, const std::string& key, const ShadingParameters&);
 

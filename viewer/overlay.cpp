@@ -1,6 +1,7 @@
 #include "overlay.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "glint/gl/check.h"
@@ -21,13 +22,15 @@ void main() {
 )";
 
 constexpr const char* surfaceFragment = R"(#version 330 core
-uniform int mode;  // 1 edges, 2 normals, 3 facing
+uniform int mode;  // 1 edges, 2 normals, 3 facing, 4 what is outlined, 5 what hides it
 uniform float side;
 in vec3 worldNormal;
 out vec4 color;
 void main() {
   vec3 n = normalize(worldNormal + vec3(0.0, 0.0, 1e-20));
   if (mode == 1) color = vec4(1.0, 0.75, 0.2, 0.85);
+  else if (mode == 4) color = vec4(1.0);
+  else if (mode == 5) color = vec4(0.0);
   else if (mode == 2) color = vec4(n * 0.5 + 0.5, 1.0);
   else {
     vec3 base = (gl_FrontFacing ? 1.0 : -1.0) * side > 0.0 ? vec3(0.2, 0.45, 1.0) : vec3(1.0, 0.25, 0.2);
@@ -39,6 +42,37 @@ void main() {
 Program make(const char* name, const char* vertex, const char* fragment) {
   const ShaderSource sources[] = {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}};
   return Program(name, sources);
+}
+
+}  // namespace
+
+namespace {
+
+// What lies within two pixels of the rim of the marked pixels: bright, within a dark line.
+std::vector<std::uint8_t> outlineOf(const std::vector<std::uint8_t>& mask, glm::ivec2 size) {
+  std::vector<std::uint8_t> out(mask.size(), 0);
+  const auto marked = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < size.x && y < size.y &&
+           mask[std::size_t(4) * (std::size_t(size.x) * std::size_t(y) + std::size_t(x)) + 3] > 0;
+  };
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const bool here = marked(x, y);
+      int nearest = 3;
+      for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx)
+          if (marked(x + dx, y + dy) != here)
+            nearest = std::min(nearest, std::max(std::abs(dx), std::abs(dy)));
+      if (nearest > 2) continue;
+      std::uint8_t* p =
+          out.data() + std::size_t(4) * (std::size_t(size.x) * std::size_t(y) + std::size_t(x));
+      const bool bright = here || nearest == 1;
+      p[0] = bright ? 255 : 0;
+      p[1] = bright ? 190 : 0;
+      p[2] = bright ? 60 : 0;
+      p[3] = 255;
+    }
+  return out;
 }
 
 }  // namespace
@@ -64,7 +98,7 @@ void OverlayDrawer::resize(glm::ivec2 size) {
 }
 
 std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& list,
-                                              Overlay overlay, glm::ivec2 size) {
+                                              Overlay overlay, int outlined, glm::ivec2 size) {
   resize(size);
   const bool reversed = GLINT_GLAD_GL_ARB_clip_control != 0;
   const glm::mat4 clip(projection(list.camera, {0, 0}, {1, 1}, reversed));
@@ -81,7 +115,10 @@ std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& l
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   surface_.use();
-  const int mode = overlay == Overlay::wireframe ? 1 : overlay == Overlay::normals ? 2 : 3;
+  const int mode = overlay == Overlay::wireframe ? 1
+                   : overlay == Overlay::normals ? 2
+                   : overlay == Overlay::outline ? 4
+                                                 : 3;
   glUniform1i(surface_.uniform("mode"), mode);
   const glm::mat3 worldFromEye(list.camera.axes);
   const auto drawAll = [&] {
@@ -101,6 +138,8 @@ std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& l
       glUniformMatrix3fv(surface_.uniform("worldFromModelNormal"), 1, GL_FALSE,
                          glm::value_ptr(normals));
       glUniform1f(surface_.uniform("side"), 1.0f);
+      if (mode == 4)
+        glUniform1i(surface_.uniform("mode"), outlined < 0 || item.material == outlined ? 4 : 5);
       const auto& g = scene.geometry(item.mesh, item.variant.program == Shading::flat);
       glBindVertexArray(g.array.id());
       glDrawElements(g.mode, g.count, GL_UNSIGNED_INT, nullptr);
@@ -128,7 +167,7 @@ std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& l
   for (std::size_t y = 0; y < height; ++y)
     std::copy_n(bottomUp.data() + across * (height - 1 - y), across, layer.data() + across * y);
   checkGl("overlay");
-  return layer;
+  return mode == 4 ? outlineOf(layer, size) : layer;
 }
 
 }  // namespace glint::viewer

@@ -11,14 +11,16 @@
 
 namespace glint::viewer {
 
-/// Edges, normals and facing, to lie over the picture in the window; the picture itself stays as it
-/// is.
+/// Edges, normals, facing and outlines, to lie over the picture in the window; the picture itself
+/// stays as it is.
 class OverlayDrawer {
  public:
   OverlayDrawer();
 
   /// Draws what `list` drew, as `overlay` asks: RGBA with straight alpha, rows from the top.
-  std::vector<std::uint8_t> draw(GpuScene&, const DrawList& list, Overlay overlay, glm::ivec2 size);
+  /// `outlined` is the material of an outline, -1 all of them.
+  std::vector<std::uint8_t> draw(GpuScene&, const DrawList& list, Overlay overlay, int outlined,
+                                 glm::ivec2 size);
 
  private:
   void resize(glm::ivec2 size);

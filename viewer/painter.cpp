@@ -47,6 +47,7 @@ struct Painter::Objects {
   Layer layer;
   Look layerLook;
   Overlay layerKind = Overlay::none;
+  int layerMaterial = -1;
 };
 
 Painter::Painter(const Window& window, const std::filesystem::path& glsl,
@@ -135,14 +136,18 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
     }
     if (request.plain && !(result.plain = drawn(o.plain, *request.plain, o.first))) return;
     const bool laid = request.overlay == Overlay::wireframe ||
-                      request.overlay == Overlay::normals || request.overlay == Overlay::facing;
+                      request.overlay == Overlay::normals || request.overlay == Overlay::facing ||
+                      request.overlay == Overlay::outline;
     if (laid) {
-      if (!o.layer || o.layerKind != request.overlay || o.layerLook != request.a) {
+      if (!o.layer || o.layerKind != request.overlay || o.layerLook != request.a ||
+          o.layerMaterial != request.outlined) {
         if (!o.overlay) o.overlay = std::make_unique<OverlayDrawer>();
         o.layer = std::make_shared<const std::vector<std::uint8_t>>(
-            o.overlay->draw(*o.first.scene, result.a->list, request.overlay, request.a.resolution));
+            o.overlay->draw(*o.first.scene, result.a->list, request.overlay, request.outlined,
+                            request.a.resolution));
         o.layerKind = request.overlay;
         o.layerLook = request.a;
+        o.layerMaterial = request.outlined;
       }
       result.overlay = o.layer;
     }

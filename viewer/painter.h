@@ -24,6 +24,7 @@ struct PaintRequest {
   std::optional<Look> b;      ///< what A is compared with
   std::optional<Look> plain;  ///< A without anti-aliasing, for the probe
   Overlay overlay = Overlay::none;
+  int outlined = -1;  ///< the material whose outline the overlay shows; -1: all
   bool operator==(const PaintRequest&) const = default;
 };
 

@@ -8,8 +8,10 @@
 
 #include "camera_control.h"
 #include "edits.h"
+#include "effects.h"
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
+#include "imgui_versions.h"
 #include "materials.h"
 #include "presets.h"
 #include "widgets.h"
@@ -30,7 +32,7 @@ namespace {
 
 void drawParameter(Session& session, const Parameter& p) {
   try {
-    widgets::parameter(p, session.document.a);
+    widgets::parameter(p, session.document.a, session.model ? &session.model->scene : nullptr);
   } catch (const InputError& error) {
     session.fail(error.what());
   }
@@ -50,31 +52,12 @@ void drawSection(PanelContext& context, const std::string& section,
 
 namespace {
 
-void materialList(Session& session) {
-  static std::string filter;
+void materialList(PanelContext& context) {
+  Session& session = context.session;
   const Scene& scene = session.model->scene;
   const std::vector<int> drawn = drawnMaterials(scene);
-  static bool finding = false;
-  const bool begins = std::exchange(session.findWanted, false);
-  finding = finding || begins;
-  if (drawn.size() > 8 || finding || !filter.empty()) {
-    if (begins) ImGui::SetKeyboardFocusHere();
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##find", "find a material by name", &filter,
-                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
-      const auto first = std::ranges::find_if(drawn, [&](int index) {
-        return materialLabel(scene, index).find(filter) != std::string::npos;
-      });
-      if (first != drawn.end()) {
-        session.material = *first;
-        session.say("selected " + materialLabel(scene, *first));
-      } else {
-        session.say("no material has '" + filter + "' in its name");
-      }
-      filter.clear();
-    }
-    if (ImGui::IsItemDeactivated()) finding = false;
-  }
+  if (drawn.size() > 8)
+    actionButton(context, Action::findMaterial, "Find a material by name ...", -1);
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float lines = float(std::clamp<std::size_t>(drawn.size() + 1, 2, 6));
   if (!ImGui::BeginListBox("##materials", ImVec2(-1, line * lines + 4 * style().scale))) return;
@@ -82,7 +65,6 @@ void materialList(Session& session) {
       -1;  // the one selected when the list was drawn last: another one is scrolled to
   const auto entry = [&](int index) {
     const std::string name = materialLabel(scene, index);
-    if (!filter.empty() && index >= 0 && name.find(filter) == std::string::npos) return;
     const bool edited = session.document.a.material.contains(materialKey(scene, index));
     const std::string text = name + (edited ? "  (edited)" : "") + "##" + std::to_string(index);
     if (session.hovered == index)
@@ -105,25 +87,39 @@ void materialSliders(Session& session) {
   const auto found = look.material.find(key);
   const MaterialEdit edits = found == look.material.end() ? MaterialEdit{} : found->second;
 
-  widgets::label("color", edits.color.has_value());
+  const bool all = session.material < 0;
+  const bool oneColor = !all || haveOneColor(scene, look);
+  widgets::label(oneColor ? "color" : "color (mixed)", edits.color.has_value());
   glm::dvec3 color = values.color;
-  if (widgets::color("##color", color)) look.material[key].color = color;
-  if (widgets::doubleClicked()) resetColor(look, key);
-  widgets::tooltip("the material's colour, shown in sRGB (" + numberText(values.color.r) + ", " +
+  if (widgets::color("##color", color)) {
+    if (all)  // what single materials say would stand above it
+      for (auto& each : look.material) each.second.color.reset();
+    look.material[key].color = color;
+  }
+  if (widgets::resetAsked()) resetColor(look, key);
+  widgets::tooltip("the material's colour, in linear light (" + numberText(values.color.r) + ", " +
                    numberText(values.color.g) + ", " + numberText(values.color.b) +
-                   " in linear light); multiplies its texture\nsymbol C\nClick the square for a "
-                   "picker");
+                   "); multiplies its texture\nsymbol C\nThe square opens a "
+                   "picker; #c04020 may be typed - Double-click on its name: reset");
   for (const MaterialParameter& p : materialParameters()) {
     const std::string name(p.name);
+    const std::string reason = withoutEffect(look, &scene, name);
+    ImGui::BeginDisabled(!reason.empty());
     widgets::label(name, (edits.*p.edit).has_value());
     double value = values.*p.value;
-    if (widgets::slider(("##" + name).c_str(), value, p.slider, p.min, p.max)) {
+    char format[64] = "%.4g";
+    if (const ValueSpread spread = all ? spreadOf(scene, look, p) : ValueSpread{}; spread.mixed())
+      std::snprintf(format, sizeof format, "mixed: %.3g to %.3g", spread.least, spread.most);
+    if (widgets::slider(("##" + name).c_str(), value, p.slider, p.min, p.max, format)) {
       if (key.empty())  // what single materials say would stand above it
         for (auto& each : look.material) (each.second.*p.edit).reset();
       look.material[key].*p.edit = value;
     }
-    if (widgets::doubleClicked()) resetParameter(look, key, p);
-    widgets::tooltip(widgets::parameterTooltip(std::string(p.help), {}, {}, p.min, p.max));
+    if (widgets::resetAsked(true)) resetParameter(look, key, p);
+    ImGui::EndDisabled();
+    widgets::tooltip(!reason.empty()
+                         ? "without effect: " + reason + "\n" + std::string(p.help)
+                         : widgets::parameterTooltip(std::string(p.help), {}, {}, p.min, p.max));
   }
 }
 
@@ -216,12 +212,13 @@ void drawShadingTab(PanelContext& context) {
   }
   ImGui::Separator();
   if (!session.model) return;
-  materialList(session);
+  materialList(context);
   materialSliders(session);
   ImGui::BeginDisabled(look.maxError.has_value());
   materialForms(session);
   ImGui::EndDisabled();
   materialButtons(context);
+  drawTextures(context);
   ImGui::Separator();
   drawPlots(context);
 }
@@ -273,7 +270,8 @@ void drawCameraTab(PanelContext& context) {
       }
     }
     try {
-      widgets::parameter(p, session.document.a, shown);
+      widgets::parameter(p, session.document.a, session.model ? &session.model->scene : nullptr,
+                         shown);
     } catch (const InputError& error) {
       session.fail(error.what());
     }
@@ -373,7 +371,7 @@ void drawPanel(PanelContext& context) {
     const bool select = wanted == number++;
     if (select) wanted.reset();
     if (!ImGui::BeginTabItem(name, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0)) return;
-    ImGui::BeginChild("tab", ImVec2(0, 0));
+    imgui::beginFlattened("tab");
     draw(context);
     ImGui::EndChild();
     ImGui::EndTabItem();

@@ -8,6 +8,7 @@
 #include "probe.h"
 #include "session.h"
 #include "settings.h"
+#include "thumbnails.h"
 
 namespace glint::viewer {
 
@@ -21,6 +22,7 @@ struct PanelContext {
   const Probe* probe = nullptr;           ///< of the pixel under the cursor, or null
   bool* probeShown = nullptr;             ///< set where the panel shows it
   std::string comparison = {};            ///< how far A is from B or the reference
+  Thumbnails* thumbnails = nullptr;       ///< of textures
   double uiMilliseconds = 0;              ///< the last frame of the panel
   std::function<void(Action)> run = {};
   std::function<void(glm::ivec2)> resizePicture = {};
@@ -43,6 +45,12 @@ void drawChoice(PanelContext&);
 
 /// The plots of the selected material, below its sliders.
 void drawPlots(PanelContext&);
+
+/// The textures of the selected material, and what they drive.
+void drawTextures(PanelContext&);
+
+/// The measured material, if one is open, beside the selected one in this form.
+void drawMeasured(PanelContext&, const FitForm&);
 
 /// The parameters of a section of the table, but for those named, which have widgets of their own.
 void drawSection(PanelContext&, const std::string& section,

@@ -8,6 +8,7 @@
 #include "glint/budget/error_budget.h"
 #include "glint/scene/look_text.h"
 #include "panel.h"
+#include "theme.h"
 #include "widgets.h"
 
 namespace glint::viewer {
@@ -15,7 +16,7 @@ namespace {
 
 using widgets::style;
 
-const ImVec4 formColor(0.95f, 0.78f, 0.4f, 1), overColor(1, 0.45f, 0.4f, 1);
+const ImVec4 formColor = widgets::colorOf(theme::key), overColor = widgets::colorOf(theme::error);
 
 std::string number(double value) {
   char text[32];

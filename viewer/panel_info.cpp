@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "compose.h"
+#include "effects.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/lights.h"
 #include "glint/scene/look_text.h"
@@ -69,7 +69,10 @@ void surfaceRows(const Session& session, const Probe& probe) {
 }
 
 void probeRows(PanelContext& context, const Probe& probe) {
-  row("pixel", "%d, %d", probe.pixel.x, probe.pixel.y);
+  if (probe.other)
+    row("pixel", "%d, %d of look %c", probe.pixel.x, probe.pixel.y, probe.side);
+  else
+    row("pixel", "%d, %d", probe.pixel.x, probe.pixel.y);
   if (probe.hit)
     surfaceRows(context.session, probe);
   else
@@ -78,6 +81,11 @@ void probeRows(PanelContext& context, const Probe& probe) {
   row("shown", "%.6f  %.6f  %.6f", double(probe.shown.r), double(probe.shown.g),
       double(probe.shown.b));
   row("  as sRGB", "%d  %d  %d", probe.code[0], probe.code[1], probe.code[2]);
+  if (probe.other) {
+    const glm::dvec3 mine(probe.shown), other(*probe.other);
+    const glm::dvec3 d = probe.side == 'A' ? mine - other : other - mine;
+    row("A - B", "%+.6f  %+.6f  %+.6f", d.r, d.g, d.b);
+  }
   row("reference", "%.6f  %.6f  %.6f", probe.expected.r, probe.expected.g, probe.expected.b);
   row("  levels off", "%+d  %+d  %+d of 255", probe.code[0] - probe.expectedCode[0],
       probe.code[1] - probe.expectedCode[1], probe.code[2] - probe.expectedCode[2]);
@@ -165,12 +173,12 @@ void drawCompareTab(PanelContext& context) {
   if (document.compare == CompareMode::split) {
     widgets::label("divider");
     widgets::slider("##divider", document.divider, {0, 1, false}, 0, 1);
-    if (widgets::doubleClicked()) document.divider = 0.5;
+    if (widgets::resetAsked(true)) document.divider = 0.5;
   }
   if (document.compare == CompareMode::difference && !document.exact) {
     widgets::label("times");
     widgets::slider("##times", document.amplification, {1, 256, true}, 1, 256);
-    if (widgets::doubleClicked()) document.amplification = 16;
+    if (widgets::resetAsked(true)) document.amplification = 16;
     widgets::tooltip("the difference of the 8-bit values is multiplied by this");
   }
   if (!context.comparison.empty() && document.compare != CompareMode::off)
@@ -183,21 +191,16 @@ void drawCompareTab(PanelContext& context) {
         p.name != "max-error")
       continue;
     ImGui::PushID("b");
-    widgets::parameter(p, *document.b);
+    widgets::parameter(p, *document.b,
+                       context.session.model ? &context.session.model->scene : nullptr);
     ImGui::PopID();
   }
   ImGui::Separator();
   ImGui::TextDisabled("What differs");
-  bool any = false;
-  for (const Parameter& p : lookParameters()) {
-    if (p.name == "resolution") continue;
-    const auto a = p.save(document.a), b = p.save(*document.b);
-    if (a == b) continue;
-    any = true;
-    ImGui::TextWrapped("%s: %s | %s", p.name.c_str(), a.is_null() ? "-" : a.dump().c_str(),
-                       b.is_null() ? "-" : b.dump().c_str());
-  }
-  if (!any) ImGui::TextUnformatted("nothing: A and B are the same look");
+  const std::vector<Difference> all = differences(document.a, *document.b);
+  for (const Difference& each : all)
+    ImGui::TextWrapped("%s: A %s, B %s", each.what.c_str(), each.a.c_str(), each.b.c_str());
+  if (all.empty()) ImGui::TextUnformatted("nothing: A and B are the same look");
 }
 
 void drawInfoTab(PanelContext& context) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "light_edit.h"
 #include "panel.h"
@@ -40,7 +41,7 @@ void editPlace(Light& light, const Bounds& bounds) {
   const double reach = std::max(4 * bounds.radius, 1.0);
   widgets::slider("##range", light.range, {0, reach, false}, 0, 1e30,
                   light.range > 0 ? "%.4g" : "no end");
-  if (widgets::doubleClicked()) light.range = 0;
+  if (widgets::resetAsked(true)) light.range = 0;
   widgets::tooltip("world units from the light to where there is none left\nDouble-click: no end");
 }
 
@@ -66,7 +67,7 @@ void editLight(Light& light, const PanelContext& context) {
   widgets::label("intensity");
   if (widgets::slider("##intensity", strength, {0, strongest(light, bounds), false}, 0, 1e6))
     set(strength);
-  if (widgets::doubleClicked()) set(1);
+  if (widgets::resetAsked(true)) set(1);
   widgets::tooltip(std::string("factor of the colour, in linear light") +
                    (light.fallsOff ? ", at one world unit from the light" : "") + "\nsymbol I_m");
 
@@ -96,6 +97,14 @@ void editLight(Light& light, const PanelContext& context) {
   }
 }
 
+// As high as a line of the list.
+bool smallCheckbox(bool& on) {
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
+  const bool clicked = ImGui::Checkbox("##on", &on);
+  ImGui::PopStyleVar();
+  return clicked;
+}
+
 }  // namespace
 
 void drawLightsTab(PanelContext& context) {
@@ -117,6 +126,7 @@ void drawLightsTab(PanelContext& context) {
     ImGui::TextDisabled("the default light; editing makes it your own");
   else
     ImGui::TextDisabled(lights.size() == 1 ? "1 light" : "%d lights", int(lights.size()));
+  std::optional<std::size_t> switched;
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float lines = float(std::clamp<std::size_t>(lights.size(), 2, 5));
   if (ImGui::BeginListBox("##lights", ImVec2(-1, line * lines + 4 * style().scale))) {
@@ -130,6 +140,12 @@ void drawLightsTab(PanelContext& context) {
                          ImGuiColorEditFlags_NoTooltip,
                          ImVec2(ImGui::GetTextLineHeight(), ImGui::GetTextLineHeight()));
       ImGui::SameLine();
+      bool on = c != glm::dvec3(0.0);
+      if (smallCheckbox(on)) switched = i;
+      widgets::tooltip("on or off (" + keyText(infoOf(Action::switchLight)) +
+                       " for the selected one, " + keyText(infoOf(Action::soloLight)) +
+                       " for that one alone)");
+      ImGui::SameLine();
       const std::string text = std::to_string(i + 1) + "  " + typeNames[int(lights[i].type)] +
                                (lights[i].fallsOff ? ", falls off" : "");
       if (ImGui::Selectable(text.c_str(), i == session.light)) session.light = i;
@@ -137,11 +153,20 @@ void drawLightsTab(PanelContext& context) {
     }
     ImGui::EndListBox();
   }
+  if (switched) {
+    session.light = *switched;
+    context.run(Action::switchLight);
+  }
   actionButton(context, Action::addLight, "Add", third);
   ImGui::SameLine();
   actionButton(context, Action::removeLight, "Remove", third);
   ImGui::SameLine();
   actionButton(context, Action::defaultLights, "Default", third);
+  ImGui::Checkbox("handles in the picture", &session.lightHandles);
+  widgets::tooltip(std::string(infoOf(Action::lightHandles).help) + " (" +
+                   keyText(infoOf(Action::lightHandles)) + ")");
+  ImGui::SameLine(0, 2 * gap);
+  actionButton(context, Action::soloLight, "Solo");
   // What the buttons have made of them.
   lights = shownLights(scene, look);
   if (session.light < lights.size()) {

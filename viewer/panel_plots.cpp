@@ -10,7 +10,7 @@
 #include "glint/shading/angles.h"
 #include "materials.h"
 #include "panel.h"
-#include "plots.h"
+#include "plot_axes.h"
 #include "widgets.h"
 
 namespace glint::viewer {
@@ -23,90 +23,6 @@ constexpr ImU32 chosenColor = IM_COL32(90, 170, 255, 255);
 constexpr ImU32 sColor = IM_COL32(130, 220, 130, 255);
 constexpr ImU32 differenceColor = IM_COL32(240, 110, 90, 255);
 constexpr ImU32 pColor = IM_COL32(225, 120, 190, 255);
-
-/// Axes on a rectangle of the panel.
-class Plot {
- public:
-  /// `margin` is that of the labels at the left, in lines of text.
-  Plot(glm::dvec2 low, glm::dvec2 high, float height, float margin = 2.2f)
-      : low_(low), high_(high) {
-    const float text = ImGui::GetTextLineHeight();
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    ImGui::Dummy(ImVec2(width, height * style().scale));
-    hovered_ = ImGui::IsItemHovered();
-    begin_ = ImVec2(corner.x + margin * text, corner.y + 0.4f * text);
-    end_ = ImVec2(corner.x + width - 0.6f * text, corner.y + height * style().scale - 1.3f * text);
-    draw_ = ImGui::GetWindowDrawList();
-    draw_->AddRectFilled(begin_, end_, ImGui::GetColorU32(ImGuiCol_FrameBg));
-  }
-
-  ImVec2 at(glm::dvec2 p) const {
-    const glm::dvec2 share = (p - low_) / (high_ - low_);
-    return ImVec2(begin_.x + float(share.x) * (end_.x - begin_.x),
-                  end_.y - float(std::clamp(share.y, -0.01, 1.01)) * (end_.y - begin_.y));
-  }
-
-  void gridX(double x, const char* text) const {
-    const ImVec2 p = at({x, low_.y});
-    draw_->AddLine(ImVec2(p.x, begin_.y), ImVec2(p.x, end_.y), gridColor());
-    const ImVec2 size = ImGui::CalcTextSize(text);
-    draw_->AddText(ImVec2(p.x - size.x / 2, end_.y + 1), textColor(), text);
-  }
-  void gridY(double y, const char* text) const {
-    const ImVec2 p = at({low_.x, y});
-    draw_->AddLine(ImVec2(begin_.x, p.y), ImVec2(end_.x, p.y), gridColor());
-    const ImVec2 size = ImGui::CalcTextSize(text);
-    draw_->AddText(ImVec2(begin_.x - size.x - 4, p.y - size.y / 2), textColor(), text);
-  }
-  void markX(double x, ImU32 color) const {
-    const ImVec2 p = at({x, low_.y});
-    draw_->AddLine(ImVec2(p.x, begin_.y), ImVec2(p.x, end_.y), color, style().scale);
-  }
-  void curve(const Curve& c, ImU32 color, float width = 1.6f) const {
-    std::vector<ImVec2> points;
-    for (const glm::dvec2& p : c.points)
-      if (std::isfinite(p.y)) points.push_back(at(p));
-    draw_->PushClipRect(begin_, end_, true);
-    draw_->AddPolyline(points.data(), int(points.size()), color, 0, width * style().scale);
-    draw_->PopClipRect();
-  }
-  /// Where the mouse stands on the x axis.
-  std::optional<double> hovered() const {
-    const float x = ImGui::GetIO().MousePos.x;
-    if (!hovered_ || x < begin_.x || x > end_.x) return {};
-    return low_.x + double((x - begin_.x) / (end_.x - begin_.x)) * (high_.x - low_.x);
-  }
-
- private:
-  static ImU32 gridColor() { return IM_COL32(255, 255, 255, 28); }
-  static ImU32 textColor() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
-  glm::dvec2 low_, high_;
-  ImVec2 begin_, end_;
-  ImDrawList* draw_ = nullptr;
-  bool hovered_ = false;
-};
-
-void legend(ImU32 color, const char* text) {
-  const float h = ImGui::GetTextLineHeight();
-  if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(text).x + h) ImGui::NewLine();
-  const ImVec2 p = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(p.x, p.y + 0.4f * h),
-                                            ImVec2(p.x + 0.8f * h, p.y + 0.6f * h), color);
-  ImGui::Dummy(ImVec2(0.9f * h, h));
-  ImGui::SameLine(0, 2);
-  ImGui::TextUnformatted(text);
-}
-
-double yAt(const Curve& curve, double x) {
-  const auto& p = curve.points;
-  const auto above = std::lower_bound(
-      p.begin(), p.end(), x, [](const glm::dvec2& point, double value) { return point.x < value; });
-  if (above == p.end()) return p.back().y;
-  if (above == p.begin() || above->x == x) return above->y;
-  const glm::dvec2 a = *(above - 1), b = *above;
-  return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
-}
 
 // What the chosen form adds to the exact one, on a scale of its own.
 void differencePlot(const Curve& chosen, const Curve& exact, double largest,
@@ -315,6 +231,7 @@ void drawPlots(PanelContext& context) {
                                             : "a'/a of equally wide highlights###width"))
     widthPlots(s.exponent);
   seeWanted(session, plot == PlotView::widths);
+  drawMeasured(context, {input.blinn, input.blinnFactor});
   session.plotWanted = false;
 }
 

@@ -240,6 +240,11 @@ std::string probeText(const Scene& scene, const Probe& p) {
   const auto vec = [](const auto& v) { return Json{v[0], v[1], v[2]}; };
   Json json;
   json["pixel"] = {p.pixel.x, p.pixel.y};
+  if (p.other) {
+    json["look"] = std::string(1, p.side);
+    const glm::vec3 a = p.side == 'A' ? p.shown : *p.other, b = p.side == 'A' ? *p.other : p.shown;
+    json["A-B"] = vec(glm::dvec3(a) - glm::dvec3(b));
+  }
   if (p.hit) {
     json["material"] = materialLabel(scene, p.hit->material);
     json["back-face"] = p.hit->backFace;

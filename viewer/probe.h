@@ -27,9 +27,11 @@ struct LightProbe {
 /// are those of the front-most surface.
 struct Probe {
   glm::ivec2 pixel{0};
-  std::optional<Hit> hit;     ///< empty: the background
-  int layers = 0;             ///< surfaces that are seen, one through the other
-  glm::dvec3 N{0.0}, V{0.0};  ///< unit, world space
+  char side = 'A';                 ///< of two looks that are compared, the one that is seen there
+  std::optional<glm::vec3> other;  ///< what the other one has there, linear, before exposure
+  std::optional<Hit> hit;          ///< empty: the background
+  int layers = 0;                  ///< surfaces that are seen, one through the other
+  glm::dvec3 N{0.0}, V{0.0};       ///< unit, world space
   double nv = 0;
   double reflectance = 0;  ///< R(theta) at N.V, exact, from the look's medium into the material
   glm::dvec3 color{0.0};   ///< C with textures and vertex colours

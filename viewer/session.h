@@ -14,6 +14,8 @@
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
 #include "glint/scene/scene.h"
+#include "light_edit.h"
+#include "measured.h"
 #include "picking.h"
 #include "posing.h"
 
@@ -47,23 +49,25 @@ FileState stateOf(const std::filesystem::path&);
 enum class PlotView { lobe, lobeOverAngle, fresnel, fresnelLeaving, widths };
 inline constexpr int plotCount = 5;
 
-enum class Overlay { none, wireframe, normals, facing, clipped };
+enum class Overlay { none, wireframe, normals, facing, clipped, outline };
 
 /// What the window shows and edits, without GL and widgets.
 struct Session {
   std::shared_ptr<const Model> model;  ///< null until one is loaded; in the pose that is shown
+  std::shared_ptr<const MeasuredMaterial> measured;  ///< beside the material's plots; may be null
   Document document;
   History history;
   int material = -1;           ///< selected, an index into the scene's; -1 is all of them
   std::optional<int> hovered;  ///< the material under the cursor
   Overlay overlay = Overlay::none;
   std::size_t light = 0;           ///< selected, of those that the look has
+  SwitchedOff lightsOff;           ///< of those that the look has
+  bool lightHandles = false;       ///< are shown over the picture
   bool playing = false;            ///< the animation runs
   std::optional<int> wantedTab;    ///< of the panel, to be shown next
   PlotView plot = PlotView::lobe;  ///< that keys have chosen last
   bool plotWanted = false;         ///< it is to be shown next
   bool plotShown = false;          ///< was, in this frame: keys go on to the next
-  bool findWanted = false;         ///< the text by which materials are found is to be typed next
   std::vector<std::string> log;    ///< errors and warnings, the newest last
   std::string status;              ///< the last thing that was done
   bool statusIsError = false;

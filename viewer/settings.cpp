@@ -54,6 +54,7 @@ Settings readSettings(const std::string& text) {
   }
   s.window = glm::ivec2(window);
   flag(json, "panel", s.panel);
+  number(json, "panel-width", 240, 4096, s.panelWidth);
   if (json.contains("scale")) number(json, "scale", 0.5, 4, s.scale);
   number(json, "incidence", 0, 89, s.incidence);
   flag(json, "polar", s.polar);
@@ -66,6 +67,7 @@ std::string settingsText(const Settings& s) {
   json["glint-viewer"] = 1;
   json["window"] = {s.window.x, s.window.y};
   json["panel"] = s.panel;
+  json["panel-width"] = s.panelWidth;
   if (s.scale > 0) json["scale"] = s.scale;
   json["incidence"] = s.incidence;
   json["polar"] = s.polar;

@@ -8,8 +8,9 @@ namespace glint::viewer {
 
 /// What the window keeps from one start to the next: nothing that shapes a picture.
 struct Settings {
-  glm::ivec2 window{1372, 800};  ///< size at scale 1
+  glm::ivec2 window{1372, 820};  ///< size at scale 1
   bool panel = true;
+  double panelWidth = 372;    ///< at scale 1
   double scale = 0;           ///< of text and widgets; 0: the screen's
   double incidence = 30;      ///< of the lobe plot's light, degrees
   bool polar = true;          ///< the lobe plot

@@ -1,7 +1,6 @@
 #include "widgets.h"
 
 #include <imgui.h>
-#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -11,85 +10,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "effects.h"
 #include "glint/scene/look_text.h"
+#include "glint/scene/scene.h"
 
 namespace glint::viewer::widgets {
 
 Style& style() {
   static Style value;
   return value;
-}
-
-void label(const std::string& text, bool edited) {
-  ImGui::AlignTextToFramePadding();
-  const float left = ImGui::GetCursorPosX();
-  if (edited)
-    ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.45f, 1.0f), "%s", text.c_str());
-  else
-    ImGui::TextUnformatted(text.c_str());
-  ImGui::SameLine(left + style().labelWidth);
-  ImGui::SetNextItemWidth(-1);
-}
-
-void tooltip(const std::string& text) {
-  if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-bool doubleClicked() {
-  if (!ImGui::IsItemHovered() || !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return false;
-  ImGui::ClearActiveID();
-  return true;
-}
-
-bool slider(const char* id, double& value, const SliderRange& range, double min, double max,
-            const char* format) {
-  const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
-  double v = value;
-  if (!ImGui::SliderScalar(id, ImGuiDataType_Double, &v, &range.min, &range.max, format, flags))
-    return false;
-  v = std::isfinite(v) ? std::clamp(v, min, max) : value;
-  // A slider that is moved within its range keeps a value beyond it until the mouse does.
-  if (v == value) return false;
-  value = v;
-  return true;
-}
-
-namespace {
-
-double toSrgb(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-}
-
-double toLinear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
-
-}  // namespace
-
-bool color(const char* id, glm::dvec3& linear) {
-  float shown[3];
-  for (int i = 0; i < 3; ++i) shown[i] = float(toSrgb(linear[i]));
-  const float before[3] = {shown[0], shown[1], shown[2]};
-  if (!ImGui::ColorEdit3(id, shown, ImGuiColorEditFlags_HDR)) return false;
-  bool changed = false;
-  for (int i = 0; i < 3; ++i) {
-    if (shown[i] == before[i]) continue;
-    linear[i] = std::clamp(std::round(toLinear(double(shown[i])) * 1e6) / 1e6, 0.0, 1e6);
-    changed = true;
-  }
-  return changed;
-}
-
-bool vector(const char* id, glm::dvec3& v) {
-  double values[3] = {v.x + 0.0, v.y + 0.0, v.z + 0.0};  // no -0
-  if (!ImGui::InputScalarN(id, ImGuiDataType_Double, values, 3, nullptr, nullptr, "%.4g"))
-    return false;
-  for (int i = 0; i < 3; ++i)
-    if (std::isfinite(values[i])) v[i] = values[i];
-  return true;
 }
 
 bool direction(const char* id, glm::dvec3& d, const glm::dmat3& axes, float size) {
@@ -140,7 +69,7 @@ bool direction(const char* id, glm::dvec3& d, const glm::dmat3& axes, float size
 }
 
 std::string parameterTooltip(const std::string& help, std::string_view symbol,
-                             const std::string& unit, double min, double max) {
+                             const std::string& unit, double min, double max, bool slides) {
   std::string text = help;
   std::string facts;
   if (!symbol.empty()) facts += "symbol " + std::string(symbol);
@@ -152,7 +81,8 @@ std::string parameterTooltip(const std::string& help, std::string_view symbol,
     add(range);
   }
   if (!facts.empty()) text += "\n" + facts;
-  return text + "\nDouble-click: reset - Ctrl+click: type a value";
+  return text + (slides ? "\nDouble-click: reset - Ctrl+click: type a value"
+                        : "\nDouble-click on its name: reset");
 }
 
 namespace {
@@ -245,13 +175,91 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
   return changed;
 }
 
-bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& shown) {
+namespace {
+
+// What a text can be, where the scene or the picture knows all of it; empty otherwise.
+std::vector<std::string> textChoices(const Parameter& p, const Look& look, const Scene* scene) {
+  std::vector<std::string> texts;
+  const auto numbered = [&](const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) texts.push_back(std::to_string(i));
+  };
+  if (p.name == "anti-aliasing") {
+    texts = {"none", "msaa:4", "msaa:8", "ssaa:2", "ssaa:3", "ssaa:4", "ssaa:8"};
+    const std::string now = antiAliasingText(look.antiAliasing);
+    if (std::ranges::find(texts, now) == texts.end()) texts.push_back(now);
+  }
+  if (!scene) return texts;
+  if (p.name == "scene" && scene->scenes.size() > 1) numbered(scene->scenes);
+  if (p.name == "variant") texts = scene->variants;
+  if (p.name == "camera-index")
+    for (std::size_t i = 0; i < scene->cameras.size(); ++i) texts.push_back(std::to_string(i));
+  return texts;
+}
+
+bool textCombo(const Parameter& p, Look& look, const Scene* scene,
+               const std::vector<std::string>& texts) {
+  const nlohmann::ordered_json saved = p.save(look);
+  const std::string now = saved.is_null()     ? ""
+                          : saved.is_string() ? saved.get<std::string>()
+                                              : saved.dump();
+  const auto shownText = [&](const std::string& text) {
+    if (scene && p.name == "scene" && text.size() < 6) {
+      const std::size_t i = std::size_t(std::atoi(text.c_str()));
+      if (i < scene->scenes.size() && !scene->scenes[i].empty())
+        return text + "  " + scene->scenes[i];
+    }
+    return text;
+  };
+  bool changed = false;
+  if (!ImGui::BeginCombo(("##" + p.name).c_str(), now.empty() ? "default" : shownText(now).c_str()))
+    return false;
+  if (saved.is_null() || p.name != "anti-aliasing") {
+    if (ImGui::Selectable("default", saved.is_null()) && !saved.is_null()) {
+      p.reset(look);
+      changed = true;
+    }
+  }
+  for (const std::string& text : texts)
+    if (ImGui::Selectable(shownText(text).c_str(), text == now) && text != now) {
+      p.read(look, text);
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
+              const std::optional<glm::dvec3>& shown, const std::string& reason);
+
+}  // namespace
+
+bool parameter(const Parameter& p, Look& look, const Scene* scene,
+               const std::optional<glm::dvec3>& shown) {
+  const std::string reason = withoutEffect(look, scene, p.name);
+  ImGui::BeginDisabled(!reason.empty());
+  bool changed = false;
+  try {
+    changed = widgetOf(p, look, scene, shown, reason);
+  } catch (...) {
+    ImGui::EndDisabled();
+    throw;
+  }
+  ImGui::EndDisabled();
+  return changed;
+}
+
+namespace {
+
+bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
+              const std::optional<glm::dvec3>& shown, const std::string& reason) {
   const nlohmann::ordered_json now = p.save(look);
   const bool edited = now != p.save(Look{});
   std::string name = p.name;
   if (name.starts_with("camera-")) name = name.substr(7);
   std::replace(name.begin(), name.end(), '-', ' ');
-  if (p.name == "highlight") return highlightForm(name, edited, look.highlight, p.help);
+  if (p.name == "highlight")
+    return highlightForm(name, edited, look.highlight,
+                         reason.empty() ? p.help : "without effect: " + reason);
   label(name, edited);
   const std::string id = "##" + p.name;
   bool changed = false;
@@ -309,17 +317,22 @@ bool parameter(const Parameter& p, Look& look, const std::optional<glm::dvec3>& 
       }
       break;
     }
-    case ParameterKind::text:
-      changed = textField(p, look);
+    case ParameterKind::text: {
+      const std::vector<std::string> texts = textChoices(p, look, scene);
+      changed = texts.empty() ? textField(p, look) : textCombo(p, look, scene, texts);
       break;
+    }
   }
-  const bool widgetResets = p.kind == ParameterKind::number || p.kind == ParameterKind::vector;
-  if (widgetResets && p.reset && doubleClicked()) {
+  const bool slides = p.kind == ParameterKind::number;
+  if (p.reset && resetAsked(slides)) {
     p.reset(look);
     return true;
   }
-  tooltip(parameterTooltip(p.help, p.symbol, unit, p.min, p.max));
+  tooltip(!reason.empty() ? "without effect: " + reason + "\n" + p.help
+                          : parameterTooltip(p.help, p.symbol, unit, p.min, p.max, slides));
   return changed;
 }
+
+}  // namespace
 
 }  // namespace glint::viewer::widgets

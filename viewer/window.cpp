@@ -29,6 +29,16 @@ void add(GLFWwindow* window, InputEvent event) {
   of(window).happened();
 }
 
+// GLFW's codes name places on an American keyboard; letters are meant as they are written on this
+// one.
+int layoutKey(int key, int scancode) {
+  if (key < GLFW_KEY_A || key > GLFW_KEY_Z) return key;
+  const char* name = glfwGetKeyName(key, scancode);
+  if (!name || name[0] == 0 || name[1] != 0) return key;
+  const char c = name[0];
+  return c >= 'a' && c <= 'z' ? c - 'a' + GLFW_KEY_A : key;
+}
+
 void installCallbacks(GLFWwindow* window) {
   using Kind = InputEvent::Kind;
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
@@ -44,9 +54,9 @@ void installCallbacks(GLFWwindow* window) {
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     add(w, {.kind = Kind::scroll, .x = x, .y = y, .path = {}});
   });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
     add(w, {.kind = Kind::key,
-            .code = key,
+            .code = layoutKey(key, scancode),
             .down = action != GLFW_RELEASE,
             .repeated = action == GLFW_REPEAT,
             .modifiers = modifiers,
@@ -70,6 +80,15 @@ void installCallbacks(GLFWwindow* window) {
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).happened(); });
 }
 
+// What does not fit on the screen is cut off where there is no window manager.
+glm::ivec2 withinScreen(glm::ivec2 size) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return size;
+  int x = 0, y = 0, width = 0, height = 0;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  return width > 0 && height > 0 ? glm::min(size, glm::ivec2(width, height)) : size;
+}
+
 void hintContext() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -90,14 +109,13 @@ Window::Window(const std::string& title, glm::ivec2 size) {
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "glint-viewer");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "glint-viewer");
-  // What does not fit on the screen is cut off where there is no window manager.
-  int x = 0, y = 0, width = 0, height = 0;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
-    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
     float scale = 1;
     glfwGetMonitorContentScale(monitor, &scale, nullptr);
-    if (width > 0 && scale > 0)
-      size = glm::min(size, glm::ivec2(int(float(width) / scale), int(float(height) / scale)));
+    // It will be enlarged by the screen's scale.
+    if (scale > 0)
+      size = glm::ivec2(glm::dvec2(withinScreen(glm::ivec2(glm::dvec2(size) * double(scale)))) /
+                        double(scale));
   }
   window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
   if (!window_) {
@@ -143,7 +161,10 @@ double Window::contentScale() const {
   return window.x > 0 && pixels.x > 0 ? double(scale) * window.x / pixels.x : double(scale);
 }
 
-void Window::resize(glm::ivec2 size) { glfwSetWindowSize(window_, size.x, size.y); }
+void Window::resize(glm::ivec2 size) {
+  size = withinScreen(size);
+  glfwSetWindowSize(window_, size.x, size.y);
+}
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 void Window::present() { glfwSwapBuffers(window_); }
 

@@ -22,6 +22,7 @@ class Window {
   glm::ivec2 framebufferSize() const;  ///< pixels
   /// How much larger than usual text and widgets are to be, in window coordinates.
   double contentScale() const;
+  /// At most as large as the screen.
   void resize(glm::ivec2 size);
   void setTitle(const std::string& title);
   void present();

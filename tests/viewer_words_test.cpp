@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "glint/options/parameters.h"
+#include "glint/scene/material_parameters.h"
+#include "viewer/actions.h"
+#include "viewer/effects.h"
+#include "viewer/light_edit.h"
+#include "viewer/materials.h"
+#include "viewer/session.h"
+#include "viewer/theme.h"
+
+namespace glint::viewer {
+namespace viewer_words_test {
+
+using testing::HasSubstr;
+
+bool finds(const std::vector<Finding>& all, Action action) {
+  return std::ranges::any_of(all, [&](const Finding& f) { return f.action == action; });
+}
+
+TEST(Palette, FindsEveryActionByItsWordsAndItsKey) {
+  for (const ActionInfo& info : actions()) {
+    std::string words = std::string(info.help) + " " + std::string(info.section);
+    std::ranges::transform(words, words.begin(),
+                           [](unsigned char c) { return char(std::toupper(c)); });
+    EXPECT_TRUE(finds(findings(words, {}), info.command)) << words;
+    EXPECT_TRUE(finds(findings(keyText(info), {}), info.command)) << keyText(info);
+  }
+  EXPECT_EQ(findings("", {}).size(), actions().size());
+  EXPECT_TRUE(findings("no such words", {}).empty());
+  // In any order, as parts too, and what begins with the word first.
+  EXPECT_EQ(findings("view front", {}).front().action, Action::front);
+  EXPECT_TRUE(finds(findings("ompar diff", {}), Action::compareDifference));
+}
+
+TEST(Palette, FindsMaterialsWhateverTheCase) {
+  const std::vector<std::string> names{"Material_13", "Glas", "material_1"};
+  const auto found = findings("MATERIAL_13", names, true);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].material, 0);
+  EXPECT_FALSE(found[0].action);
+  EXPECT_EQ(findings("", names, true).size(), 3u);
+  EXPECT_EQ(findings("glas", names).front().material, 1);
+}
+
+TEST(Menu, HoldsEveryActionOnce) {
+  for (const ActionInfo& info : actions()) {
+    int places = 0;
+    for (const MenuInfo& menu : menus())
+      places += int(std::ranges::count(menu.sections, info.section));
+    EXPECT_EQ(places, 1) << info.section << ": " << info.help;
+  }
+}
+
+TEST(Theme, EveryTextHasContrast) {
+  EXPECT_NEAR(contrast({1, 1, 1}, {0, 0, 0}), 21, 1e-9);
+  EXPECT_NEAR(contrast({0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}), 1, 1e-12);
+  // #767676 on white is WCAG's own example of just enough.
+  const double grey = 0x76 / 255.0;
+  EXPECT_NEAR(contrast({grey, grey, grey}, {1, 1, 1}), 4.54, 0.005);
+  EXPECT_GE(themePairs().size(), 20u);
+  for (const ThemePair& pair : themePairs())
+    EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << pair.where;
+}
+
+// What is said to be without effect does not change what the picture is made of; what the program
+// environment reads has an effect there.
+TEST(Effects, SayWhyAParameterDoesNothing) {
+  Look look;
+  for (const char* name : {"fresnel", "medium-ior", "schlick-exponent", "ior", "transmission",
+                           "environment", "hdri-file", "environment-rotation", "blinn-factor"}) {
+    EXPECT_NE(withoutEffect(look, nullptr, name), "") << name;
+    look.shading = Shading::environment;
+    look.fresnel = Fresnel::schlick;
+    EXPECT_EQ(withoutEffect(look, nullptr, name), "") << name;
+    look = Look{};
+  }
+  look.environmentBackground = true;
+  EXPECT_EQ(withoutEffect(look, nullptr, "environment"), "");
+  EXPECT_THAT(withoutEffect(look, nullptr, "background-color"), HasSubstr("environment"));
+  look.noBackground = true;
+  EXPECT_THAT(withoutEffect(look, nullptr, "background-color"), HasSubstr("transparent"));
+  EXPECT_NE(withoutEffect(look, nullptr, "environment"), "");
+  for (const MaterialParameter& p : materialParameters())
+    if (p.name != "ior" && p.name != "transmission")
+      EXPECT_EQ(withoutEffect(Look{}, nullptr, p.name), "") << p.name;
+  for (const char* name : {"exposure", "camera-view-angle", "two-sided", "shading", "viewer"})
+    EXPECT_EQ(withoutEffect(Look{}, nullptr, name), "") << name;
+}
+
+TEST(Differences, AreToldInWords) {
+  Look a, b;
+  EXPECT_TRUE(differences(a, b).empty());
+  a.material["Gold"].exponent = 80;
+  b.material["Gold"].exponent = 20;
+  b.material[""].color = glm::dvec3(1, 0, 0);
+  a.exposure = 1;
+  b.resolution = {17, 19};  // no difference of pictures
+  const auto all = differences(a, b);
+  ASSERT_EQ(all.size(), 3u);
+  const auto named = [&](const std::string& what) {
+    return *std::ranges::find(all, what, &Difference::what);
+  };
+  EXPECT_EQ(named("exponent of Gold").a, "80");
+  EXPECT_EQ(named("exponent of Gold").b, "20");
+  EXPECT_EQ(named("color of all materials").a, "-");
+  EXPECT_EQ(named("color of all materials").b, "1, 0, 0");
+  EXPECT_EQ(named("exposure").b, "0");
+  EXPECT_THAT(sideText(all, true), HasSubstr("and 1 more"));
+  EXPECT_NE(sideText(all, true), sideText(all, false));
+}
+
+TEST(LightSwitches, GoBackToWhatWas) {
+  std::vector<Light> lights(3);
+  lights[0].intensity = {1, 2, 3};
+  lights[1].intensity = {0.5, 0.5, 0.5};
+  lights[2].intensity = {4, 0, 0};
+  const std::vector<Light> first = lights;
+  SwitchedOff off;
+  switchLight(lights, 1, off);
+  EXPECT_EQ(lights[1].intensity, glm::dvec3(0.0));
+  switchLight(lights, 1, off);
+  EXPECT_EQ(lights, first);
+  soloLight(lights, 2, off);
+  EXPECT_EQ(lights[0].intensity, glm::dvec3(0.0));
+  EXPECT_EQ(lights[2], first[2]);
+  soloLight(lights, 0, off);  // another one alone
+  EXPECT_EQ(lights[0], first[0]);
+  EXPECT_EQ(lights[2].intensity, glm::dvec3(0.0));
+  soloLight(lights, 0, off);
+  EXPECT_EQ(lights, first);
+}
+
+TEST(AllMaterials, TellThatTheirValuesAreMixed) {
+  Session s;
+  s.take(loadModel(std::string(GLINT_SOURCE_DIR) + "/models/chart.glb"));
+  const auto& exponent =
+      *std::ranges::find(materialParameters(), "exponent", &MaterialParameter::name);
+  const ValueSpread spread = spreadOf(s.model->scene, s.document.a, exponent);
+  EXPECT_TRUE(spread.mixed());
+  EXPECT_LT(spread.least, spread.most);
+  s.document.a.material[""].exponent = 33;
+  EXPECT_FALSE(spreadOf(s.model->scene, s.document.a, exponent).mixed());
+  EXPECT_EQ(spreadOf(s.model->scene, s.document.a, exponent).most, 33);
+  s.document.a.material[""].color = glm::dvec3(0.5);
+  EXPECT_TRUE(haveOneColor(s.model->scene, s.document.a));
+  const std::string one = materialKey(s.model->scene, drawnMaterials(s.model->scene).front());
+  s.document.a.material[one].color = glm::dvec3(0.25);
+  EXPECT_FALSE(haveOneColor(s.model->scene, s.document.a));
+}
+
+}  // namespace viewer_words_test
+}  // namespace glint::viewer

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+
+#include "plots.h"
+
+namespace glint::viewer {
+
+/// Axes on a rectangle of the panel.
+class Plot {
+ public:
+  /// `margin` is that of the labels at the left, in lines of text.
+  Plot(glm::dvec2 low, glm::dvec2 high, float height, float margin = 2.2f);
+
+  ImVec2 at(glm::dvec2 p) const;
+  void gridX(double x, const char* text) const;
+  void gridY(double y, const char* text) const;
+  void markX(double x, ImU32 color) const;
+  void curve(const Curve& c, ImU32 color, float width = 1.6f) const;
+  /// Where the mouse stands on the x axis.
+  std::optional<double> hovered() const;
+
+ private:
+  glm::dvec2 low_, high_;
+  ImVec2 begin_, end_;
+  ImDrawList* draw_ = nullptr;
+  bool hovered_ = false;
+};
+
+/// A line of a curve's colour and its name, on the next line where there is no room.
+void legend(ImU32 color, const char* text);
+
+/// The curve between its points.
+double yAt(const Curve& curve, double x);
+
+}  // namespace glint::viewer
