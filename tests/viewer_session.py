@@ -20,7 +20,9 @@ KEYS = [*"abcdefgjklmnprstuvwxyz", *("shift+" + c for c in "abjlmpwxy"), "1", "3
         "F2", "F3", "F4", "F5", "F6", "F7", "F8", "shift+F8", "F9", "Return", "Tab", "space", "Left",
         "Right", "Prior", "Next", "Insert", "Delete", "shift+Delete", "ctrl+l", "ctrl+z", "ctrl+z",
         "ctrl+shift+z", "ctrl+c", "ctrl+v", "ctrl+r", "period", "comma", "h", "Up", "ctrl+f",
-        "Escape", "F12", "shift+F12", "ctrl+m", "ctrl+o"]
+        "Escape", "F12", "shift+F12", "ctrl+m", "ctrl+o", "ctrl+p", "F10", "Down", "Down", "Left",
+        "BackSpace", "o", "i", "shift+z", "ctrl+a", "shift+f", "shift+Left", "shift+Up", "ctrl+Down",
+        "equal", "minus", "bracketleft"]
 
 
 def all_threads(viewer, glsl):
@@ -64,7 +66,7 @@ def at_random(viewer, generator, seconds):
         if kind < 0.5:
             acts.append(generator.choice(KEYS))
             viewer.key(acts[-1])
-            if acts[-1] in ("Escape", "shift+F12", "ctrl+m", "ctrl+o"):
+            if acts[-1] in ("Escape", "shift+F12", "ctrl+m", "ctrl+o", "ctrl+p"):
                 viewer.key("Escape")
         elif kind < 0.75:
             x, y = place(picture, width - 1)

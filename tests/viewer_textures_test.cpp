@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "glint/scene/material_parameters.h"
+#include "viewer/material_ball.h"
 #include "viewer/material_textures.h"
 #include "viewer/materials.h"
 
@@ -69,6 +70,28 @@ TEST(Thumbnails, KeepShapeAndMeans) {
   image.values.assign(200 * 100, 50);
   EXPECT_EQ(thumbnailOf(image, 64).rgba[2], 50);
   EXPECT_TRUE(thumbnailOf(ByteImage{}, 64).rgba.empty());
+}
+
+TEST(MaterialBall, HasItsHighlightWhereTheLightIsMirrored) {
+  ShadingParameters s;
+  s.color = {0.5, 0.1, 0.1};
+  s.diffuse = 0.8;
+  s.specular = 1;
+  s.exponent = 60;
+  for (const FitForm form : {FitForm{false, 4}, FitForm{true, 4}}) {
+    const Thumbnail ball = ballOf(s, form, 48);
+    const auto at = [&](int x, int y) { return ball.rgba.data() + 4 * (48 * y + x); };
+    EXPECT_EQ(at(0, 0)[3], 0);
+    EXPECT_EQ(at(24, 24)[3], 255);
+    // Half way between the light and the viewer: N = (L + V) / |L + V|.
+    const glm::dvec3 H =
+        glm::normalize(glm::normalize(glm::dvec3(-0.5, 0.7, 1)) + glm::dvec3(0, 0, 1));
+    const int x = int((H.x + 1) * 24), y = int((1 - H.y) * 24);
+    EXPECT_GT(at(x, y)[1], 240);                    // white
+    EXPECT_LT(at(47 - x, 47 - y)[1], at(x, y)[1]);  // the other side is not
+    EXPECT_GT(at(24, 24)[0], 2 * at(24, 24)[1]);    // elsewhere it is red
+    EXPECT_LT(at(40, 40)[0], at(24, 24)[0]);
+  }
 }
 
 }  // namespace viewer_textures_test

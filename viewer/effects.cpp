@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::ranges::find(names, name) != names.end();
+bool isOneOf(std::string_view name, std::initializer_list<std::string_view> any) {
+  return std::ranges::find(any, name) != any.end();
 }
 
 // Whether a form with Schlick's exponent may be drawn.

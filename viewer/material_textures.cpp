@@ -9,10 +9,10 @@ namespace glint::viewer {
 namespace {
 
 std::string namesOf(unsigned bits) {
-  std::string names;
+  std::string all;
   for (const MaterialParameter& p : materialParameters())
-    if (bits & p.textured) names += (names.empty() ? "" : ", ") + std::string(p.name);
-  return names;
+    if (bits & p.textured) all += (all.empty() ? "" : ", ") + std::string(p.name);
+  return all;
 }
 
 }  // namespace

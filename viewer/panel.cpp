@@ -163,6 +163,7 @@ void materialButtons(PanelContext& context) {
   ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("##preset", "Preset", ImGuiComboFlags_HeightLarge)) {
     std::string_view group;
+    const FitForm form{usesBlinn(session.document.a.shading), session.document.a.blinnFactor};
     const int now =
         presetOf(effectiveParameters(session.model->scene, session.document.a, session.material));
     for (const Preset& preset : presets()) {
@@ -170,7 +171,12 @@ void materialButtons(PanelContext& context) {
         group = preset.group;
         ImGui::TextDisabled("%s", std::string(group).c_str());
       }
-      if (ImGui::Selectable(std::string(preset.name).c_str(), &preset - presets().data() == now))
+      const int place = int(&preset - presets().data());
+      const float side = 1.6f * ImGui::GetTextLineHeight();
+      if (context.thumbnails)
+        imgui::image(context.thumbnails->ofPreset(place, form).texture, side, side);
+      ImGui::SameLine();
+      if (ImGui::Selectable(std::string(preset.name).c_str(), place == now, 0, ImVec2(0, side)))
         setParameters(session.document.a, materialKey(session.model->scene, session.material),
                       presetParameters(preset));
     }

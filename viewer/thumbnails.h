@@ -5,10 +5,13 @@
 
 #include "glint/gl/handles.h"
 #include "glint/render/decode.h"
+#include "material_textures.h"
+#include "measured.h"
 
 namespace glint::viewer {
 
-/// Small pictures of a model's textures in the window's context, made when they are first shown.
+/// Small pictures in the window's context, made when they are first shown: of a model's textures,
+/// and balls of materials.
 class Thumbnails {
  public:
   struct Shown {
@@ -16,6 +19,8 @@ class Thumbnails {
     int width = 0, height = 0;
   };
   Shown of(const std::shared_ptr<const DecodedImages>&, int image);
+  /// The ball of a preset, by its place in presets().
+  Shown ofPreset(int preset, const FitForm&);
 
  private:
   std::shared_ptr<const DecodedImages> images_;
@@ -23,7 +28,11 @@ class Thumbnails {
     TextureHandle texture;
     int width = 0, height = 0;
   };
+  static Kept kept(const Thumbnail&);
+  static Shown shown(const Kept&);
   std::map<int, Kept> kept_;
+  FitForm ballForm_;
+  std::map<int, Kept> balls_;
 };
 
 }  // namespace glint::viewer

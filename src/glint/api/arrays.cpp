@@ -79,7 +79,7 @@ GlbJson ArrayGlb::material(const Arrays& part, const std::string& where) {
   extras["color"] = GlbJson::array({color.x, color.y, color.z});
   GlbJson result{{"extras", {{"glint", extras}}}, {"doubleSided", part.twoSided}};
   if (!part.name.empty()) result["name"] = part.name;
-  if (std::ranges::any_of(part.colors, [](const auto& color) { return color[3] < 1; }))
+  if (std::ranges::any_of(part.colors, [](const auto& each) { return each[3] < 1; }))
     result["alphaMode"] = "BLEND";
   if (!part.texture.empty()) {
     const auto begins = [&](std::size_t at, const char* text) {
