@@ -13,9 +13,9 @@
 
 namespace glint {
 
-/// A scene's meshes and textures in the driver's memory, each put there when first needed; a software
-/// driver reads long arrays where the scene has them. Lives and dies in one context; the scene must
-/// outlive it, and its meshes may change only as pose() says.
+/// A scene's meshes and textures in the driver's memory, each put there when first needed; a
+/// software driver reads long arrays where the scene has them. Lives and dies in one context; the
+/// scene must outlive it, and its meshes may change only as pose() says.
 class GpuScene {
  public:
   GpuScene(const Scene& scene, DecodedImages images);
