@@ -110,11 +110,11 @@ PYBIND11_MODULE(_glint, module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const glint::InputError& e) {
-      inputError(e.what());
+      PyErr_SetString(inputError.ptr(), e.what());
     } catch (const glint::ContextError& e) {
-      contextError(e.what());
+      PyErr_SetString(contextError.ptr(), e.what());
     } catch (const glint::Error& e) {
-      error(e.what());
+      PyErr_SetString(error.ptr(), e.what());
     }
   });
   module.attr("__version__") = GLINT_VERSION;
