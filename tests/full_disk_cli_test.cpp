@@ -114,8 +114,11 @@ TEST(FullDisk, ThatIsOneIsTold) {
   const auto inside = [&](const std::string& what) {
     std::ofstream(folder / "run.sh") << "mount -t tmpfs -o size=8k none out || exit 99\n" << what;
     const int status = std::system(
-        // Root needs no user namespace, which a changed root would not let it have.
-        ("cd '" + folder.path() + "' && unshare $(unshare -m true && echo -m || echo -rm) " +
+        // Root needs no user namespace; a changed root lets it have none, and is no mount of its
+        // own.
+        ("cd '" + folder.path() +
+         "' && unshare $(unshare -m true && echo -m || "
+         "{ unshare -rm true && echo -rm || echo -m --propagation unchanged; }) " +
          "sh run.sh > out.txt 2> err.txt")
             .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -81,6 +81,7 @@ with tempfile.TemporaryDirectory() as folder:
 newest = re.search(r"^## (\S+)", (root / "CHANGELOG.md").read_text(), re.M)[1]
 check(newest == version, "CHANGELOG.md begins with %s, the project's version is %s" % (newest, version))
 check(run(glint, "--version").stdout == "glint %s\n" % version, "glint --version is " + version)
-tags = subprocess.run(["git", "-C", str(root), "tag", "--points-at", "HEAD"], text=True,
-                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.split()
+# A source tree need be no clone, nor git be there.
+tags = subprocess.run(["git", "-C", str(root), "tag", "--points-at", "HEAD"], text=True, stdout=subprocess.PIPE,
+                      stderr=subprocess.DEVNULL).stdout.split() if shutil.which("git") else []
 check(not tags or "v" + version in tags, "the tag of this commit is v%s, not %s" % (version, tags))
