@@ -283,4 +283,40 @@ TEST(Memory, TooLittleToBeginWithIsTold) {
   }
 }
 
+// A driver that waits for threads it could not start would wait for ever.
+TEST(Threads, FewOrNoneAreEnough) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "a sanitizer starts threads of its own";
+#endif
+  const Folder folder("threads");
+  const std::string preload = GLINT_BINARY_DIR "/tests/fake/no-threads/libthreads.so";
+  ASSERT_TRUE(fs::exists(preload));
+  for (const char* backend : {"osmesa", "egl-software"})
+    for (const char* threads : {"0", "1", "2", "4", "7"}) {
+      SCOPED_TRACE(std::string(backend) + " " + threads);
+      const Ran ran = runGlint(
+          {"render", shipped + "torus.glb", shipped + "sphere.glb", "-o", folder / "{model}.png",
+           "--resolution", "32,32", "--rendering-backend", backend},
+          {.environment = {{"LD_PRELOAD", preload}, {"THREADS", threads}}});
+      EXPECT_EQ(ran.status, 0) << ran.err;
+      EXPECT_EQ(ran.err, "");
+    }
+}
+
+TEST(Threads, OfALimitedAddressSpaceToo) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "a sanitizer needs terabytes of addresses";
+#endif
+  const Folder folder("addresses");
+  for (int limit = 300000; limit <= 700000; limit += 50000) {  // KiB
+    const int status =
+        std::system(("ulimit -v " + std::to_string(limit) + "; exec timeout -k 1 60 '" +
+                     GLINT_EXECUTABLE "' render '" + shipped + "torus.glb" + "' -o '" +
+                     (folder / "x.png") + "' --rendering-backend osmesa 2> /dev/null")
+                        .c_str());
+    ASSERT_TRUE(WIFEXITED(status)) << limit;
+    EXPECT_THAT(WEXITSTATUS(status), testing::AnyOf(0, 1, 2, 3)) << limit;
+  }
+}
+
 }  // namespace safety_limits_cli_test

@@ -1,10 +1,15 @@
 #include "glint/gl/context.h"
 
 #include <glad/gl.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <latch>
 #include <mutex>
+#include <thread>
+#include <vector>
 
 #include "glint/gl/backends.h"
 #include "glint/image/task.h"
@@ -37,6 +42,21 @@ constexpr backends::Opener egl{"egl", [] { return openSystemEgl(false); }};
 constexpr backends::Opener eglSoftware{"egl-software", [] { return openSystemEgl(true); }};
 constexpr backends::Opener osmesa{"osmesa", openSystemOsmesa};
 
+/// Whether the system gives the threads that Mesa's software renderer starts: two kinds, one of
+/// each for every processor up to 16, and a few beside them for this program. A limit of addresses
+/// below 1 GiB counts as no: the driver and its compiler take most of that.
+bool hasThreadsForMesa() {
+  rlimit addresses{};
+  if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur < (rlim_t(1) << 30)) return false;
+  const unsigned count = 2 * std::clamp(std::thread::hardware_concurrency(), 1u, 16u) + 4;
+  std::latch all(1);
+  std::vector<std::thread> threads;
+  while (threads.size() < count && addWorker(threads, [&all] { all.wait(); })) continue;
+  all.count_down();
+  for (std::thread& thread : threads) thread.join();
+  return threads.size() == count;
+}
+
 /// Sets the environment variables that Mesa reads when a backend is opened; a user's own values
 /// stand. Mesa's warnings go to stderr otherwise, among them one for every driver it passes over.
 void prepareEnvironment(Backend backend) {
@@ -44,6 +64,9 @@ void prepareEnvironment(Backend backend) {
   static bool softwareIsOurs = false;
   const std::lock_guard lock(mutex);
   setenv("EGL_LOG_LEVEL", "fatal", 0);
+  // Mesa waits forever for a thread that could not be started; without any it draws by itself.
+  static const bool hasThreads = hasThreadsForMesa();
+  if (!hasThreads) setenv("LP_NUM_THREADS", "0", 0);
   if (backend == Backend::eglSoftware && !std::getenv("LIBGL_ALWAYS_SOFTWARE")) {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     softwareIsOurs = true;
