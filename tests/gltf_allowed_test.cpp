@@ -3,9 +3,11 @@
 
 #include <limits>
 
+#include "glint/render/decode.h"
 #include "glint/scene/camera.h"
 #include "glint/shading/pbr_conversion.h"
 #include "gltf_sample.h"
+#include "textures.h"
 
 namespace gltf_allowed_test {
 
@@ -217,6 +219,53 @@ TEST(GltfAllowed, SpecularAndGlossiness) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isfinite(
       glint::convertSpecularGlossiness({{nan, 0, 0}, {nan, -1, 9}, nan}).first.specular));
+}
+
+// Red plastic beside gold: of each texel what factors of its value would give.
+TEST(GltfAllowed, SpecularAndGlossinessByTexels) {
+  Sample sample;
+  Json& primitive = sample.triangle();
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] = sample.accessor<float>("VEC2", {0, 0, 1, 0, 0, 1});
+  const auto texture = [&](const glm::ivec4& left, const glm::ivec4& right) {
+    const auto bytes = glint::test::png(2, 1, [&](int x, int) { return x == 0 ? left : right; });
+    const int image =
+        sample.add("images", {{"bufferView", sample.view(bytes)}, {"mimeType", "image/png"}});
+    return sample.add("textures", {{"source", image}});
+  };
+  const int diffuse = texture({188, 64, 64, 255}, {0, 0, 0, 128});
+  const int gloss = texture({56, 56, 56, 128}, {255, 226, 157, 204});
+  Json material;
+  material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+      {"diffuseTexture", {{"index", diffuse}}},
+      {"specularGlossinessTexture", {{"index", gloss}}},
+      {"glossinessFactor", 0.5}};
+  // A fallback for others, which must not be taken.
+  material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", diffuse}};
+  sample.json["materials"] = {material, material};
+  glint::Scene scene = sample.load();
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_EQ(scene.images.size(), 4u);  // those of the file, and for both materials two made of them
+  const glint::Material& m = scene.materials.at(0);
+  using glint::textured::exponent, glint::textured::metalness, glint::textured::specular;
+  EXPECT_EQ(m.textured,
+            unsigned(specular | exponent | metalness) | unsigned(glint::textured::diffuse));
+  ASSERT_TRUE(m.colorTexture && m.parameterTextures.metallicRoughness &&
+              m.parameterTextures.specular);
+  EXPECT_EQ(m.parameterTextures.specular->image, m.parameterTextures.metallicRoughness->image);
+
+  glint::DecodedImages images = glint::decodeImages(scene, {});
+  const auto texels = [&](const glint::Texture& of) {
+    const std::vector<std::uint8_t>& v = images.at(of.image).image.values;
+    return std::vector<int>(v.begin(), v.end());
+  };
+  EXPECT_THAT(texels(*m.colorTexture), testing::ElementsAre(188, 64, 64, 255, 255, 226, 157, 128));
+  // Roughness 1 - 0.5 x 128 / 255 and 1 - 0.5 x 204 / 255; code 56 is 0.0395, just no metal.
+  const std::vector<int> numbers = texels(*m.parameterTextures.metallicRoughness);
+  EXPECT_THAT(std::vector<int>(numbers.begin() + 1, numbers.begin() + 4),
+              testing::ElementsAre(191, 0, 10));
+  EXPECT_THAT(std::vector<int>(numbers.begin() + 5, numbers.begin() + 8),
+              testing::ElementsAre(153, 255, 255));
 }
 
 TEST(GltfAllowed, CamerasOfTheFileShowTheirWholeFrame) {

@@ -160,6 +160,8 @@ TEST(Help, ATypoIsAnsweredEvenWhereSomethingElseIsMissing) {
   EXPECT_THAT(answer({"render", "--shadin", "flat"}), HasSubstr("did you mean '--shading'?"));
   EXPECT_THAT(answer({"render", "a.glb", "--outptu", "a.png"}),
               HasSubstr("did you mean '--output'?"));
+  EXPECT_THAT(answer({"render", "a.glb", "--hdri", "a.exr"}),
+              HasSubstr("did you mean '--hdri-file'?"));
   EXPECT_THAT(answer({"render", "a.glb", "--turntabel=3"}),
               HasSubstr("did you mean '--turntable'?"));
   EXPECT_THAT(answer({"info", "--jsn", "-"}), HasSubstr("did you mean '--json'?"));

@@ -137,6 +137,8 @@ class Texts : public test::Random {
     if (coin()) edit.color = parseVector(vector(0, 1e6), 0, 1e6, "color");
     if (coin()) edit.highlight = parseHighlights(form(), "highlight");
     if (coin()) edit.fresnel = Fresnel(below(int(fresnelTexts().size())));
+    for (const SwitchedTexture& t : switchedTextures())
+      if (coin()) edit.*t.edit = coin();
     if (edit == MaterialEdit{}) edit.ior = 1.25;
   }
 
@@ -252,6 +254,7 @@ TEST(RoundTrip, OfMaterialsThroughAModelsFile) {
         for (const MaterialParameter& p : materialParameters())
           patch.values.*p.value = texts.number(p.min, p.max);
         patch.values.color = parseVector(texts.vector(0, 1e6), 0, 1e6, "color");
+        patch.switchedOff = unsigned(i + int(m)) % 8;
       }
       const auto patched = patchGltf(bytes, patches, "a");
       const auto copy =
@@ -263,6 +266,7 @@ TEST(RoundTrip, OfMaterialsThroughAModelsFile) {
         for (const MaterialParameter& p : materialParameters())
           ASSERT_EQ(is.*p.value, patch.values.*p.value) << p.name;
         ASSERT_EQ(is.color, patch.values.color);
+        ASSERT_EQ(scene.materials[patch.index].switchedOff, patch.switchedOff);
       }
     }
   }

@@ -5,6 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "glint/image/error.h"
+#include "viewer/materials.h"
+#include "viewer/own_presets.h"
 #include "viewer/recovery.h"
 #include "viewer/settings.h"
 #include "viewer/xdg.h"
@@ -119,6 +122,30 @@ TEST_F(SettingsTest, ComeBackFromTheirFile) {
   saveSettings(s);
   EXPECT_TRUE(fs::exists(folder_ / "glint" / "viewer.json"));
   EXPECT_EQ(loadSettings(), s);
+  unsetenv("XDG_CONFIG_HOME");
+}
+
+// Kept, listed by name, pasted again, and replaced though they have been read.
+TEST_F(SettingsTest, OwnPresetsAreTextFiles) {
+  setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
+  EXPECT_TRUE(ownPresets().empty());
+  ShadingParameters gold;
+  gold.exponent = 77;
+  gold.color = {1, 0.5, 0.25};
+  keepPreset(ownPresetPath("a/b\n#1"), materialText(gold));
+  keepPreset(ownPresetPath(".hidden"), "no JSON");
+  const auto all = ownPresets();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].name, "a-b-#1");
+  EXPECT_EQ(all[1].name, "material.hidden");
+  Look look;
+  pasteMaterial(look, "x", ownPresetText(all[0]));
+  EXPECT_EQ(look.material["x"].exponent, 77);
+  EXPECT_EQ(look.material["x"].color, gold.color);
+  EXPECT_THROW(pasteMaterial(look, "x", ownPresetText(all[1])), InputError);
+  keepPreset(all[0].path, materialText({}));
+  EXPECT_EQ(ownPresetText(all[0]), materialText({}));
+  EXPECT_EQ(ownPresetPath("").filename(), "material.json");
   unsetenv("XDG_CONFIG_HOME");
 }
 

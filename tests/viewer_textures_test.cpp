@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
 #include "viewer/material_ball.h"
 #include "viewer/material_textures.h"
@@ -45,6 +46,26 @@ TEST(MaterialTextures, AreSwitchedOffByNumbersAndOnAgain) {
   EXPECT_EQ(off.replaced, off.gives);
   EXPECT_EQ(effectiveParameters(s, look, 0).exponent, s.materials[0].shading.exponent);
   switchTexture(look, s, 0, off, true);
+  EXPECT_EQ(look, Look{});
+}
+
+// A preset's colour is seen as it is, and what the file switches off can be switched on.
+TEST(MaterialTextures, OfColourNormalAndEmissionAreSwitchedToo) {
+  Scene s = scene();
+  Look look;
+  switchTexture(look, s, 0, materialTextures(s, look, 0)[0], false);
+  EXPECT_FALSE(editedMaterial(s.materials[0], look).colorTexture);
+  EXPECT_TRUE(materialTextures(s, look, 0)[0].isOff);
+  Look said;
+  parseMaterialEdit(said, "Helmet:color-texture=off");
+  EXPECT_EQ(look, said);
+  switchTexture(look, s, 0, materialTextures(s, look, 0)[0], true);
+  EXPECT_EQ(look, Look{});
+  s.materials[0].switchedOff = switchedOff::color;
+  EXPECT_FALSE(editedMaterial(s.materials[0], look).colorTexture);
+  switchTexture(look, s, 0, materialTextures(s, look, 0)[0], true);
+  EXPECT_TRUE(editedMaterial(s.materials[0], look).colorTexture);
+  switchTexture(look, s, 0, materialTextures(s, look, 0)[0], false);
   EXPECT_EQ(look, Look{});
 }
 

@@ -84,9 +84,10 @@ TEST(Effects, SayWhyAParameterDoesNothing) {
   look.noBackground = true;
   EXPECT_THAT(withoutEffect(look, nullptr, "background-color"), HasSubstr("transparent"));
   EXPECT_NE(withoutEffect(look, nullptr, "environment"), "");
-  for (const MaterialParameter& p : materialParameters())
-    if (p.name != "ior" && p.name != "transmission")
-      EXPECT_EQ(withoutEffect(Look{}, nullptr, p.name), "") << p.name;
+  for (const MaterialParameter& p : materialParameters()) {
+    if (p.name == "ior" || p.name == "transmission") continue;
+    EXPECT_EQ(withoutEffect(Look{}, nullptr, p.name), "") << p.name;
+  }
   for (const char* name : {"exposure", "camera-view-angle", "two-sided", "shading", "viewer"})
     EXPECT_EQ(withoutEffect(Look{}, nullptr, name), "") << name;
 }

@@ -80,6 +80,7 @@ constexpr ActionInfo actionTable[] = {
     {Action::findMaterial, "Material", "find one by name", 'F', control},
     {Action::nextPreset, "Material", "next preset", 'M', no, no, repeats},
     {Action::previousPreset, "Material", "previous preset", 'M', no, shift, repeats},
+    {Action::keepPreset, "Material", "keep as a preset of one's own", 'K', control},
     {Action::copyMaterial, "Material", "copy as text", 'C', control},
     {Action::pasteMaterial, "Material", "paste from text", 'V', control},
     {Action::resetMaterial, "Material", "take back all edits", 'R', control},

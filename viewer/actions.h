@@ -41,6 +41,7 @@ enum class Action {
   findMaterial,
   nextPreset,
   previousPreset,
+  keepPreset,
   copyMaterial,
   pasteMaterial,
   resetMaterial,

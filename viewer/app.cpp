@@ -293,6 +293,7 @@ void App::buildInterface() {
   pictureArea();
   statusBar();
   probeShown_ = panelFocused_ = false;
+  session_.tried.reset();
   if (options_.settings.panel) {
     ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - panelWidth_, menuHeight_));
     ImGui::SetNextWindowSize(ImVec2(panelWidth_, io.DisplaySize.y - menuHeight_));

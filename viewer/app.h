@@ -83,6 +83,7 @@ class App {
   // app_view.cpp: the picture as a thing to touch
   void pictureArea();
   void handlePicture(glm::dvec2 mouse, bool hovered, bool active);
+  void turnEnvironment(double degrees);
   void dragPicture(glm::dvec2 mouse);
   void moveCamera(const std::function<Pose(const Pose&)>& move);
   /// Nearer to the surface at a pixel, or the point of the focal plane there, by a factor.
@@ -128,6 +129,7 @@ class App {
   void attempt(const std::function<void()>& action);
 
   // app_files.cpp: models, looks, shaders and pictures
+  void keepPresetAt(const std::string& path, bool sure);
   void saveLookTo(const std::string& path, bool sure, std::function<void()> then = {});
   void saveModelTo(const std::string& path, bool sure);
   void savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure);

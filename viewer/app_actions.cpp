@@ -7,6 +7,7 @@
 #include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
 #include "materials.h"
+#include "own_presets.h"
 
 namespace glint::viewer {
 namespace {
@@ -159,6 +160,13 @@ void App::execute(Action command) {
       break;
     case Action::redo:
       if (!session_.history.redo(d, session_.playing)) session_.say("nothing to redo");
+      break;
+    case Action::keepPreset:
+      if (session_.model)
+        dialogs_.askPath(
+            "Keep the material as a preset",
+            ownPresetPath(materialLabel(session_.model->scene, session_.material)).string(), false,
+            [this](const std::string& path) { keepPresetAt(path, false); });
       break;
     case Action::copyMaterial:
       if (session_.model) {

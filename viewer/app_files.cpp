@@ -10,6 +10,7 @@
 #include "glint/image/read_files.h"
 #include "glint/options/parameters.h"
 #include "materials.h"
+#include "own_presets.h"
 
 namespace glint::viewer {
 
@@ -210,6 +211,19 @@ void App::saveLookTo(const std::string& path, bool sure, std::function<void()> t
     session_.saveLook(path, resolution_);
     lookState_ = stateOf(path);
     if (then) then();
+  });
+}
+
+void App::keepPresetAt(const std::string& path, bool sure) {
+  if (!sure && fs::exists(path)) {
+    dialogs_.ask("Replace?", path + " exists. Replace it?",
+                 {{"Replace", [this, path] { keepPresetAt(path, true); }}, {"Cancel", {}}});
+    return;
+  }
+  attempt([&] {
+    keepPreset(path, materialText(effectiveParameters(session_.model->scene, session_.document.a,
+                                                      session_.material)));
+    session_.say("kept as " + fs::path(path).stem().string());
   });
 }
 

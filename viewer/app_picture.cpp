@@ -38,7 +38,7 @@ PaintRequest App::wanted(bool& moving) {
   const auto now = Clock::now();
   const Document& document = session_.document;
   PaintRequest want;
-  want.a = document.a;
+  want.a = session_.tried.value_or(document.a);
   want.a.resolution = want.size = resolution_;
   if (comparesExact(document)) want.a = comparableLook(want.a);
   if (want.a != lastFull_) {

@@ -9,6 +9,7 @@
 #include "compose.h"
 #include "effects.h"
 #include "glint/image/error.h"
+#include "glint/scene/look_text.h"
 #include "widgets.h"
 
 namespace glint::viewer {
@@ -106,8 +107,19 @@ void App::dragPicture(glm::dvec2 mouse) {
     moveCamera([&](const Pose& p) {
       return orbited(p, -delta.x / height * 200, delta.y / height * 200, pivot_);
     });
+  else if (ImGui::IsMouseDown(ImGuiMouseButton_Right) && io.KeyShift)
+    turnEnvironment(delta.x / height * 200);
   else if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
     dolly(pressedAt_, std::exp(-2 * delta.y / height));
+}
+
+void App::turnEnvironment(double degrees) {
+  Look& look = session_.document.a;
+  look.environmentRotation = std::remainder(look.environmentRotation + degrees, 360);
+  session_.say("environment turned by " + numberText(std::round(look.environmentRotation)) +
+               (look.shading == Shading::environment || look.environmentBackground
+                    ? " degrees"
+                    : " degrees; only the program environment and the background show it"));
 }
 
 std::optional<Hit> App::hitAt(glm::dvec2 pixel) const {

@@ -21,14 +21,25 @@ std::vector<MaterialTexture> materialTextures(const Scene& scene, const Look& lo
   std::vector<MaterialTexture> all;
   if (index < 0) return all;
   const Material& material = scene.materials[std::size_t(index)];
-  const unsigned left = editedMaterial(material, look).textured;
+  const Material edited = editedMaterial(material, look);
+  const unsigned left = edited.textured;
   const auto add = [&](const std::optional<Texture>& texture, const char* name,
                        const std::string& drives, unsigned bits = 0) {
     if (!texture) return;
     const unsigned gives = material.textured & bits;
     if (bits != 0 && gives == 0) return;  // nothing here reads it
-    all.push_back({name, bits == 0 ? drives : "gives " + namesOf(gives), texture->image, gives,
-                   gives & ~left});
+    MaterialTexture& told = all.emplace_back();
+    told.name = name;
+    told.drives = bits == 0 ? drives : "gives " + namesOf(gives);
+    told.image = texture->image;
+    told.gives = gives;
+    told.replaced = gives & ~left;
+    told.isOff = gives != 0 && told.replaced == gives;
+    for (const SwitchedTexture& own : switchedTextures()) {
+      if (&(material.*own.texture) != &texture) continue;
+      told.own = &own;
+      told.isOff = (edited.switchedOff & own.bit) != 0;
+    }
   };
   const ParameterTextures& p = material.parameterTextures;
   add(material.colorTexture, "base colour", "multiplies color and alpha");
@@ -45,6 +56,13 @@ std::vector<MaterialTexture> materialTextures(const Scene& scene, const Look& lo
 void switchTexture(Look& look, const Scene& scene, int index, const MaterialTexture& texture,
                    bool on) {
   const std::string key = materialKey(scene, index);
+  if (texture.own) {
+    if (on == ((scene.materials[std::size_t(index)].switchedOff & texture.own->bit) == 0))
+      resetTexture(look, key, *texture.own);
+    else
+      look.material[key].*texture.own->edit = on;
+    return;
+  }
   const ShadingParameters now = effectiveParameters(scene, look, index);
   for (const MaterialParameter& p : materialParameters()) {
     if (!(p.textured & texture.gives)) continue;

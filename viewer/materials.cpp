@@ -112,6 +112,12 @@ void resetColor(Look& look, const std::string& key) {
   dropEmpty(look);
 }
 
+void resetTexture(Look& look, const std::string& key, const SwitchedTexture& texture) {
+  for (auto& [name, edit] : look.material)
+    if (key.empty() || name == key) (edit.*texture.edit).reset();
+  dropEmpty(look);
+}
+
 void resetMaterial(Look& look, const std::string& key) {
   if (key.empty())
     look.material.clear();
@@ -134,7 +140,7 @@ void pasteMaterial(Look& look, const std::string& key, const std::string& text) 
   if (!parsed) {
     if (text.find('=') == std::string::npos || text.find('\n') != std::string::npos)
       throw InputError(
-          "the clipboard holds no material: copy one here, or text such as "
+          "this holds no material: copy one here, or text such as "
           "{\"exponent\": 40} or exponent=40,color=#c04020");
     parseMaterialEdit(changed, key.empty() ? text : key + ":" + text);
   } else {
@@ -142,7 +148,7 @@ void pasteMaterial(Look& look, const std::string& key, const std::string& text) 
     const Json* from = json.is_object() && json.contains("extras") ? &json["extras"] : &json;
     if (from->is_object() && from->contains("glint")) from = &(*from)["glint"];
     if (!from->is_object() || from->empty())
-      throw InputError("the clipboard's JSON holds no parameters of a material");
+      throw InputError("this JSON holds no parameters of a material");
     for (const auto& [name, value] : from->items()) {
       std::string number;
       if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&
@@ -151,6 +157,8 @@ void pasteMaterial(Look& look, const std::string& key, const std::string& text) 
           number += (number.empty() ? "" : ",") + numberText(each.get<double>());
       else if (value.is_string())
         number = value.get<std::string>();
+      else if (value.is_boolean())
+        number = value.get<bool>() ? "on" : "off";
       else if (value.is_number())
         number = numberText(value.get<double>());
       setMaterialEdit(changed, key, name, number);

@@ -45,6 +45,7 @@ std::string dropMissing(Look&, const Scene&);
 /// Takes back one edit, or all; for "" those of every material.
 void resetParameter(Look&, const std::string& key, const MaterialParameter&);
 void resetColor(Look&, const std::string& key);
+void resetTexture(Look&, const std::string& key, const SwitchedTexture&);
 void resetMaterial(Look&, const std::string& key);
 
 /// A material as the text that is copied: the JSON of a glTF material's extras, {"glint": {...}}.

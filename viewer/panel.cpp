@@ -13,6 +13,7 @@
 #include "glint/scene/look_text.h"
 #include "imgui_versions.h"
 #include "materials.h"
+#include "own_presets.h"
 #include "presets.h"
 #include "widgets.h"
 
@@ -156,6 +157,26 @@ void materialForms(Session& session) {
   if (edit == MaterialEdit{}) look.material.erase(key);
 }
 
+// The user's own, above the table's.
+void ownPresetRows(Session& session) {
+  const std::vector<OwnPreset> all = ownPresets();
+  if (all.empty()) return;
+  ImGui::TextDisabled("own");
+  for (const OwnPreset& preset : all) {
+    ImGui::PushID(preset.name.c_str());
+    const bool taken = ImGui::Selectable(preset.name.c_str());
+    if (taken || ImGui::IsItemHovered()) try {
+        Look look = session.document.a;
+        pasteMaterial(look, materialKey(session.model->scene, session.material),
+                      ownPresetText(preset));
+        (taken ? session.document.a : session.tried.emplace()) = std::move(look);
+      } catch (const InputError& error) {
+        session.say(preset.path.string() + ": " + error.what());
+      }
+    ImGui::PopID();
+  }
+}
+
 void materialButtons(PanelContext& context) {
   Session& session = context.session;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -166,6 +187,7 @@ void materialButtons(PanelContext& context) {
     const FitForm form{usesBlinn(session.document.a.shading), session.document.a.blinnFactor};
     const int now =
         presetOf(effectiveParameters(session.model->scene, session.document.a, session.material));
+    ownPresetRows(session);
     for (const Preset& preset : presets()) {
       if (preset.group != group) {
         group = preset.group;
@@ -176,8 +198,13 @@ void materialButtons(PanelContext& context) {
       if (context.thumbnails)
         imgui::image(context.thumbnails->ofPreset(place, form).texture, side, side);
       ImGui::SameLine();
-      if (ImGui::Selectable(std::string(preset.name).c_str(), place == now, 0, ImVec2(0, side)))
-        setParameters(session.document.a, materialKey(session.model->scene, session.material),
+      const bool taken =
+          ImGui::Selectable(std::string(preset.name).c_str(), place == now, 0, ImVec2(0, side));
+      if (!taken && ImGui::IsItemHovered()) session.tried = session.document.a;
+      if (Look* const look = taken                    ? &session.document.a
+                             : ImGui::IsItemHovered() ? &*session.tried
+                                                      : nullptr)
+        setParameters(*look, materialKey(session.model->scene, session.material),
                       presetParameters(preset));
     }
     ImGui::EndCombo();
@@ -186,7 +213,8 @@ void materialButtons(PanelContext& context) {
       "a material from the classic published tables (teapots.c, Silicon Graphics), in Phong's "
       "parameters (" +
       keyText(infoOf(Action::nextPreset)) + " the next, " +
-      keyText(infoOf(Action::previousPreset)) + " the previous)");
+      keyText(infoOf(Action::previousPreset)) + " the previous); " +
+      keyText(infoOf(Action::keepPreset)) + " keeps the selected one among your own");
   ImGui::SameLine();
   actionButton(context, Action::copyMaterial, "Copy", width);
   ImGui::SameLine();

@@ -31,13 +31,11 @@ void drawTextures(PanelContext& context) {
     }
     ImGui::SameLine(side + 2 * ImGui::GetStyle().ItemSpacing.x);
     ImGui::BeginGroup();
-    bool on = texture.gives == 0 || texture.replaced != texture.gives;
-    ImGui::BeginDisabled(texture.gives == 0);
+    bool on = !texture.isOff;
     if (ImGui::Checkbox(texture.name.c_str(), &on))
       switchTexture(look, scene, session.material, texture, on);
-    ImGui::EndDisabled();
-    widgets::tooltip(texture.gives == 0
-                         ? "a part of the file's material, which a look does not switch off"
+    widgets::tooltip(texture.own
+                         ? "off: as if the material had none; on: it is read again"
                          : "off: the numbers above take its place; on: it gives them again");
     ImGui::TextDisabled("%s", texture.drives.c_str());
     ImGui::EndGroup();

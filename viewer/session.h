@@ -56,6 +56,7 @@ struct Session {
   std::shared_ptr<const Model> model;  ///< null until one is loaded; in the pose that is shown
   std::shared_ptr<const MeasuredMaterial> measured;  ///< beside the material's plots; may be null
   Document document;
+  std::optional<Look> tried;  ///< shown in place of A while the pointer rests on a preset
   History history;
   int material = -1;           ///< selected, an index into the scene's; -1 is all of them
   std::optional<int> hovered;  ///< the material under the cursor

@@ -210,10 +210,15 @@ void printCamera(std::size_t index, const Json& camera) {
   std::cout << "\n";
 }
 
+std::string counted(const Json& number, const char* one, const char* many) {
+  return number.dump() + " " + (number == 1 ? one : many);
+}
+
 void print(const Json& json) {
-  std::cout << oneLine(json["model"]) << ": " << json["triangles"] << " triangles, "
-            << json["meshes"] << " meshes, " << json["instances"] << " instances; radius "
-            << json["radius"] << " about " << json["center"].dump() << "\n";
+  std::cout << oneLine(json["model"]) << ": " << counted(json["triangles"], "triangle", "triangles")
+            << ", " << counted(json["meshes"], "mesh", "meshes") << ", "
+            << counted(json["instances"], "instance", "instances") << "; radius " << json["radius"]
+            << " about " << json["center"].dump() << "\n";
   if (!json["box"].is_null()) {
     std::cout << "box from " << json["box"]["min"].dump() << " to " << json["box"]["max"].dump()
               << "\n";

@@ -34,5 +34,7 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
   struct Start* start = malloc(sizeof *start);
   start->run = function;
   start->argument = argument;
-  return ((Create)dlsym(RTLD_NEXT, "pthread_create"))(thread, attributes, run, start);
+  Create create;
+  *(void**)&create = dlsym(RTLD_NEXT, "pthread_create");
+  return create(thread, attributes, run, start);
 }

@@ -28,7 +28,7 @@ constexpr std::array table = {
     Entry{"KHR_materials_specular", Use::approximated, "its strength; not its colour"},
     Entry{"KHR_materials_transmission", Use::read, "by the program environment"},
     Entry{"KHR_materials_pbrSpecularGlossiness", Use::approximated,
-          "factors and diffuse texture; no texture of specular and glossiness"},
+          "as the notes' parameters, texel by texel"},
     Entry{"KHR_materials_variants", Use::read, "by --variant"},
     Entry{"EXT_mesh_gpu_instancing", Use::read, "places; no attributes of its own"},
     Entry{"KHR_texture_basisu", Use::approximated, "not read; the other image of a texture is"},

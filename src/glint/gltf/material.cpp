@@ -57,6 +57,16 @@ void readExtras(const Json& material, const std::string& label, Material& edited
       }
       continue;
     }
+    const auto switches = switchedTextures();
+    const auto texture =
+        std::ranges::find(switches, std::string_view(it.key()), &SwitchedTexture::name);
+    if (texture != switches.end()) {
+      if (!it->is_boolean())
+        messages.warn(place + "." + name + " is neither true nor false and is ignored");
+      else if (!it->get<bool>())
+        edited.switchedOff |= texture->bit;
+      continue;
+    }
     const auto keys = materialParameters();
     const auto key = std::ranges::find(keys, std::string_view(it.key()), &MaterialParameter::name);
     if (key == keys.end()) {
@@ -90,15 +100,13 @@ void readUnused(Cursor extensions, Material& material) {
     material.unusedProperties.emplace_back("the colour of KHR_materials_specular");
 }
 
-/// What textures give in place of numbers: bits only for what they can change.
-void readParameterTextures(Cursor from, const PbrParameters& pbr, Material& material,
+/// What textures give in place of numbers: bits only for what they can change. A material of
+/// specular and glossiness has no `pbr`.
+void readParameterTextures(Cursor from, const std::optional<PbrParameters>& pbr, Material& material,
                            TextureReader& textures) {
   const Cursor extensions = from.member("extensions");
   if (extensions.member("KHR_materials_unlit").exists()) return;
   ParameterTextures& to = material.parameterTextures;
-  to.metallic = pbr.metallic;
-  to.roughness = pbr.roughness;
-  to.reflectance = dielectricReflectance(pbr);
   const Cursor occlusion = from.member("occlusionTexture");
   to.occlusionStrength = unit(occlusion.member("strength"), 1);
   const auto take = [&](std::optional<Texture>& texture, Cursor info, unsigned bits) {
@@ -106,16 +114,47 @@ void readParameterTextures(Cursor from, const PbrParameters& pbr, Material& mate
     texture = textures.read(info, true);
     if (texture) material.textured |= bits;
   };
-  const bool metals = pbr.metallic > 0, gloss = pbr.roughness > smallestRoughness;
+  take(to.occlusion, occlusion, to.occlusionStrength > 0 ? unsigned(textured::ambient) : 0u);
+  take(to.transmission,
+       extensions.member("KHR_materials_transmission").member("transmissionTexture"),
+       material.shading.transmission > 0 ? unsigned(textured::transmission) : 0u);
+  if (!pbr) return;
+  to.metallic = pbr->metallic;
+  to.roughness = pbr->roughness;
+  to.reflectance = dielectricReflectance(*pbr);
+  const bool metals = pbr->metallic > 0, gloss = pbr->roughness > smallestRoughness;
   take(to.metallicRoughness, from.member("pbrMetallicRoughness").member("metallicRoughnessTexture"),
        (metals ? textured::metalness | textured::diffuse | textured::specular : 0u) |
            (gloss ? textured::exponent | textured::specular : 0u));
   take(to.specular, extensions.member("KHR_materials_specular").member("specularTexture"),
        to.reflectance > 0 ? unsigned(textured::specular) : 0u);
-  take(to.occlusion, occlusion, to.occlusionStrength > 0 ? unsigned(textured::ambient) : 0u);
-  take(to.transmission,
-       extensions.member("KHR_materials_transmission").member("transmissionTexture"),
-       material.shading.transmission > 0 ? unsigned(textured::transmission) : 0u);
+}
+
+/// Textures of what a material of specular and glossiness becomes, made of its own.
+void readGlossTexture(Cursor from, const SpecularGlossiness& gloss, Material& material,
+                      TextureReader& textures, Messages& messages) {
+  const Cursor map = from.member("specularGlossinessTexture");
+  const std::optional<Texture> specular = textures.read(map);
+  if (!specular) return;
+  std::optional<Texture>& diffuse = material.colorTexture;
+  const bool together = !diffuse || (diffuse->texcoord == specular->texcoord &&
+                                     diffuse->transform == specular->transform);
+  if (!together)
+    messages.warn(map.path() +
+                  " and the diffuseTexture lie in different places: metals get no colour from it");
+  const int diffuseImage = diffuse && together ? diffuse->image : -1;
+  const Texture numbers = textures.glossTexture(*specular, {false, diffuseImage, gloss});
+  if (together) {
+    diffuse = textures.glossTexture(diffuse ? *diffuse : *specular,
+                                    {true, diffuse ? specular->image : -1, gloss});
+    material.shading.color = glm::dvec3(1);
+  }
+  ParameterTextures& to = material.parameterTextures;
+  to.metallicRoughness = to.specular = numbers;
+  to.metallic = to.roughness = to.reflectance = 1;
+  material.shading.metalness = 1;  // at most
+  material.textured |=
+      textured::metalness | textured::diffuse | textured::specular | textured::exponent;
 }
 
 /// What stands beside it in metallic and roughness is a fallback for others.
@@ -126,15 +165,14 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
   gloss.diffuse = glm::dvec3(diffuse);
   gloss.specular = glm::dvec3(readColor(from.member("specularFactor"), 3, glm::dvec4(1)));
   gloss.glossiness = unit(from.member("glossinessFactor"), 1);
-  if (from.member("specularGlossinessTexture").exists()) {
-    // Without it, that of common dielectrics and a middling gloss are the best guess.
-    gloss.specular *= 0.04;
-    gloss.glossiness *= 0.5;
-    messages.warn(from.path() +
-                  ".specularGlossinessTexture is not read: specular 0.04 and half the glossiness "
-                  "take its place");
+  const bool textured = from.member("specularGlossinessTexture").exists();
+  SpecularGlossiness numbers = gloss;
+  if (textured) {
+    // Where it cannot be read, those of common dielectrics and a middling gloss are the best guess.
+    numbers.specular *= 0.04;
+    numbers.glossiness *= 0.5;
   }
-  const auto [converted, color] = convertSpecularGlossiness(gloss);
+  const auto [converted, color] = convertSpecularGlossiness(numbers);
   material.shading = {converted.ambient,
                       converted.diffuse,
                       converted.specular,
@@ -144,6 +182,7 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
                       color};
   material.alpha = std::min(diffuse.a, 1.0);
   material.colorTexture = textures.read(from.member("diffuseTexture"));
+  if (textured) readGlossTexture(from, gloss, material, textures, messages);
 }
 
 Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) {
@@ -157,17 +196,16 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   const double roughness = unit(pbr.member("roughnessFactor"), 1);
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
-  material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
+  const PbrParameters numbers{metallic, roughness, ior, unit(specular, 1)};
+  material.shading = shadingFromPbr(numbers);
 
   const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
   material.shading.color = glm::dvec3(color);
   material.alpha = std::min(color.a, 1.0);
   material.colorTexture = textures.read(pbr.member("baseColorTexture"));
 
-  if (const Cursor gloss = extensions.member("KHR_materials_pbrSpecularGlossiness");
-      gloss.exists()) {
-    readSpecularGlossiness(gloss, material, textures, messages);
-  }
+  const Cursor gloss = extensions.member("KHR_materials_pbrSpecularGlossiness");
+  if (gloss.exists()) readSpecularGlossiness(gloss, material, textures, messages);
 
   const double strength =
       extensions.member("KHR_materials_emissive_strength").member("emissiveStrength").number(1);
@@ -198,7 +236,8 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
     messages.warn(from.path() + " has the unknown alphaMode \"" + printable(mode, 20) +
                   "\", drawn as OPAQUE");
   }
-  readParameterTextures(from, {metallic, roughness, ior, unit(specular, 1)}, material, textures);
+  readParameterTextures(from, gloss.exists() ? std::nullopt : std::optional(numbers), material,
+                        textures);
   readExtras(from.json(), from.path(), material, messages);
   return material;
 }

@@ -90,12 +90,14 @@ std::vector<std::byte> putTogether(const File& file, std::string json,
   return out;
 }
 
-std::string glintText(const ShadingParameters& values, unsigned textured) {
+std::string glintText(const MaterialPatch& patch) {
   std::string text = "{";
   for (const MaterialParameter& p : materialParameters())
-    if ((p.textured & textured) == 0)
-      text += "\"" + std::string(p.name) + "\": " + numberText(values.*p.value) + ", ";
-  const glm::dvec3& c = values.color;
+    if ((p.textured & patch.textured) == 0)
+      text += "\"" + std::string(p.name) + "\": " + numberText(patch.values.*p.value) + ", ";
+  for (const SwitchedTexture& t : switchedTextures())
+    if (patch.switchedOff & t.bit) text += "\"" + std::string(t.name) + "\": false, ";
+  const glm::dvec3& c = patch.values.color;
   return text + "\"color\": [" + numberText(c.r) + ", " + numberText(c.g) + ", " + numberText(c.b) +
          "]}";
 }
@@ -186,7 +188,7 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
     const std::vector<TextSpan> materials = text.items(*array);
     for (const auto& [index, patch] : byIndex) {
       JsonText material(text.text(materials.at(index)));
-      material.set({"extras", "glint"}, glintText(patch->values, patch->textured));
+      material.set({"extras", "glint"}, glintText(*patch));
       usesIor = setNearestPbr(material, patch->values) || usesIor;
       edits.emplace_back(materials[index], material.text());
     }

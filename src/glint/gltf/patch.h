@@ -13,12 +13,13 @@ namespace glint {
 struct MaterialPatch {
   std::size_t index = 0;  ///< in the file; the number of its materials stands for the default one
   ShadingParameters values;
-  unsigned textured = 0;  ///< bits of namespace textured: left to the material's textures
+  unsigned textured = 0;     ///< bits of namespace textured: left to the material's textures
+  unsigned switchedOff = 0;  ///< of namespace switchedOff
 };
 
 /// That of an edited material.
 inline MaterialPatch patchOf(std::size_t index, const Material& edited) {
-  return {index, edited.shading, edited.textured};
+  return {index, edited.shading, edited.textured, edited.switchedOff};
 }
 
 /// The file's bytes with the numbers in `extras.glint` of the materials, and beside them the

@@ -110,6 +110,28 @@ std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
   return result;
 }
 
+Texture TextureReader::glossTexture(const Texture& from, const GlossPicture& made) {
+  Texture result = from;
+  const auto isTheSame = [&](const std::pair<std::pair<int, GlossPicture>, int>& known) {
+    const auto& [image, other] = known.first;
+    return image == from.image && other.isColor == made.isColor && other.other == made.other &&
+           other.factors.diffuse == made.factors.diffuse &&
+           other.factors.specular == made.factors.specular &&
+           other.factors.glossiness == made.factors.glossiness;
+  };
+  if (const auto known = std::ranges::find_if(glosses_, isTheSame); known != glosses_.end()) {
+    result.image = known->second;
+    return result;
+  }
+  result.image = static_cast<int>(images_.size());
+  EncodedImage image = images_[static_cast<std::size_t>(from.image)];
+  image.isData = !made.isColor;
+  image.gloss = made;
+  images_.push_back(std::move(image));
+  glosses_.push_back({{from.image, made}, result.image});
+  return result;
+}
+
 int TextureReader::imageSlot(std::size_t index, bool isData) {
   if (const auto known = slots_.find({index, isData}); known != slots_.end()) return known->second;
   int& slot = slots_[{index, isData}];

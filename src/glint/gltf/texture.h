@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "glint/gltf/document.h"
@@ -22,6 +23,9 @@ class TextureReader {
   /// not colours.
   std::optional<Texture> read(Cursor info, bool isData = false);
 
+  /// The texture whose picture is made of that of `from` and of another one, or of none (-1).
+  Texture glossTexture(const Texture& from, const GlossPicture& made);
+
   std::vector<EncodedImage> takeImages() { return std::move(images_); }
 
  private:
@@ -37,7 +41,8 @@ class TextureReader {
   std::vector<EncodedImage> images_;
   std::map<std::pair<std::size_t, bool>, int> slots_;  ///< by image and use; -1 is not usable
   std::map<std::string, int> slotsBySource_;           ///< several images may name one file or view
-  std::unordered_multimap<std::size_t, int> slotsByHash_;  ///< of the bytes
+  std::unordered_multimap<std::size_t, int> slotsByHash_;              ///< of the bytes
+  std::vector<std::pair<std::pair<int, GlossPicture>, int>> glosses_;  ///< made of what, and where
 };
 
 }  // namespace glint::gltf

@@ -57,6 +57,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
       best = each;
     }
   }
+  if (!best.empty() || word.size() < 4) return best;
+  // Or what goes on where the word ends: --background for --background-color.
+  for (const std::string& each : known)
+    if (each.starts_with(word) && (best.empty() || each.size() < best.size())) best = each;
   return best;
 }
 

@@ -214,6 +214,8 @@ Json materialEdits(const Look& look) {
     if (edit.color) one["color"] = toJson(*edit.color);
     if (edit.highlight) one["highlight"] = highlightText(*edit.highlight);
     if (edit.fresnel) one["fresnel"] = fresnelText(*edit.fresnel);
+    for (const SwitchedTexture& t : switchedTextures())
+      if (edit.*t.edit) one[std::string(t.name)] = *(edit.*t.edit);
     all[name] = one;
   }
   return all.empty() ? Json() : all;
@@ -227,7 +229,8 @@ Parameter materials() {
       "set parameters of every material, of those called NAME, of the N-th of them, or of the "
       "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): " +
           names +
-          "color, and the forms highlight and fresnel; metalness 1: the highlight has the "
+          "color; color-texture, normal-texture and emission-texture on or off; and the forms "
+          "highlight and fresnel; metalness 1: the highlight has the "
           "material's colour, as on real metals; 0: it is white (the lecture notes' words say the "
           "opposite of their formula, which is used); repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);

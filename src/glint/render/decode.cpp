@@ -14,6 +14,7 @@
 #include "glint/image/task.h"
 #include "glint/render/decode_plan.h"
 #include "glint/render/environment_image.h"
+#include "glint/render/gloss_picture.h"
 #include "glint/render/opacity.h"
 #include "glint/scene/material_parameters.h"
 
@@ -43,6 +44,18 @@ class Helpers {
   static inline std::atomic<int> free_ = std::max(1, int(std::thread::hardware_concurrency())) - 1;
   int taken_ = 0;
 };
+
+// The picture that a gloss picture is made of beside its own bytes, or nullptr.
+const EncodedImage* otherOf(const Scene& scene, const EncodedImage& image) {
+  return image.gloss && image.gloss->other >= 0 ? &scene.images[std::size_t(image.gloss->other)]
+                                                : nullptr;
+}
+
+int neededHalvings(const TextureHeader& header) {
+  int halvings = 0;
+  while (std::max(header.width, header.height) >> halvings > maxTextureSide) ++halvings;
+  return halvings;
+}
 
 // Decodes jobs one after another, in several threads; a large one waits until there is room.
 class Decoding {
@@ -87,7 +100,16 @@ class Decoding {
 
   DecodedImage decode(const DecodeJob& job) const {
     const EncodedImage& image = scene_.images[std::size_t(job.image)];
-    DecodedImage decoded{decodeTexture(image.bytes, image.name, job.halvings, image.isData), {}};
+    const bool areNumbers = image.isData && !image.gloss;
+    DecodedImage decoded{decodeTexture(image.bytes, image.name, job.halvings, areNumbers), {}};
+    if (image.gloss) {
+      std::optional<ByteImage> other;
+      if (const EncodedImage* beside = otherOf(scene_, image)) {
+        const TextureHeader header = textureHeader(beside->bytes, beside->name);
+        other = decodeTexture(beside->bytes, beside->name, neededHalvings(header));
+      }
+      convertGlossPicture(decoded.image, other ? &*other : nullptr, *image.gloss);
+    }
     if (job.hasLevels) decoded.mipLevels = mipLevels(decoded.image, image.isData);
     return decoded;
   }
@@ -155,8 +177,20 @@ DecodedImages decodeImages(Scene& scene, const Look& look,
     if (present(i)) continue;
     const EncodedImage& image = scene.images[std::size_t(i)];
     try {
-      jobs.push_back({i, image.name, textureHeader(image.bytes, image.name), image.bytes.size(),
-                      readsMipLevels(scene, i), 0});
+      DecodeJob job{i,
+                    image.name,
+                    textureHeader(image.bytes, image.name),
+                    image.bytes.size(),
+                    readsMipLevels(scene, i),
+                    0};
+      if (const EncodedImage* other = otherOf(scene, image)) {
+        const TextureHeader header = textureHeader(other->bytes, other->name);
+        const std::uint64_t more = std::uint64_t(4) * header.width * header.height +
+                                   std::max(header.work, header.reducedWork);
+        job.header.work += more;
+        job.header.reducedWork += more;
+      }
+      jobs.push_back(std::move(job));
     } catch (const InputError& error) {
       drawWithout(scene, i, error);
     }

@@ -84,6 +84,7 @@ struct MaterialEdit {
   std::optional<glm::dvec3> color;  ///< linear
   std::optional<HighlightForms> highlight = {};
   std::optional<Fresnel> fresnel = {};
+  std::optional<bool> colorTexture = {}, normalTexture = {}, emissionTexture = {};  ///< read it
   bool operator==(const MaterialEdit&) const = default;
 };
 

@@ -368,6 +368,13 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
     edit.fresnel = parseFresnel(text, what);
     return;
   }
+  for (const SwitchedTexture& t : switchedTextures()) {
+    if (t.name != key) continue;
+    const bool on = text == "on" || text == "true";
+    if (!on && text != "off" && text != "false") refuse(what, text, "on or off");
+    edit.*t.edit = on;
+    return;
+  }
   std::string known;
   for (const auto& p : materialParameters()) {
     if (p.name == key) {
@@ -377,7 +384,7 @@ void setMaterialEdit(Look& look, const std::string& name, const std::string& key
     known += std::string(p.name) + ", ";
   }
   throw InputError("--material: unknown parameter '" + key + "': use one of " + known +
-                   "color, highlight, fresnel");
+                   "color, color-texture, normal-texture, emission-texture, highlight, fresnel");
 }
 
 void parseMaterialEdit(Look& look, const std::string& text) {

@@ -71,6 +71,17 @@ std::span<const MaterialParameter> materialParameters() {
   return table;
 }
 
+std::span<const SwitchedTexture> switchedTextures() {
+  using M = Material;
+  using E = MaterialEdit;
+  static constexpr SwitchedTexture table[] = {
+      {"color-texture", &M::colorTexture, &E::colorTexture, switchedOff::color},
+      {"normal-texture", &M::normalTexture, &E::normalTexture, switchedOff::normal},
+      {"emission-texture", &M::emissionTexture, &E::emissionTexture, switchedOff::emission},
+  };
+  return table;
+}
+
 std::array<std::optional<Texture>*, 7> texturesOf(Material& m) {
   ParameterTextures& p = m.parameterTextures;
   return {&m.colorTexture, &m.emissionTexture, &m.normalTexture, &p.metallicRoughness,
@@ -83,24 +94,37 @@ std::array<const std::optional<Texture>*, 7> texturesOf(const Material& m) {
           &p.occlusion,    &p.specular,        &p.transmission};
 }
 
+namespace {
+
+void applyEdit(Material& edited, const MaterialEdit& edit) {
+  for (const MaterialParameter& p : materialParameters())
+    if (edit.*p.edit) {
+      edited.shading.*p.value = *(edit.*p.edit);
+      edited.textured &= ~p.textured;
+    }
+  for (const SwitchedTexture& t : switchedTextures())
+    if (edit.*t.edit)
+      edited.switchedOff =
+          *(edit.*t.edit) ? edited.switchedOff & ~t.bit : edited.switchedOff | t.bit;
+  if (edit.color) edited.shading.color = *edit.color;
+  if (edit.highlight) edited.highlight = edit.highlight;
+  if (edit.fresnel) edited.fresnel = edit.fresnel;
+}
+
+}  // namespace
+
 Material editedMaterial(const Material& material, const Look& look) {
   Material edited = material;
-  if (look.material.empty()) return edited;
-  const auto keys = materialKeys(material);
-  for (auto key = keys.begin(); key != keys.end(); ++key) {
-    if (key != keys.begin() && std::find(keys.begin(), key, *key) != key) continue;
-    const auto found = look.material.find(*key);
-    if (found == look.material.end()) continue;
-    const MaterialEdit& edit = found->second;
-    for (const auto& p : materialParameters())
-      if (edit.*p.edit) {
-        edited.shading.*p.value = *(edit.*p.edit);
-        edited.textured &= ~p.textured;
-      }
-    if (edit.color) edited.shading.color = *edit.color;
-    if (edit.highlight) edited.highlight = edit.highlight;
-    if (edit.fresnel) edited.fresnel = edit.fresnel;
+  if (!look.material.empty()) {
+    const auto keys = materialKeys(material);
+    for (auto key = keys.begin(); key != keys.end(); ++key) {
+      if (key != keys.begin() && std::find(keys.begin(), key, *key) != key) continue;
+      const auto found = look.material.find(*key);
+      if (found != look.material.end()) applyEdit(edited, found->second);
+    }
   }
+  for (const SwitchedTexture& t : switchedTextures())
+    if (edited.switchedOff & t.bit) (edited.*t.texture).reset();
   return edited;
 }
 

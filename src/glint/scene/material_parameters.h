@@ -31,6 +31,16 @@ struct MaterialParameter {
 /// them.
 std::span<const MaterialParameter> materialParameters();
 
+/// A texture that is part of what it stands beside, and can be switched off: it then counts as
+/// white, or as a flat normal map.
+struct SwitchedTexture {
+  std::string_view name;  ///< in texts and in extras.glint; "on" or "off", true or false
+  std::optional<Texture> Material::*texture;
+  std::optional<bool> MaterialEdit::*edit;
+  unsigned bit;  ///< in Material::switchedOff
+};
+std::span<const SwitchedTexture> switchedTextures();
+
 /// Calls `visit` with the pointer to each member of MaterialEdit.
 template <typename Visit>
 void forEachEdit(Visit visit) {
@@ -38,6 +48,7 @@ void forEachEdit(Visit visit) {
   visit(&MaterialEdit::color);
   visit(&MaterialEdit::highlight);
   visit(&MaterialEdit::fresnel);
+  for (const SwitchedTexture& t : switchedTextures()) visit(t.edit);
 }
 
 /// All textures that a material may have, whether it has them or not.

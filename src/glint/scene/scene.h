@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "glint/scene/look.h"
+#include "glint/shading/pbr_conversion.h"
 
 namespace glint {
 
@@ -59,12 +60,22 @@ struct Sampler {
   auto operator<=>(const Sampler&) const = default;
 };
 
+/// How a picture is made of the two of KHR_materials_pbrSpecularGlossiness, texel by texel by
+/// convertSpecularGlossiness().
+struct GlossPicture {
+  bool isColor = false;  ///< gives C and alpha; else G roughness, B metallic, A reflectance
+  int other = -1;        ///< the picture beside the bytes, in Scene::images; -1: white
+  SpecularGlossiness factors;
+};
+
 /// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads
 /// it.
 struct EncodedImage {
   std::string name;  ///< for messages: the file, or the place in the model file
   std::vector<std::byte> bytes;
   bool isData = false;  ///< numbers, as of a normal map, not colours in sRGB
+  /// What is made of it: of the diffuse picture its colours, of the other one its numbers.
+  std::optional<GlossPicture> gloss{};
 };
 
 /// Which texture and which texture coordinates a material reads; empty means none.
@@ -116,6 +127,11 @@ struct ParameterTextures {
   double occlusionStrength = 1.0;  ///< [0, 1]
 };
 
+/// Textures that are not read though the material has them, as bits.
+namespace switchedOff {
+enum : unsigned { color = 1, normal = 2, emission = 4 };
+}
+
 struct Material {
   /// Never empty: one without a name is called "#N", N its place in the file from 0, and glTF's
   /// default material "#default".
@@ -131,7 +147,8 @@ struct Material {
   std::optional<Texture> normalTexture;    ///< x right, y up, z out of the surface: 2 texel - 1
   double normalScale = 1.0;                ///< multiplies its x and y
   ParameterTextures parameterTextures;
-  unsigned textured = 0;  ///< bits of namespace textured: what those textures give
+  unsigned textured = 0;     ///< bits of namespace textured: what those textures give
+  unsigned switchedOff = 0;  ///< bits of namespace switchedOff, as extras.glint says
   /// What the file says of it that no program has anything for, as "the ..." for messages.
   std::vector<std::string> unusedProperties;
   AlphaMode alphaMode = AlphaMode::opaque;

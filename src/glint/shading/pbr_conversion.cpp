@@ -50,21 +50,27 @@ ConvertedParameters convertPbr(const PbrParameters& pbr) {
   return out;
 }
 
+MetalShare metalShare(const SpecularGlossiness& from) {
+  const auto largest = [](const glm::dvec3& v) {
+    return std::max({clampTo(v.x, 0, 1), clampTo(v.y, 0, 1), clampTo(v.z, 0, 1)});
+  };
+  const double f0 = largest(from.specular);
+  // A little above 0.04, so that the share does not jump where a file rounds that number.
+  const double start = clampTo((f0 - dielectricF0) / dielectricF0, 0, 1);
+  return {f0 > 0 ? start * clampTo(1 - largest(from.diffuse) / f0, 0, 1) : 0, f0};
+}
+
 std::pair<ConvertedParameters, glm::dvec3> convertSpecularGlossiness(
     const SpecularGlossiness& from) {
   const auto unit = [](const glm::dvec3& v) {
     return glm::dvec3(clampTo(v.x, 0, 1), clampTo(v.y, 0, 1), clampTo(v.z, 0, 1));
   };
-  const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
   const glm::dvec3 diffuse = unit(from.diffuse), specular = unit(from.specular);
-  const double f0 = largest(specular);
-  // A little above 0.04, so that the share does not jump where a file rounds that number.
-  const double start = clampTo((f0 - dielectricF0) / dielectricF0, 0, 1);
-  const double metal = f0 > 0 ? start * clampTo(1 - largest(diffuse) / f0, 0, 1) : 0;
-  const double amplitude = std::sqrt(f0);
+  const MetalShare share = metalShare(from);
+  const double amplitude = std::sqrt(share.reflectance);
   const double ior = amplitude < 1 ? (1 + amplitude) / (1 - amplitude) : largestIor;
-  return {convertPbr({metal, 1 - clampTo(from.glossiness, 0, 1), ior, 1}),
-          diffuse + (specular - diffuse) * metal};
+  return {convertPbr({share.metallic, 1 - clampTo(from.glossiness, 0, 1), ior, 1}),
+          diffuse + (specular - diffuse) * share.metallic};
 }
 
 }  // namespace glint

@@ -70,6 +70,13 @@ struct SpecularGlossiness {
   double glossiness = 1.0;   ///< 1 - roughness
 };
 
+/// How much of a metal it is, and how much it reflects at normal incidence, both in [0, 1]; see
+/// below.
+struct MetalShare {
+  double metallic = 0, reflectance = 0;
+};
+MetalShare metalShare(const SpecularGlossiness&);
+
 /// The same in the notes' parameters, with C.
 ///
 /// A material that has less diffuse light than mirror light is a metal by that share
