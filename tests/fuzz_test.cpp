@@ -127,6 +127,8 @@ std::map<std::string, std::vector<Bytes>> seedsIn(Sample& sample) {
         bytesOf(
             std::string("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30) +
             std::string(24, '\0') + "abcdef00ghijkl00"),
+        bytesOf(std::string("BM\x2a\0\0\0\0\0\0\0\x1a\0\0\0\xc\0\0\0\2\0\2\0\1\0\x18\0", 26) +
+                "abcdef00ghijkl00"),
         bytesOf(std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\0", 18) + "abcdefghijkl")}},
       {"look", {bytesOf(glint::saveLook(look)), bytesOf(glint::saveLook(glint::Look()))}},
       {"material",

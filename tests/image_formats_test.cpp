@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <glm/glm.hpp>
 
 #include "damaged_pictures.h"
 #include "glint/image/error.h"
@@ -20,6 +21,7 @@
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
+#include "glint/image/stored_image.h"
 #include "gltf_text.h"
 
 namespace image_formats_test {
@@ -255,6 +257,64 @@ TEST(PngText, SurvivesWithItsLetters) {
   const glint::Image image = glint::readImage(in("text.png"));
   EXPECT_EQ(image.text.at("GL_RENDERER"), "llvmpipe (LLVM 15)");
   EXPECT_EQ(image.text.at("look"), "caf\u00e9");
+}
+
+/// Two pixels a row, the upper row 1 2 3, 4 5 6, the lower one 7 8 9, 10 11 12.
+std::vector<std::uint8_t> twoByTwo() { return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}; }
+
+struct SimpleFile {
+  const char* name;
+  Bytes bytes;
+};
+
+std::vector<SimpleFile> simpleFiles() {
+  using std::string;
+  // Rows from the bottom, blue first, each padded to four bytes.
+  const string bmpRows("\x9\x8\x7\xc\xb\xa\0\0\3\2\1\6\5\4\0\0", 16);
+  const string tgaRows("\x9\x8\x7\xc\xb\xa\3\2\1\6\5\4", 12);
+  const string bmp("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30);
+  const string core("BM\x2a\0\0\0\0\0\0\0\x1a\0\0\0\xc\0\0\0\2\0\2\0\1\0\x18\0", 26);
+  const string tga("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\0", 18);
+  string runs = tga;
+  runs[2] = 10;
+  string wide = "P6 # sixteen bits\n2 2\n65535\n";
+  for (const std::uint8_t value : twoByTwo()) wide += string(2, char(value));
+  const auto codes = twoByTwo();
+  return {{"BMP", bytesOf(bmp + string(24, '\0') + bmpRows)},
+          {"BMP, the first header", bytesOf(core + bmpRows)},
+          {"TGA", bytesOf(tga + tgaRows)},
+          {"TGA in runs", bytesOf(runs + "\1" + tgaRows.substr(0, 6) + "\1" + tgaRows.substr(6))},
+          {"PPM", bytesOf("P6 2 2 255\n" + string(codes.begin(), codes.end()))},
+          {"PPM of 16 bits", bytesOf(wide)}};
+}
+
+TEST(Formats, SmallOnesHoldWhatTheirBytesSay) {
+  for (const SimpleFile& file : simpleFiles()) {
+    SCOPED_TRACE(file.name);
+    const glint::StoredImage image = glint::decodeStoredImage(file.bytes, "x");
+    EXPECT_EQ(glm::ivec2(image.width, image.height), glm::ivec2(2));
+    ASSERT_EQ(image.channels, 3);
+    const auto expected = twoByTwo();
+    if (const auto* wide = std::get_if<1>(&image.values))
+      for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ((*wide)[i], 257 * expected[i]);
+    else
+      EXPECT_EQ(std::get<0>(image.values), expected);
+  }
+}
+
+// Refused, at whatever byte they end; none is read beyond it (a sanitizer sees that).
+TEST(Formats, SmallOnesThatEndEarlyAreRefused) {
+  for (const SimpleFile& file : simpleFiles())
+    for (std::size_t size = 0; size < file.bytes.size(); ++size) {
+      SCOPED_TRACE(std::string(file.name) + " " + std::to_string(size));
+      const Bytes part(file.bytes.begin(), file.bytes.begin() + std::ptrdiff_t(size));
+      try {
+        (void)glint::decodeStoredImage(part, "x");
+        // What pads the last row may lack.
+        EXPECT_GE(size + 2, file.bytes.size());
+      } catch (const glint::InputError&) {
+      }
+    }
 }
 
 TEST(Formats, DamagedFilesAreSurvived) {

@@ -125,6 +125,7 @@ Texture TextureReader::glossTexture(const Texture& from, const GlossPicture& mad
   }
   result.image = static_cast<int>(images_.size());
   EncodedImage image = images_[static_cast<std::size_t>(from.image)];
+  image.name += made.isColor ? " as colours" : " as numbers";
   image.isData = !made.isColor;
   image.gloss = made;
   images_.push_back(std::move(image));

@@ -120,6 +120,43 @@ class PnmReader {
 
 }  // namespace
 
+namespace {
+
+std::uint64_t littleEndianAt(std::span<const std::byte> bytes, std::size_t i, int size) {
+  std::uint64_t value = 0;
+  for (int k = size; k-- > 0;)
+    value = value << 8 | (i + k < bytes.size() ? at(bytes, i + std::size_t(k)) : 255u);
+  return value;
+}
+
+/// How long a BMP or TGA of this size is at least.
+std::uint64_t leastBytes(std::span<const std::byte> bytes, std::uint64_t width,
+                         std::uint64_t height) {
+  if (isBmp(bytes)) {
+    const std::uint64_t bits =
+        littleEndianAt(bytes, littleEndianAt(bytes, 14, 4) == 12 ? 24 : 28, 2);
+    const std::uint64_t row = (width * bits + 7) / 8, padded = (row + 3) / 4 * 4;
+    return littleEndianAt(bytes, 10, 4) + padded * (height - 1) + row;
+  }
+  const std::uint64_t before =
+      18 + littleEndianAt(bytes, 0, 1) +
+      littleEndianAt(bytes, 5, 2) * ((littleEndianAt(bytes, 7, 1) + 7) / 8);
+  const std::uint64_t pixel = (littleEndianAt(bytes, 16, 1) + 7) / 8;
+  if (at(bytes, 2) < 9) return before + width * height * pixel;
+  // Packets: a count less one, with 128 one pixel that repeats, without as many pixels.
+  std::uint64_t place = before;
+  for (std::uint64_t left = width * height; left > 0 && place < bytes.size();) {
+    const unsigned head = at(bytes, std::size_t(place));
+    const std::uint64_t count = std::min<std::uint64_t>((head & 127) + 1, left);
+    place += 1 + (head & 128 ? pixel : count * pixel);
+    left -= count;
+    if (left > 0 && place >= bytes.size()) return place + 1;
+  }
+  return std::max(place, before + 1);
+}
+
+}  // namespace
+
 StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name) {
   if (isPnm(bytes)) return PnmReader(bytes, name).read();
   const char* const format = isBmp(bytes) ? "BMP" : "TGA";
@@ -135,18 +172,15 @@ StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& na
   };
   check(stbi_info_from_memory(data, size, &width, &height, &channels) == 1);
   checkSides(name, std::uint64_t(width), std::uint64_t(height));
-  const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
-  // The library fills what is missing with black. Without run lengths a file is as long as its
-  // pixels say, with them a byte or more stands for 128 pixels at most.
-  const bool runs = !isBmp(bytes) && at(bytes, 2) >= 9;
-  const std::uint64_t bits = isBmp(bytes) ? at(bytes, 28) : at(bytes, 16);
-  if (bytes.size() < (runs ? pixels / 128 : pixels * bits / 8))
+  // The library fills what is missing with black.
+  if (bytes.size() < leastBytes(bytes, std::uint64_t(width), std::uint64_t(height)))
     throw damaged(name, std::string("the ") + format + " is cut short");
   StoredImage image{width, height, channels == 2 || channels == 4 ? 4 : 3, {}};
   const std::unique_ptr<stbi_uc, void (*)(void*)> read(
       stbi_load_from_memory(data, size, &width, &height, &channels, image.channels),
       stbi_image_free);
   check(read != nullptr);
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
   image.values.emplace<0>(read.get(), read.get() + std::size_t(image.channels) * pixels);
   return image;
 }
