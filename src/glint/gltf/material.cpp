@@ -14,9 +14,9 @@ namespace {
 
 constexpr double largestFactor = 1e6;
 
-ShadingParameters shadingFromPbr(const PbrParameters& pbr) {
-  const ConvertedParameters c = convertPbr(pbr);
-  return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1), 0};
+void takeConverted(Material& material, const ConvertedParameters& c, const glm::dvec3& color) {
+  material.shading = {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, color, 0};
+  material.highlightShare = c.share;
 }
 
 /// Takes what `extras.glint` says: numbers that stand there take the place of textures. It is the
@@ -65,6 +65,8 @@ void readExtras(const Json& material, const std::string& label, Material& edited
     } else {
       take(name, *it, shading.*key->value, key->min, key->max);
       if (it->is_number()) edited.textured &= ~key->textured;
+      if (it->is_number() && key->value == &ShadingParameters::specular)
+        edited.highlightShare.reset();
     }
   }
 }
@@ -135,13 +137,7 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
                   "take its place");
   }
   const auto [converted, color] = convertSpecularGlossiness(gloss);
-  material.shading = {converted.ambient,
-                      converted.diffuse,
-                      converted.specular,
-                      converted.exponent,
-                      converted.metalness,
-                      converted.ior,
-                      color};
+  takeConverted(material, converted, color);
   material.alpha = std::min(diffuse.a, 1.0);
   material.colorTexture = textures.read(from.member("diffuseTexture"));
 }
@@ -157,10 +153,9 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   const double roughness = unit(pbr.member("roughnessFactor"), 1);
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
-  material.shading = shadingFromPbr({metallic, roughness, ior, unit(specular, 1)});
-
   const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
-  material.shading.color = glm::dvec3(color);
+  takeConverted(material, convertPbr({metallic, roughness, ior, unit(specular, 1)}),
+                glm::dvec3(color));
   material.alpha = std::min(color.a, 1.0);
   material.colorTexture = textures.read(pbr.member("baseColorTexture"));
 
@@ -216,7 +211,7 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   }
   Material& standard = materials.emplace_back();
   standard.name = "#default";
-  standard.shading = shadingFromPbr({});
+  takeConverted(standard, convertPbr({}), glm::dvec3(1));
   countMaterials(materials);
   return materials;
 }

@@ -85,6 +85,8 @@ std::array<const std::optional<Texture>*, 7> texturesOf(const Material& m) {
 
 Material editedMaterial(const Material& material, const Look& look) {
   Material edited = material;
+  if (look.normalization != Normalization::none && material.highlightShare)
+    edited.shading.specular = *material.highlightShare;
   if (look.material.empty()) return edited;
   const auto keys = materialKeys(material);
   for (auto key = keys.begin(); key != keys.end(); ++key) {
