@@ -23,7 +23,7 @@ vec3 shade(vec4 base) {
 #else
   Pixel middle = at;
 #endif
-  Parameters p = parametersHere();
+  Parameters p = pixelParameters();
   vec3 n = at.normal, v = at.view;
   vec3 sum = surfaceColor(sumLights(at.position, n, v, p), base.rgb, p.metalness);
   float cosine = dot(n, v);

@@ -47,10 +47,17 @@ Parameters parametersHere() {
 #if SPECULAR_TEXTURE
   reflectance *= TEXEL(specularTexture, SPECULAR_RULE, SPECULAR_PLACE).a;
 #endif
+#if NORMALIZED
+  p.specular = mix(reflectance, 1.0, metallic);
+#else
   // The peaks of the lobes of a dielectric and of a metal.
   float blinn = 4.0 * exponent, metal = (blinn / 8.0) * (blinn / (blinn + 8.0));
   float dielectric = reflectance * metal;
   p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);
+#endif
+#endif
+#if NORMALIZED
+  p.specular *= NORMALIZATION(p.exponent);
 #endif
 #if TEXTURED_AMBIENT
   float occlusion = TEXEL(occlusionTexture, OCCLUSION_RULE, OCCLUSION_PLACE).r;

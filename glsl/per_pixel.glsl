@@ -102,4 +102,11 @@ Pixel shadedPixel(Inputs at) {
 }
 
 Pixel shadedPixel() { return shadedPixel(inputsAtPlace()); }
+
+// The material's numbers for the pixel's lights.
+#if SPECULAR_ANTIALIASING
+Parameters pixelParameters();  // specular_filter.glsl
+#else
+Parameters pixelParameters() { return parametersHere(); }
+#endif
 #endif

@@ -211,7 +211,10 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
         v.program == Shading::environment && !v.unlit && v.environment == glint::Environment::image;
     const bool textures = v.colorTexture || v.emissionTexture || v.normalTexture ||
                           (v.textured != 0 && (v.unlit || isPerPixel(v.program)));
-    EXPECT_EQ(holds("dFdx"), v.vanishingNormal || textures || image) << program.name;
+    EXPECT_EQ(holds("dFdx"), v.vanishingNormal || textures || image || v.specularAntialiasing)
+        << program.name;
+    EXPECT_EQ(holds("filteredParameters"), v.specularAntialiasing) << program.name;
+    EXPECT_EQ(holds("Normalization"), v.normalized) << program.name;
     EXPECT_EQ(holds("gl_FrontFacing"), v.twoSided || v.vanishingNormal) << program.name;
   }
 }

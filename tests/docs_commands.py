@@ -20,7 +20,7 @@ PRELUDE = r"""
 glint() {
   case "$*" in
     view*) timeout 8 glint "$@" || [ $? -eq 124 ] ;;
-    study*--measure-costs*) command glint "$@" ;;
+    study*--measure-costs* | study*--half-precision*) command glint "$@" ;;
     study*) command glint "$@" --time-budget 10 ;;
     *) command glint "$@" ;;
   esac

@@ -27,7 +27,7 @@ HEAVY = {
         "src/glint/stability/lights.cpp", "src/glint/stability/limits.cpp",
         "src/glint/stability/plots.cpp", "src/glint/stability/profile.cpp",
         "src/glint/stability/search.cpp", "src/glint/stability/suite.cpp",
-        "src/glint/study/page.cpp", "src/glint/study/plot.cpp", "src/glint/study/report.cpp",
+        "src/glint/study/page.cpp", "src/glint/study/plot.cpp", "src/glint/study/report_json.cpp",
         "src/cli/*", "viewer/edits.cpp", "viewer/effects.cpp", "viewer/look_merge.cpp", "viewer/materials.cpp",
         "viewer/probe.cpp", "viewer/recovery.cpp", "viewer/settings.cpp", "viewer/widgets.cpp",
         "models/*", "tests/*"],

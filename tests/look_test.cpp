@@ -122,6 +122,8 @@ const std::vector<Good>& goodTexts() {
       {"fresnel", "exact", [](Look&) {}},
       {"fresnel", "textbook", [](Look& l) { l.fresnel = Fresnel::textbook; }},
       {"fresnel", "schlick", [](Look& l) { l.fresnel = Fresnel::schlick; }},
+      {"normalization", "exact", [](Look& l) { l.normalization = glint::Normalization::exact; }},
+      {"specular-antialiasing", "true", [](Look& l) { l.specularAntialiasing = true; }},
       {"blinn-factor", "3.5", [](Look& l) { l.blinnFactor = 3.5; }},
       {"blinn-factor", "0", [](Look& l) { l.blinnFactor = 0; }},
       {"schlick-exponent", "4", [](Look& l) { l.schlickExponent = 4; }},
@@ -310,6 +312,8 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"fresnel", {"", "Rational", "schlick-exp", "rational:2"}},
       {"max-error",
        {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 ", "code", "1codes", "1 code"}},
+      {"normalization", {"", "x", "Exact", "2"}},
+      {"specular-antialiasing", {"", "yes", "1", "True"}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
       {"schlick-exponent", {"", "-0.1", "1e9", "nan"}},
       {"material",
@@ -442,6 +446,8 @@ class RandomLooks {
     l.environmentRotation = number(-1e6, 1e6);
     l.environmentBackground = coin();
     l.twoSided = coin();
+    l.normalization = glint::Normalization(index(3));
+    l.specularAntialiasing = coin();
     if (coin()) l.cameraPosition = vector(-1e30, 1e30);
     if (coin()) l.cameraFocalPoint = vector(-1, 1);
     if (coin()) l.cameraDirection = vector(1e-6, 1e6);

@@ -28,6 +28,7 @@ Material plainMaterial(const PbrParameters& pbr) {
   const ConvertedParameters c = convertPbr(pbr);
   Material m;
   m.shading = {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, {0.8, 0.5, 0.2}};
+  m.highlightShare = c.share;
   return m;
 }
 
@@ -108,6 +109,31 @@ TEST_P(ParameterTexture, ATexelIsAFactor) {
         const Image drawn = draw(sceneWith(textured(w), one), look);
         EXPECT_LE(largestDifference(plain, drawn), 4e-6)
             << shadingName(shading) << " " << form << " roughness " << w.texel.g;
+      }
+}
+
+// The same of normalised highlights, whose factor the shader computes where a texture gives the
+// exponent: relative to their height, which is up to m_s (alpha + 2) / 2 of Phong's.
+TEST_P(ParameterTexture, ATexelIsAFactorOfANormalisedHighlight) {
+  const Wanted all[] = {{},
+                        {1, 1, 1, 1, 0.5, {128, 77, 255, 255}},
+                        {0.7, 0.9, 1, 0.6, 0.25, {255, 60, 100, 60}},
+                        {0, 0.3, 0, 1, 0, {0, 255, 255, 255}}};
+  for (const Wanted& w : all)
+    for (const Shading shading : programs)
+      for (const Normalization kind : {Normalization::simple, Normalization::exact}) {
+        Look look = lookFor(shading);
+        look.normalization = kind;
+        const auto one = png(1, 1, [&](int, int) { return w.texel; });
+        const Material material = factored(w);
+        const Image plain = draw(sceneWith(material, one), look);
+        const Image drawn = draw(sceneWith(textured(w), one), look);
+        const double height = *material.highlightShare * (0.5 * material.shading.exponent + 1);
+        EXPECT_LE(largestDifference(plain, drawn), 4e-6 * std::max(height, 1.0))
+            << shadingName(shading) << " roughness " << w.texel.g;
+        Look notes = look;
+        notes.normalization = Normalization::none;
+        EXPECT_GT(largestDifference(plain, draw(sceneWith(material, one), notes)), 1e-3);
       }
 }
 

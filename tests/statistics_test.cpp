@@ -27,5 +27,24 @@ TEST(Statistics, Spread) {
   EXPECT_EQ(spread.count, 5u);
 }
 
+// A share of three times, whose rounds are drawn together: the second half of the rounds is twice
+// as slow, and the share the same.
+TEST(Statistics, FunctionsOfQuartilesBearAChangeOfSpeed) {
+  std::vector<double> whole, part, rest;
+  for (int i = 0; i < 40; ++i) {
+    const double speed = i < 20 ? 1 : 2;
+    whole.push_back(10 * speed);
+    part.push_back(3 * speed);
+    rest.push_back(1 * speed);
+  }
+  const std::span<const double> times[] = {whole, part, rest};
+  const TimeRatio share =
+      quartileFunction(times, [](std::span<const double> q) { return (q[1] - q[2]) / q[0]; });
+  EXPECT_DOUBLE_EQ(share.value, 0.2);
+  EXPECT_NEAR(share.low, 0.2, 1e-12);
+  EXPECT_NEAR(share.high, 0.2, 1e-12);
+  EXPECT_EQ(quartileFunction({}, [](std::span<const double>) { return 1.0; }).value, 0);
+}
+
 }  // namespace statistics_test
 }  // namespace glint

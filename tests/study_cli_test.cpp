@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -16,8 +17,11 @@ using testing::Not;
 
 const std::string sphere = GLINT_SOURCE_DIR "/models/sphere-series/sphere-3.glb";
 
+/// Three frames of a few pixels have a spread of any size.
 std::vector<std::string> tiny(std::vector<std::string> more) {
   more.insert(more.begin(), {"study", "--quick", "--resolution", "48,48", "--repetitions", "3"});
+  if (std::find(more.begin(), more.end(), "--spread-limit") == more.end())
+    more.insert(more.end(), {"--spread-limit", "1e6"});
   return more;
 }
 
@@ -33,7 +37,10 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   EXPECT_EQ(json["triangles"], 20480);
   EXPECT_GT(json["mask"]["pixels"].get<int>(), 800);
   EXPECT_EQ(json["floors"].size(), 2u);
-  EXPECT_GE(json["controls"].size(), 2u);
+  for (const char* clock : {"wall", "cpu"})
+    EXPECT_GE(json["clocks"][clock]["controls"].size(), 2u) << clock;
+  EXPECT_EQ(json["clock"], "wall");
+  EXPECT_TRUE(json["noFront"].is_null());
   std::set<std::string> names;
   for (const Json& v : json["variants"]) {
     SCOPED_TRACE(v["name"]);
@@ -41,6 +48,8 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
     EXPECT_EQ(v["times"]["wall"]["frames"], 3);
     EXPECT_GT(v["times"]["wall"]["minimum"].get<double>(), 0);
     EXPECT_LE(v["times"]["wall"]["minimum"], v["times"]["wall"]["median"]);
+    EXPECT_EQ(v["times"]["cpu"]["frames"], 3);
+    EXPECT_GT(v["times"]["cpu"]["maximum"].get<double>(), 0);
     const Json& e = v["errors"][0];
     EXPECT_GT(e["rmse"].get<double>(), 0);
     EXPECT_LE(e["rmse"], e["max"]);
@@ -58,7 +67,43 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   EXPECT_EQ(names, (std::set<std::string>{"flat exact", "gouraud exact", "phong exact",
                                           "blinn-phong exact", "environment exact"}));
   EXPECT_EQ(json["fronts"].size(), 15u);
+  // Against the supersampled picture, too: outlines add to what is off inside.
+  EXPECT_EQ(json["wholeTruths"].size(), 3u);
+  for (const Json& v : json["variants"]) {
+    SCOPED_TRACE(v["name"]);
+    EXPECT_GT(v["whole"]["inside"]["rmse"].get<double>(), 0);
+    EXPECT_GT(v["whole"]["picture"]["max"].get<double>(), 0.01);
+    if (v["shading"] == "phong") {
+      EXPECT_GT(v["whole"]["inside"]["max"], v["errors"][0]["max"]);
+    }
+  }
+  EXPECT_EQ(json["advice"]["forms"].size(), 3u);
+  EXPECT_THAT(json["advice"]["text"].get<std::string>(),
+              HasSubstr("What to use for sphere (built in) at 48 x 48 pixels by phong"));
+  EXPECT_THAT(contents(file), HasSubstr("## What to use"));
   EXPECT_TRUE(json["series"].empty());
+}
+
+// No spread is 0: nothing is concluded, and what to do is said in every output.
+TEST(StudyCommand, MakesNoFrontOfWhatItCannotTell) {
+  const Folder folder("study-no-front");
+  const Ran ran =
+      runGlint(tiny({"--highlight", "exact", "--fresnel", "exact", "--spread-limit", "0", "--clock",
+                     "cpu", "--output", folder / "out", "--markdown", folder / "results.md"}));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(contents(folder / "out/study.json"));
+  EXPECT_EQ(json["clock"], "cpu");
+  const std::string why = json["noFront"];
+  EXPECT_THAT(why, HasSubstr("There is no front: by CPU time"));
+  EXPECT_THAT(why, HasSubstr("when the machine is at rest"));
+  EXPECT_TRUE(json["fronts"].empty());
+  for (const Json& v : json["variants"]) EXPECT_TRUE(v["errors"][0]["fronts"].empty());
+  EXPECT_THAT(ran.out, HasSubstr(why));
+  EXPECT_THAT(ran.out, Not(HasSubstr("on the front")));
+  const std::string words = contents(folder / "results.md");
+  EXPECT_THAT(words, HasSubstr("**" + why + "**"));
+  EXPECT_THAT(words, Not(HasSubstr("## The fronts")));
+  EXPECT_THAT(contents(folder / "out/study.csv"), Not(HasSubstr(",yes,")));
 }
 
 TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
@@ -120,6 +165,8 @@ TEST(StudyCommand, RefusesWhatItCannotDo) {
   refused({"--anti-aliasing", "ssaa:2"}, "single samples");
   refused({"no-such.glb"}, "no-such.glb");
   refused({"--time-budget", "0"}, "--time-budget");
+  refused({"--clock", "sundial"}, "--clock");
+  refused({"--clock", "gpu", "--rendering-backend", "osmesa"}, "--clock gpu");
   refused({"--repetitions", "0"}, "--repetitions");
   refused({"--material", "Nobody:ior=2"}, "Nobody");
   refused({"--measure-costs", "/tmp/costs.json"}, "leave --quick out");
@@ -160,6 +207,16 @@ TEST(StudyCommand, ShowsWhatABudgetChooses) {
                                        "exact", "--fresnel", "exact", "--json", "-"}));
   ASSERT_EQ(automatic.status, 0) << automatic.err;
   EXPECT_EQ(Json::parse(automatic.out)["variants"].size(), 5u + 3u);
+}
+
+TEST(StudyCommand, TellsWhatHalfFloatsLose) {
+  const Ran ran = runGlint({"study", "--half-precision", "-"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // docs/approximations.md has this table.
+  EXPECT_THAT(contents(GLINT_SOURCE_DIR "/docs/approximations.md"), HasSubstr(ran.out));
+  const Ran refused = runGlint({"study", "--half-precision", "-", "--quick"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("leave --quick out"));
 }
 
 TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {

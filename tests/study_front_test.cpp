@@ -5,8 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "glint/image/error.h"
 #include "glint/study/front.h"
 #include "glint/study/statistics.h"
+#include "glint/study/study.h"
 
 namespace glint {
 namespace study_front_test {
@@ -73,6 +75,17 @@ TEST(StudyStatistics, RatioLeavesOutWhatIsAddedNowAndThen) {
   }
 }
 
+// Of 200 intervals for frames with noise some 190 hold the true ratio; of 95 % that hold it each,
+// fewer than 170 are one in 1e7.
+TEST(StudyStatistics, IntervalsOfRatiosHoldTheTrueOne) {
+  int covered = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const TimeRatio ratio = timeRatio(framesOf(2, 2 * seed), framesOf(4, 2 * seed + 1));
+    covered += ratio.low <= 0.5 && ratio.high >= 0.5;
+  }
+  EXPECT_GE(covered, 170);
+}
+
 // A machine that becomes slower half way changes both.
 TEST(StudyStatistics, RatioBearsAChangeOfSpeed) {
   Times a = framesOf(5, 1, 0.02), b = framesOf(4, 2, 0.02);
@@ -120,6 +133,18 @@ TEST(StudyFront, SmallStepsAddUp) {
   EXPECT_EQ(places[1].dominatedBy, 0);
 }
 
+// What is dominated by a member that is faster, and what cannot be told from it in time.
+TEST(StudyFront, SaysWhetherWhatIsDominatedIsSlowerToo) {
+  const Times fast = framesOf(2, 1, 0.01), alike = framesOf(2.02, 2, 0.01),
+              slow = framesOf(4, 3, 0.01);
+  const FrontCandidate candidates[] = {{1e-6, fast}, {1e-3, alike}, {1e-2, slow}};
+  const auto places = paretoFront(candidates, 0.05);
+  EXPECT_EQ(membersOf(places), (std::vector{0}));
+  EXPECT_FALSE(places[0].isSlower);
+  EXPECT_FALSE(places[1].isSlower);
+  EXPECT_TRUE(places[2].isSlower);
+}
+
 TEST(StudyFront, OfTheSameErrorTheFasterStands) {
   const Times slow = framesOf(4, 1), fast = framesOf(2, 2);
   const FrontCandidate candidates[] = {{1.00e-6, slow}, {1.02e-6, fast}, {1.01e-6, slow}};
@@ -148,6 +173,33 @@ TEST(StudyFront, SpreadIsTheFarEndOfTheControls) {
   const std::vector<TimeRatio> ratios{{1.0, 0.99, 1.02}, {0.95, 0.9, 1.01}, {}};
   EXPECT_DOUBLE_EQ(spreadOfControls(ratios), 1 - 0.9);
   EXPECT_EQ(spreadOfControls({}), 0);
+}
+
+// Beyond the limit nothing is concluded, and a clock that can is named.
+TEST(StudyFront, IsNotMadeBeyondTheLimit) {
+  std::array<ClockNoise, frameClocks> noise;
+  noise[0].spread = 0.39;
+  noise[1].spread = 0.015;
+  EXPECT_EQ(whyNoFront(noise, FrameClock::cpu, 0.1), "");
+  const std::string why = whyNoFront(noise, FrameClock::wall, 0.1);
+  EXPECT_NE(
+      why.find("by wall time one program, measured twice, differs from itself by up to 39.0 %"),
+      std::string::npos)
+      << why;
+  EXPECT_NE(why.find("By CPU time it is 1.5 %: give --clock cpu"), std::string::npos) << why;
+  noise[1].spread = 0.53;
+  EXPECT_NE(whyNoFront(noise, FrameClock::wall, 0.1).find("larger --repetitions"),
+            std::string::npos);
+  EXPECT_EQ(whyNoFront(noise, FrameClock::wall, 0.4), "");
+}
+
+TEST(StudyFront, IsDecidedByTheClockThatTheDriverHas) {
+  EXPECT_EQ(clockFor({}, "llvmpipe (LLVM 15.0.6, 256 bits)", true), FrameClock::wall);
+  EXPECT_EQ(clockFor({}, "Mesa Intel(R) UHD Graphics", true), FrameClock::gpu);
+  EXPECT_EQ(clockFor({}, "Mesa Intel(R) UHD Graphics", false), FrameClock::wall);
+  EXPECT_EQ(clockFor(FrameClock::cpu, "llvmpipe", true), FrameClock::cpu);
+  EXPECT_THROW(clockFor(FrameClock::gpu, "llvmpipe", true), InputError);
+  EXPECT_THROW(clockFor(FrameClock::gpu, "a GPU", false), InputError);
 }
 
 }  // namespace study_front_test

@@ -14,7 +14,7 @@ from browser import run_tests
 _folder = tempfile.TemporaryDirectory(prefix="glint-study-")
 _out = pathlib.Path(_folder.name)
 subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
-                "--repetitions", "5", "--output", str(_out), "--markdown", str(_out / "results.md")],
+                "--repetitions", "5", "--spread-limit", "1e6", "--output", str(_out), "--markdown", str(_out / "results.md")],
                check=True, stdout=subprocess.DEVNULL)
 _data = json.loads((_out / "study.json").read_text())
 _page = str(_out / "study.html")
@@ -90,11 +90,14 @@ def test_table_sorts_by_a_column(browser):
 def test_draws_the_series(browser):
     browser.open(_page)
     names = browser.evaluate("[...document.querySelectorAll('.series')].map(s => s.dataset.name)")
-    assert names == ["exponent", "ior", "incidence", "fineness", "lights", "resolution"], names
+    assert names == ["exponent", "aliasing", "ior", "incidence", "fineness", "lights", "resolution"], names
     plots = browser.evaluate("[...document.querySelectorAll('.series')].map(s => s.querySelectorAll('svg').length)")
-    assert plots == [3, 3, 3, 3, 3, 2], plots
+    assert plots == [3, 2, 3, 3, 3, 3, 2], plots
     assert not browser.evaluate("document.body.innerHTML.includes('NaN')")
     assert browser.evaluate("document.querySelectorAll('#specialisation tr').length") == 5
+    # Exact and two cheap lobes of two models with and without the filter, the exact one of three
+    # with more samples.
+    assert browser.evaluate("document.querySelectorAll('#ways tr').length") == 1 + 2 * 9 + 5
 
 
 def test_says_what_an_interrupted_study_lacks(browser):
@@ -107,11 +110,33 @@ def test_says_what_an_interrupted_study_lacks(browser):
         assert not browser.errors, browser.errors
 
 
+def test_makes_no_front_of_what_it_cannot_tell(browser):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
+                        "--repetitions", "3", "--shading", "phong", "--spread-limit", "0", "--output", folder],
+                       check=True, stdout=subprocess.DEVNULL)
+        browser.open(folder + "/study.html")
+        assert browser.evaluate("$('nofront').textContent").startswith("There is no front: by wall time")
+        assert browser.evaluate("document.querySelectorAll('#front-plot .name').length") == 0
+        assert "on the front" not in browser.evaluate("document.body.innerText")
+        assert not browser.errors, browser.errors
+    browser.open(_page)
+    assert browser.evaluate("$('nofront').textContent") == ""
+
+
+def test_tells_the_time_by_every_clock(browser):
+    browser.open(_page)
+    heads = browser.evaluate("[...$('table').tHead.rows[0].cells].map(c => c.textContent)")
+    assert any(h.startswith("wall ms") for h in heads) and any(h.startswith("CPU ms") for h in heads), heads
+    browser.evaluate(_event("phong exact", "click"))
+    assert "CPU, all threads" in browser.evaluate("$('detail').textContent")
+
+
 def test_marks_what_a_budget_chooses(browser):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([os.environ["GLINT_EXECUTABLE"], "study", "--quick", "--resolution", "64,64",
                         "--repetitions", "3", "--shading", "phong", "--highlight", "exact", "--max-error",
-                        "0.01", "--output", folder], check=True, stdout=subprocess.DEVNULL)
+                        "0.01", "--spread-limit", "1e6", "--output", folder], check=True, stdout=subprocess.DEVNULL)
         browser.open(folder + "/study.html")
         assert browser.evaluate("document.querySelectorAll('.budget').length") == 1
         assert browser.evaluate("$('budget').hidden") is False
@@ -140,7 +165,7 @@ def test_every_form_joins(browser):
 def test_answers_its_questions(browser):
     markdown = (_out / "results.md").read_text()
     for words in ("beat `pow`", "how far off is 4", "Gouraud enough", "Schlick ever",
-                  "only what the scene needs"):
+                  "only what the scene needs", "What does aliasing add"):
         assert words in markdown, words
     assert "nan" not in markdown and "-inf" not in markdown
 

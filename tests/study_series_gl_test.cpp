@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "glint/study/frame_parts.h"
 #include "glint/study/series.h"
 #include "stage.h"
 
@@ -78,6 +79,41 @@ TEST_F(StudySeriesOnGl, AShaderWithEverythingGivesTheSamePicture) {
     EXPECT_LT(s.difference, 2 * (1e-5 + 4e-6 * std::sqrt(160))) << s.program;
     EXPECT_EQ(s.times.wall.size(), 2u) << s.program;
   }
+}
+
+// What is far larger than the error of a form, and what the filter leaves of it. The truth is from
+// 8 x 8 samples, whose own error is far below.
+TEST_F(StudySeriesOnGl, AliasingIsLargerThanAFormsErrorAndIsFilteredAway) {
+  const SeriesTools small = tools();
+  const StudySeries series = *aliasingSeries(small);
+  const auto at = [&](const char* name) { return line(series, name).points.back(); };
+  EXPECT_EQ(at("one sample").x, 10000);
+  EXPECT_GT(at("one sample").max, 5 * at("lyon:8, the form").max);
+  EXPECT_LT(at("filtered").rmse, 0.8 * at("one sample").rmse);
+  EXPECT_LT(at("ssaa:2").rmse, 0.7 * at("one sample").rmse);
+  // Multisampling shades once for each triangle of a pixel, and here most pixels have several.
+  EXPECT_LT(at("msaa:4").rmse, at("one sample").rmse);
+  // A highlight of many pixels needs no filter, and is left as it is.
+  const auto& broad = line(series, "filtered").points.front();
+  EXPECT_LT(broad.max, 0.05);
+}
+
+TEST_F(StudySeriesOnGl, PartsOfAFrameAreSharesOfIt) {
+  const auto parts =
+      frameParts(*scene_, *gpu_, look_, Shading::phong, FrameClock::cpu, {2, 12, false, {}, {}});
+  std::vector<std::string> names;
+  double sum = 0;
+  for (const FramePart& part : parts) {
+    names.push_back(part.name);
+    sum += part.share.value;
+    EXPECT_GE(part.share.low, 0) << part.name;
+    EXPECT_LE(part.share.low, part.share.value) << part.name;
+    EXPECT_GE(part.share.high, part.share.value) << part.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"vertices", "the target", "filling", "highlights",
+                                             "other light"}));
+  // But for parts that came out below 0 and are told as 0.
+  EXPECT_NEAR(sum, 1, 0.3);
 }
 
 TEST_F(StudySeriesOnGl, StoppedSeriesKeepWhatIsMeasured) {

@@ -286,6 +286,42 @@ const Case cases[] = {
        v.twoSided = true;
        v.denserSide = s == Shading::environment;
      }},
+    {"a normalised highlight",
+     [](VariantInputs& in) { in.look.normalization = glint::Normalization::exact; },
+     [](Variant&, Shading) {}},
+    {"a normalised highlight of an exponent from a texture",
+     [](VariantInputs& in) {
+       in.look.normalization = glint::Normalization::simple;
+       in.material.parameterTextures.metallicRoughness.emplace();
+       in.material.textured = glint::textured::exponent;
+     },
+     [](Variant& v, Shading) {
+       v.normalized = true;
+       v.normalization = glint::Normalization::simple;
+       v.textured = glint::textured::exponent;
+       v.metallicRoughnessTexture = true;
+       v.parameterPlaceCount = 1;
+     }},
+    {"--specular-antialiasing", [](VariantInputs& in) { in.look.specularAntialiasing = true; },
+     [](Variant& v, Shading s) { v.specularAntialiasing = computesPixels(s); }},
+    {"--specular-antialiasing without a highlight",
+     [](VariantInputs& in) {
+       in.look.specularAntialiasing = true;
+       in.material.shading.specular = 0;
+     },
+     [](Variant& v, Shading s) {
+       v.specular = false;
+       v.pixelPosition = s == Shading::environment;
+     }},
+    {"an integer power that is filtered",
+     [](VariantInputs& in) {
+       in.look.specularAntialiasing = true;
+       in.look.highlight = glint::Highlight::integer;
+     },
+     [](Variant& v, Shading s) {
+       v.specularAntialiasing = computesPixels(s);
+       if (!computesPixels(s)) v.highlight = {glint::Highlight::integer, 20};
+     }},
     {"vertex colours", [](VariantInputs& in) { in.mesh.colors.resize(4); },
      [](Variant& v, Shading) { v.vertexColors = true; }},
     {"colour texture", [](VariantInputs& in) { in.material.colorTexture.emplace(); },

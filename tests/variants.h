@@ -118,6 +118,8 @@ inline std::set<Variant> sampledVariants() {
         in.material.parameterTextures.transmission = Texture{};
         in.material.textured |= textured::transmission;
       },
+      [](VariantInputs& in) { in.look.normalization = Normalization::exact; },
+      [](VariantInputs& in) { in.look.specularAntialiasing = true; },
       [](VariantInputs& in) { in.look.antiAliasing = {}; },
       [](VariantInputs& in) { in.look.environment = Environment::sky; },
       [](VariantInputs& in) { in.look.environment = Environment::white; },

@@ -74,7 +74,10 @@ std::string withoutEffect(const Look& look, const Scene* scene, std::string_view
   if (name == "light-scale" && !lightsAreTheFiles(scene, look))
     return scene && scene->lights.empty() ? "the model's file has no lights"
                                           : "the lights are not the file's";
-  if (name == "highlight" && look.noLights) return "there is no light: untick no lights";
+  if (name == "specular-antialiasing" && !isPerPixel(look.shading))
+    return "light is computed per face or vertex: choose a program that shades pixels as shading";
+  if (isOneOf(name, {"highlight", "specular-antialiasing", "normalization"}) && look.noLights)
+    return "there is no light: untick no lights";
   if (name == "camera-direction" && look.cameraPosition && look.cameraFocalPoint)
     return "position and focal point say it";
   if (name == "camera-zoom-factor" && look.cameraPosition) return "the position says it";

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -15,7 +16,9 @@
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "glint/options/read_options.h"
+#include "glint/scene/look_text.h"
 #include "glint/study/cost_measurement.h"
+#include "glint/study/half_forms.h"
 #include "glint/study/page.h"
 #include "glint/study/results.h"
 #include "interrupt.h"
@@ -26,10 +29,11 @@ namespace glint {
 namespace {
 
 struct StudyArguments {
-  std::string model, output, json, markdown, costs, command, backend = "auto";
+  std::string model, output, json, markdown, costs, half, command, backend = "auto", clock = "auto";
   bool quick = false;
   int repetitions = 0;
   double timeBudget = 0;
+  double spreadLimit = 100 * largestSpread;  ///< percent
   bool resolutionGiven = false;
   bool stdoutTaken = false;  ///< by a file of "-"
   StudyFilter filter;
@@ -40,6 +44,7 @@ constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
 /// fewer rounds: what frames are full of then is shading.
 constexpr double quickLongFrame = 15, fullLongFrame = 50;
 constexpr int longRounds = 36;
+constexpr int quickTruth = 4, fullTruth = 8;  ///< N x N samples a pixel of the second truth
 constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< at least
 
 /// A study measures single samples, with what the look does not say by itself.
@@ -88,11 +93,16 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   StudyOptions options;
   options.keepPictures = !given.output.empty();
   options.look = studyLook(given, givenLook);
+  options.truthSamples = given.quick ? quickTruth : fullTruth;
   options.filter = given.filter;
   options.filter.quick = options.quick = given.quick;
   options.rounds = given.repetitions > 0 ? given.repetitions
                    : given.quick         ? quickRounds
                                          : fullRounds;
+  constexpr std::array<std::string_view, 1 + frameClocks> clocks{"auto", "wall", "cpu", "gpu"};
+  if (const std::size_t clock = parseChoice(given.clock, clocks, "--clock"); clock > 0)
+    options.clock = FrameClock(clock - 1);
+  options.spreadLimit = given.spreadLimit / 100;
   options.builds =
       std::clamp(options.rounds / roundsOfBuild, 1, given.quick ? quickBuilds : fullBuilds);
   // With it the times of compiling would be those of whatever was run before.
@@ -157,17 +167,28 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   return done;
 }
 
-/// --measure-costs: a mode of its own, of no model and no look.
-int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
+/// Of a mode of its own, of no model and no look: refuses all options but these.
+void refuseOthers(const CLI::App& command, const std::string& mode, const std::string& allowed) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
     const std::string name = option->get_positional() && option->get_lnames().empty()
                                  ? option->get_name()
                                  : "--" + option->get_lnames().front();
-    if (name != "--measure-costs" && name != "--rendering-backend")
-      throw InputError("--measure-costs: measures the forms alone, whatever is drawn: leave " +
-                       name + " out");
+    if (name != mode && name != allowed)
+      throw InputError(mode + ": measures the forms alone, whatever is drawn: leave " + name +
+                       " out");
   }
+}
+
+int runHalfPrecision(const StudyArguments& given, const CLI::App& command) {
+  refuseOthers(command, "--half-precision", "");
+  OutputFile file(given.half);
+  commitText(file, halfTable());
+  return done;
+}
+
+int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
+  refuseOthers(command, "--measure-costs", "--rendering-backend");
   if (given.backend == "reference")
     throw InputError("--rendering-backend reference: costs are those of a driver: give another");
   const Backend backend = backendFromName(given.backend);
@@ -224,6 +245,19 @@ Command addStudy(CLI::App& app) {
       ->type_name("SECONDS")
       ->check(CLI::Range(0.001, 1e6).description(""));
   command
+      ->add_option("--clock", given->clock,
+                   "what times are compared by: wall, until a frame is done; cpu, what all threads "
+                   "ran meanwhile, which on a software driver hardly feels other programs; gpu, "
+                   "the GPU's own timer; auto is gpu where a GPU draws, else wall [default: auto]")
+      ->type_name("auto|wall|cpu|gpu")
+      ->take_last();
+  command
+      ->add_option("--spread-limit", given->spreadLimit,
+                   "no front where one program measured twice differs from itself by more than "
+                   "this [default: 10]")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(0.0, 1e6).description(""));
+  command
       ->add_option("--rendering-backend", given->backend,
                    "how to open GL; auto tries egl, then osmesa [default: auto]")
       ->type_name("auto|egl|egl-software|osmesa")
@@ -247,8 +281,15 @@ Command addStudy(CLI::App& app) {
                    "minute) and write the table that --cost-table reads; - is stdout")
       ->type_name("FILE")
       ->take_last();
+  command
+      ->add_option("--half-precision", given->half,
+                   "instead of a study, compute what each form of the highlight loses in half "
+                   "floats, at every input that there is, and write the table; - is stdout")
+      ->type_name("FILE")
+      ->take_last();
   auto look = addLookOptions(*command);
   return [given, look, command] {
+    if (!given->half.empty()) return runHalfPrecision(*given, *command);
     if (!given->costs.empty()) return runMeasureCosts(*given, *command);
     std::vector<OutputOption> outputs{
         {"--json", given->json}, {"--markdown", given->markdown}, {"--save-look", look.saveFile()}};

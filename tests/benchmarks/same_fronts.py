@@ -5,7 +5,7 @@ Their fronts must have the same members, but for those whose step is as small as
 of one front is dominated in the other, the ratio of its time to its dominator's must be the same in
 both runs, each known to its 95 % interval and the run's spread (A/A). So must be the time of every
 variant beside that of the first: a program that is slow for the whole of one run is found here.
-Prints what differs; exit status 0 if it is within noise, 1 if not, 2 if the studies are not of one
+Times are those of the clock that decided (--clock). Prints what differs; exit status 0 if it is within noise, 1 if not, 2 if the studies are not of one
 scene."""
 
 import json
@@ -27,11 +27,14 @@ class Study:
             self.json = json.load(file)
         self.variants = {v["name"]: v for v in self.json["variants"]}
         self.spread = self.json["spread"]
+        if self.json["noFront"]:
+            sys.exit(f"{path}: {self.json['noFront']}")
+        self.rounds = "cpuRounds" if self.json["clock"] == "cpu" else "rounds"
 
     def ratio(self, one, other):
         """Of the times of two variants: value, and its interval widened by the spread."""
-        a = self.variants[one]["times"]["rounds"]
-        b = self.variants[other]["times"]["rounds"]
+        a = self.variants[one]["times"][self.rounds]
+        b = self.variants[other]["times"][self.rounds]
         engine = random.Random(1)
         drawn = []
         for _ in range(300):
@@ -60,7 +63,7 @@ def main(paths):
         print(__doc__, file=sys.stderr)
         return 2
     a, b = map(Study, paths)
-    for key in ("model", "resolution", "triangles", "look"):
+    for key in ("model", "resolution", "triangles", "look", "clock"):
         if a.json[key] != b.json[key]:
             print(f"{paths[1]}: another {key} than {paths[0]}", file=sys.stderr)
             return 2

@@ -19,8 +19,10 @@
 #include "glint/scene/material_parameters.h"
 #include "glint/shading/angles.h"
 #include "glint/shading/bounds.h"
+#include "glint/shading/normalization.h"
 #include "glint/shading/pbr_conversion.h"
 #include "glint/shading/safe.h"
+#include "glint/shading/specular_filter.h"
 
 namespace glint {
 namespace {
@@ -145,28 +147,37 @@ double refractionError(const ShadingParameters& m, const Look& look, bool twoSid
   return 2e-6 * n + worst;
 }
 
-// The numbers of the material, and where textures give them the largest that they can give.
-ShadingParameters brightestNumbers(const Material& material, const Variant& v) {
-  ShadingParameters m = material.shading;
-  if (v.textured & textured::diffuse) m.diffuse = 1;    // of pbr_conversion.h, as is
-  if (v.textured & textured::specular) m.specular = 1;  // the bound of highlightPeak()
-  return m;
-}
-
 // The exponents of the lobe that occur. A texture may hold every roughness up to the material's:
 // then both ends, and some between them. Over the exponent the error of a form falls to its root
 // (where there is one) and rises from there, so that an end has the largest.
+// So do a pixel's, filtered by how the normals turn over it: from the widest lobe on.
 std::vector<double> exponentsOf(const Material& material, const Variant& v, const Look& look) {
-  if (!(v.textured & textured::exponent)) return {lobeExponent(material, look)};
-  const double scale = usesBlinn(look.shading) ? look.blinnFactor : 1.0;
-  const double low = scale * exponentFromRoughness(material.parameterTextures.roughness);
-  const double high = scale * exponentFromRoughness(0);
+  const bool varies = (v.textured & textured::exponent) != 0;
+  if (!varies && !v.specularAntialiasing) return {lobeExponent(material, look)};
+  const bool blinn = usesBlinn(look.shading);
+  const double scale = blinn ? look.blinnFactor : 1.0;
+  double low = scale * exponentFromRoughness(material.parameterTextures.roughness);
+  double high = scale * exponentFromRoughness(0);
+  if (!varies) low = high = lobeExponent(material, look);
+  if (v.specularAntialiasing) low = filteredLobe(low, blinn, 1e9).exponent;
   std::vector<double> exponents{low};
   constexpr int steps = 16;
   for (int i = 1; i <= steps; ++i)
     exponents.push_back(
         std::max(low, high * std::pow(std::max(low, 0.5) / high, 1.0 - double(i) / steps)));
   return exponents;
+}
+
+// The numbers of the material, and where textures give them the largest that they can give; m_s
+// with what it is multiplied by, which grows with the exponent.
+ShadingParameters brightestNumbers(const Material& material, const Variant& v, const Look& look) {
+  ShadingParameters m = material.shading;
+  if (v.textured & textured::diffuse) m.diffuse = 1;    // of pbr_conversion.h, as is
+  if (v.textured & textured::specular) m.specular = 1;  // the bound of highlightPeak(), and of F0
+  const std::vector<double> exponents = exponentsOf(material, v, look);
+  m.specular *= lobeNormalization(look.normalization, usesBlinn(look.shading),
+                                  *std::ranges::max_element(exponents));
+  return m;
 }
 
 // What the turn of the directions to lamps and viewer adds to the sum: N.L moves by the turn, a
@@ -193,9 +204,22 @@ double turnError(const Setting& setting, const ShadingParameters& m,
   return error + largest(setting.reach.together) * shine * lobeMoves(setting.viewTurn);
 }
 
+// How far rounding moves what filtering makes of a lobe, over its peak. With w = 1 / a^2, s^2 the
+// pixel's variance and T the turn, w' = w / (1 + 2 w s^2 T). Each of two normals is off by 4 u, so
+// that T is by 23 u sqrt(T), and w' by 2 w s^2 23 u sqrt(T) / (1 + 2 w s^2 T) of itself, at most
+// 23 u s sqrt(w / 2) = 6.5 u sqrt(w); 12 u more are of T's own sums and of the formula. The peak
+// moves with w', and the exponent n by (n + 2) / n of that, which changes a lobe by at most
+// 1 / (e n) of the change; a lobe of an exponent below 0.05 is all but even.
+double filterRounding(const std::vector<double>& exponents, bool blinn) {
+  const double perBlinn = blinn ? 1 : 4;
+  const double high = perBlinn * *std::ranges::max_element(exponents);
+  const double low = perBlinn * std::max(*std::ranges::min_element(exponents), 0.05);
+  return (6.5 * std::sqrt(high / 2 + 1) + 12) * u * (1 + (low + 2) / (2.718 * low));
+}
+
 void addSurface(Group& group, const Setting& setting, const Material& material, const Mesh& mesh,
                 const Variant& v) {
-  const ShadingParameters m = brightestNumbers(material, v);
+  const ShadingParameters m = brightestNumbers(material, v, setting.look);
   FormNeeds& needs = group.needs;
   glm::dvec3 C = m.color;
   if (v.vertexColors) {
@@ -234,6 +258,10 @@ void addSurface(Group& group, const Setting& setting, const Material& material, 
   // An exponent of the relative error e changes a lobe by at most e / exp(1); the fourth power, two
   // products and a difference give 8 u, where the exponent is above 1, and at most 8 u of it below.
   if (v.textured & textured::exponent) rounding += 8.0 * u * shine;
+  // A normalization is as far off as the exponent, by another 6 u of its power of two, a division
+  // and three products.
+  if (v.normalized) rounding += 20.0 * u * shine;
+  if (v.specularAntialiasing) rounding += filterRounding(exponents, setting.blinn) * shine;
   rounding += turnError(setting, m, exponents, C, S, v);
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
@@ -326,8 +354,10 @@ std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setti
     Group& group = groups[materialKey(material)];
     addSurface(group, setting, material, mesh, v);
     if (program == setting.look.shading) continue;
+    Material normalized = material;
+    normalized.shading = brightestNumbers(material, v, setting.look);
     group.interpolation = std::max(
-        group.interpolation, interpolationBound({scene, mesh, instance.world, material,
+        group.interpolation, interpolationBound({scene, mesh, instance.world, normalized,
                                                  setting.look, setting.camera, setting.lights, v},
                                                 program));
   }

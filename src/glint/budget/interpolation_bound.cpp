@@ -335,7 +335,7 @@ double interpolationBound(const PlacedMesh& p, Shading program) {
   const Variant& v = p.variant;
   if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
-  if (v.normalTexture) return unbounded;
+  if (v.normalTexture || v.specularAntialiasing) return unbounded;  // of pixels alone
   const Mold mold = moldOf(p, program);
   if (mold.offFace > flatLimit) return unbounded;
   const ShadingParameters& m = p.material.shading;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double largestFactor = 1e6;
 
-ShadingParameters shadingFromPbr(const PbrParameters& pbr) {
-  const ConvertedParameters c = convertPbr(pbr);
-  return {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, glm::dvec3(1), 0};
+void takeConverted(Material& material, const ConvertedParameters& c, const glm::dvec3& color) {
+  material.shading = {c.ambient, c.diffuse, c.specular, c.exponent, c.metalness, c.ior, color, 0};
+  material.highlightShare = c.share;
 }
 
 /// Takes what `extras.glint` says: numbers that stand there take the place of textures. It is the
@@ -75,6 +75,8 @@ void readExtras(const Json& material, const std::string& label, Material& edited
     } else {
       take(name, *it, shading.*key->value, key->min, key->max);
       if (it->is_number()) edited.textured &= ~key->textured;
+      if (it->is_number() && key->value == &ShadingParameters::specular)
+        edited.highlightShare.reset();
     }
   }
 }
@@ -173,13 +175,7 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
     numbers.glossiness *= 0.5;
   }
   const auto [converted, color] = convertSpecularGlossiness(numbers);
-  material.shading = {converted.ambient,
-                      converted.diffuse,
-                      converted.specular,
-                      converted.exponent,
-                      converted.metalness,
-                      converted.ior,
-                      color};
+  takeConverted(material, converted, color);
   material.alpha = std::min(diffuse.a, 1.0);
   material.colorTexture = textures.read(from.member("diffuseTexture"));
   if (textured) readGlossTexture(from, gloss, material, textures, messages);
@@ -197,10 +193,8 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   const double ior = extensions.member("KHR_materials_ior").member("ior").number(1.5);
   const Cursor specular = extensions.member("KHR_materials_specular").member("specularFactor");
   const PbrParameters numbers{metallic, roughness, ior, unit(specular, 1)};
-  material.shading = shadingFromPbr(numbers);
-
   const glm::dvec4 color = readColor(pbr.member("baseColorFactor"), 4, glm::dvec4(1));
-  material.shading.color = glm::dvec3(color);
+  takeConverted(material, convertPbr(numbers), glm::dvec3(color));
   material.alpha = std::min(color.a, 1.0);
   material.colorTexture = textures.read(pbr.member("baseColorTexture"));
 
@@ -255,7 +249,7 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   }
   Material& standard = materials.emplace_back();
   standard.name = "#default";
-  standard.shading = shadingFromPbr({});
+  takeConverted(standard, convertPbr({}), glm::dvec3(1));
   countMaterials(materials);
   return materials;
 }

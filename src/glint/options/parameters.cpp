@@ -328,6 +328,11 @@ std::vector<Parameter> makeTable() {
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),
+       choice("normalization", normalizationNames, &Look::normalization,
+              "multiply each highlight so that it keeps its light when its exponent n moves; "
+              "specular is then the share of light it reflects: none, the lecture notes' formula; "
+              "simple, (n+2)/2 for Phong and (n+8)/8 for Blinn-Phong, meant for a highlight with "
+              "N.L; exact, what reflects that share along the normal in the notes' formula"),
        slider(number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
                      "exponent of Schlick's approximation"),
               0, 20, false),
@@ -467,6 +472,10 @@ std::vector<Parameter> makeTable() {
                      },
                      [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
                  &Look::antiAliasing),
+       flag("specular-antialiasing", &Look::specularAntialiasing,
+            "widen highlights that are narrower than a pixel, by how far the normals turn over it, "
+            "and dim them to the same light, so that they do not flicker; of programs that shade "
+            "pixels"),
        color("background-color", &Look::backgroundColor, "colour behind the model"),
        flag("no-background", &Look::noBackground, "transparent background"),
        slider(number("exposure", "EV", -64, 64, &Look::exposure,

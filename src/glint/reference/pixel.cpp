@@ -87,8 +87,10 @@ Numbers numbersOf(const Item& item, Texel texel) {
   if (gives(textured::diffuse)) numbers.diffuse = converted.diffuse;
   if (gives(textured::specular)) {
     const double m = std::clamp(pbr.metallic, 0.0, 1.0);
-    numbers.specular = (1 - m) * highlightPeak(reflectance, converted.exponent) +
-                       m * highlightPeak(1, converted.exponent);
+    const bool share = item.surface.normalization != Normalization::none;
+    numbers.specular =
+        (1 - m) * (share ? reflectance : highlightPeak(reflectance, converted.exponent)) +
+        m * (share ? 1 : highlightPeak(1, converted.exponent));
   }
   if (gives(textured::ambient))
     numbers.ambient *= 1 + item.parameters.occlusionStrength * (texel(*item.occlusion).r - 1);
@@ -200,7 +202,8 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   a.emission = emissionOf(item, f);
   a.faceNormal = faceNormal_;
   a.normal = normalAt(f);
-  if (stage_.frame.image && item.surface.program == Shading::environment) {
+  if ((stage_.frame.image && item.surface.program == Shading::environment) ||
+      item.surface.filtersHighlight) {
     for (std::size_t i = 0; i < 4; ++i) {
       Footprint at = f;
       at.weights = f.square[i];

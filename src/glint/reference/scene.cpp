@@ -126,6 +126,8 @@ Surface surfaceFor(const Material& material, const Variant& variant, const Look&
   const ShadingParameters& m = material.shading;
   s.numbers = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, m.transmission};
   s.blinnFactor = look.blinnFactor;
+  s.normalization = look.normalization;
+  s.filtersHighlight = look.specularAntialiasing && isPerPixel(s.program) && !s.unlit;
   s.schlickExponent = look.schlickExponent;
   s.ior = material.shading.ior;
   s.mediumIor = look.mediumIor;

@@ -1,8 +1,10 @@
 #include "glint/reference/shade.h"
 
 #include <algorithm>
+#include <array>
 
 #include "glint/shading/safe.h"
+#include "glint/shading/specular_filter.h"
 #include "glint/shading/sum.h"
 
 namespace glint::reference {
@@ -80,6 +82,7 @@ Terms lightAt(const Frame& frame, const Surface& surface, const Numbers& numbers
   p.specular = numbers.specular;
   p.exponent = numbers.exponent;
   p.blinnFactor = surface.blinnFactor;
+  p.normalization = surface.normalization;
   const glm::dvec3 V = toViewer(frame, position);
   const auto oneLight = usesBlinn(surface.program) ? blinnPhongLight : phongLight;
   LightTerms sum = ambientLight(p, frame.ambientLight);
@@ -108,6 +111,38 @@ glm::dvec3 shadingNormal(const Surface& surface, const Attributes& a) {
   return surface.twoSided && !a.front ? -N : N;
 }
 
+namespace {
+
+// The numbers of the pixel's lights: the exponent by the largest turns of the normal across and
+// along the square.
+Numbers pixelNumbers(const Surface& surface, const Attributes& a) {
+  Numbers numbers = a.numbers;
+  if (!surface.filtersHighlight) return numbers;
+  std::array<glm::dvec3, 4> n;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Attributes at = a;
+    at.normal = a.square[i].normal;
+    n[i] = shadingNormal(surface, at);
+  }
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const glm::dvec3 d = n[i] - n[j];
+    return glm::dot(d, d);
+  };
+  const double turn = std::max(apart(0, 1), apart(2, 3)) + std::max(apart(0, 2), apart(1, 3));
+  // Of the lobe as drawn, whose exponent may be a multiple of the material's.
+  const bool blinn = usesBlinn(surface.program);
+  const double factor = blinn ? surface.blinnFactor : 1;
+  const double exponent = factor * numbers.exponent;
+  const FilteredLobe filtered = filteredLobe(exponent, blinn, turn);
+  // The normalisation stays that of the surface: what is filtered is its light.
+  numbers.specular *= filtered.scale * lobeNormalization(surface.normalization, blinn, exponent) /
+                      lobeNormalization(surface.normalization, blinn, filtered.exponent);
+  if (factor > 0) numbers.exponent = filtered.exponent / factor;
+  return numbers;
+}
+
+}  // namespace
+
 Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
   Terms terms;
   const glm::dvec3 C(a.base);
@@ -121,7 +156,7 @@ Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
     terms.matte = a.matte;
     terms.specular = a.specular;
   } else {
-    terms = lightAt(frame, surface, a.numbers, a.position, N);
+    terms = lightAt(frame, surface, pixelNumbers(surface, a), a.position, N);
   }
   terms.sum = sumColor({terms.matte, terms.specular}, C, a.numbers.metalness);
   if (surface.program == Shading::environment) addEnvironment(frame, surface, a, N, terms);

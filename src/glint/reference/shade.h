@@ -9,6 +9,7 @@
 #include "glint/shading/environment_map.h"
 #include "glint/shading/forms.h"
 #include "glint/shading/fresnel.h"
+#include "glint/shading/normalization.h"
 
 // The shading of the reference renderer: double precision, by the formulas of src/shading alone.
 // Everything is in eye space: the eye at the origin, looking along -Z.
@@ -59,6 +60,8 @@ struct Surface {
   std::vector<Lobe> lobes{Lobe{}};
   Fresnel fresnel = Fresnel::exact;
   Numbers numbers;  ///< where no texture gives them
+  Normalization normalization = Normalization::none;
+  bool filtersHighlight = false;  ///< by how the normals turn over a pixel; per-pixel programs
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
   FresnelSides sides;        ///< of ior and mediumIor
@@ -84,7 +87,7 @@ struct Attributes {
   Numbers numbers;             ///< material and textures; flat and gouraud read the metalness alone
   /// Position and normal in the middles of the four pixels of the square by which GL takes
   /// differences: this one, the others across, along and across both. Set where the environment is
-  /// a picture.
+  /// a picture or the highlight is filtered.
   struct Place {
     glm::dvec3 position{0.0}, normal{0.0};
   };

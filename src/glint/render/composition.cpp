@@ -8,6 +8,7 @@
 #include "glint/render/features.h"
 #include "glint/scene/look_text.h"
 #include "glint/shading/pbr_conversion.h"
+#include "glint/shading/specular_filter.h"
 
 namespace glint {
 namespace {
@@ -81,6 +82,9 @@ std::string parameterDefines(const Variant& v) {
   for (std::size_t i = 0; i < 4; ++i)
     text += std::string("#define ") + names[i] + "_PLACE " + placeText(v, i) + "\n";
   if (v.textured == 0) return text;
+  if (v.normalized)
+    text += "#define NORMALIZATION(n) " +
+            std::string(normalizationGlsl(v.normalization, usesBlinn(v.program))) + "(n)\n";
   return text + "#define METAL_DIFFUSE " + realText(metalDiffuse) +
          "\n#define SMALLEST_ROUGHNESS " + realText(smallestRoughness) + "\n";
 }
@@ -116,7 +120,7 @@ std::string defines(const Variant& v) {
       !v.unlit && v.program == Shading::environment && v.environment == Environment::image;
   text += define("TEXTURES", textures);
   if (textures || v.textured != 0) text += textureDefines(v);
-  text += define("LEVELS_OF_DETAIL", textures || image);
+  text += define("LEVELS_OF_DETAIL", textures || image || v.specularAntialiasing);
   constexpr const char* outputs[] = {"RADIANCE", "POSITION",   "NORMAL",         "COLOR",
                                      "EMISSION", "DEPTH",      "SHADING_NORMAL", "IDS",
                                      "SUM",      "REFLECTION", "REFRACTION"};
@@ -152,7 +156,7 @@ std::vector<std::string> lobeDefines(const Variant& v) {
   forms.push_back({{}, v.directionalLights, v.pointLights, v.spotLights});
   constexpr const char* shapes[] = {"material.lobe", "material.secondLobe", "material.thirdLobe",
                                     "material.fourthLobe"};
-  const bool varies = (v.textured & textured::exponent) != 0;
+  const bool varies = (v.textured & textured::exponent) != 0 || v.specularAntialiasing;
   std::vector<std::string> texts;
   for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
     const Variant::Dimmer &from = forms[i], &end = forms[i + 1];
@@ -199,6 +203,12 @@ std::string reflectanceFunction(const Variant& v) {
   return "float reflectance(float cosine, Boundary boundary) { return " + form + "; }\n";
 }
 
+std::string filterDefines(const Variant& v) {
+  return "#define PIXEL_VARIANCE " + realText(pixelVariance) + "\n#define LARGEST_WIDENING " +
+         realText(largestWidening) + "\n#define EXPONENTS_PER_BLINN " +
+         (usesBlinn(v.program) ? "1.0" : "4.0") + "\n";
+}
+
 // A file and what is defined before it.
 struct Part {
   std::string file, defines = {};
@@ -224,6 +234,7 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
   std::vector<Part> files{{"vector.glsl"}, {"blocks.glsl"}};
   if (!v.unlit) {
     if (v.specular) files.insert(files.begin() + 1, {"lobe.glsl"});
+    if (v.normalized) files.insert(files.begin() + 1, {"normalization.glsl"});
     if (v.program == Shading::environment)
       files.insert(files.end(), {{"fresnel.glsl"}, {"environment_map.glsl"}});
     files.insert(files.end(), {{"parameters.glsl"}, {"light_sum.glsl"}});
@@ -231,6 +242,7 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
       for (const std::string& defines : lobeDefines(v)) files.push_back({"lights.glsl", defines});
     files.insert(files.end(),
                  {{"sum.glsl"}, {isPerVertex(v) ? "per_vertex.glsl" : "per_pixel.glsl"}});
+    if (v.specularAntialiasing) files.push_back({"specular_filter.glsl", filterDefines(v)});
     std::string file = name + ".glsl";  // Mesa's #line takes no '-' in names
     std::replace(file.begin(), file.end(), '-', '_');
     files.push_back({file, reflectanceFunction(v)});

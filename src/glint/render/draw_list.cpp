@@ -11,6 +11,7 @@
 #include "glint/shading/angles.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/lobe.h"
+#include "glint/shading/normalization.h"
 
 namespace glint {
 namespace {
@@ -96,7 +97,9 @@ MaterialBlock materialBlock(const Material& material, const Variant& variant, co
   const double exponent = lobeExponent(material, look);
   block.ambient = float(s.ambient);
   block.diffuse = float(s.diffuse);
-  block.specular = float(s.specular);
+  const Normalization normalization = variant.normalized ? Normalization::none : look.normalization;
+  block.specular =
+      float(s.specular * lobeNormalization(normalization, usesBlinn(look.shading), exponent));
   block.exponent = float(exponent);
   block.lobe = lobeConstants(variant.highlight, exponent);
   glm::vec2* const dimmer[] = {&block.secondLobe, &block.thirdLobe, &block.fourthLobe};

@@ -30,6 +30,7 @@ std::string formReason(const Variant& v, const Material& material, const Look& l
     return text + ", and no light is left for another form";
   if (asked.brightest.form == v.highlight.form) return text;
   if (material.textured & textured::exponent) return text + ", but a texture varies the exponent";
+  if (v.specularAntialiasing) return text + ", but --specular-antialiasing varies the exponent";
   return lobeExponent(material, look) > 0
              ? text + ", but the exponent is not a whole number from 1 to 128"
              : text + ", but the exponent is 0";
@@ -136,6 +137,12 @@ constexpr Feature table[] = {
          },
      .form = lobeText,
      .formReason = [](In in) { return formReason(in.variant, in.material, in.look); }},
+    {.flag = &Variant::specularAntialiasing,
+     .define = "SPECULAR_ANTIALIASING",
+     .name = "specular-antialiasing",
+     .yes = [](In) -> std::string { return "--specular-antialiasing"; },
+     .no = [](In) -> std::string { return "it is not asked for"; },
+     .told = [](const Variant& v) { return v.specularAntialiasing; }},
     {.flag = &Variant::constantView,
      .define = "CONSTANT_VIEW",
      .name = "constant-view",
@@ -263,6 +270,17 @@ constexpr Feature table[] = {
      },
      .no = [](In) -> std::string { return "none has coordinates of its own"; },
      .told = [](const Variant& v) { return v.textured != 0; }},
+    {.flag = &Variant::normalized,
+     .define = "NORMALIZED",
+     .name = "normalization",
+     .yes = [](In) -> std::string { return "a texture gives exponent or specular"; },
+     .no = [](In) -> std::string { return "no texture gives exponent or specular"; },
+     .told = [](const Variant& v) { return v.normalized; },
+     .form =
+         [](const Variant& v) {
+           return std::string(normalizationNames[std::size_t(v.normalization)]);
+         },
+     .formReason = [](In) -> std::string { return "--normalization"; }},
     {.flag = &Variant::dielectric,
      .define = "DIELECTRIC",
      .name = "fresnel",

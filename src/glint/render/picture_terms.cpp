@@ -32,7 +32,7 @@ struct LightPlace {
 
 void removeLights(Variant& v) {
   v.directionalLights = v.pointLights = v.spotLights = 0;
-  v.diffuse = v.specular = false;
+  v.diffuse = v.specular = v.specularAntialiasing = false;
   v.highlight = Highlight::exact;
   v.dimmer.clear();
 }
@@ -42,6 +42,7 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   const bool diffuse = v.diffuse && term.kind == Kind::diffuse;
   bool specular = v.specular && term.kind == Kind::specular;
+  const bool filtered = v.specularAntialiasing;
   const MaterialBlock& block = item.materialBlock;
   HighlightForm form = v.highlight;
   glm::vec2 shape = block.lobe;
@@ -58,6 +59,7 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   v.diffuse = diffuse;
   v.specular = specular;
   if (!specular) return;
+  v.specularAntialiasing = filtered;
   v.highlight = form;
   item.materialBlock.lobe = shape;
 }

@@ -34,6 +34,9 @@ void readParameters(Variant& v, const Mesh& mesh, const Material& material, cons
   take(textured::transmission, v.refraction);
   if (v.textured == 0) return;
   const auto has = [&](unsigned bits) { return (v.textured & bits) != 0; };
+  v.normalized =
+      look.normalization != Normalization::none && has(textured::specular | textured::exponent);
+  if (v.normalized) v.normalization = look.normalization;
   const ParameterTextures& t = material.parameterTextures;
   v.metallicRoughnessTexture =
       has(textured::diffuse | textured::specular | textured::exponent | textured::metalness) &&
@@ -63,6 +66,8 @@ void readParameters(Variant& v, const Mesh& mesh, const Material& material, cons
 
 void Variant::dropParameterTextures() {
   textured = 0;
+  normalized = false;
+  normalization = Normalization::none;
   metallicRoughnessTexture = occlusionTexture = specularTexture = transmissionTexture = false;
   parameterPlaces = {};
   parameterPlaceCount = 0;
@@ -140,9 +145,13 @@ Shading programOf(const Look& look) {
   return look.shading == Shading::automatic ? Shading::phong : look.shading;
 }
 
+bool filtersHighlights(const Look& look) {
+  return look.specularAntialiasing && isPerPixel(look.shading);
+}
+
 HighlightForms highlightOf(const Material& material, const Look& look) {
   const double exponent = lobeExponent(material, look);
-  const bool varies = (material.textured & textured::exponent) != 0;
+  const bool varies = (material.textured & textured::exponent) != 0 || filtersHighlights(look);
   const auto drawn = [&](const HighlightForm& asked) -> HighlightForm {
     const HighlightRow& form = row(asked.form);
     if (!varies && !(exponent > 0) && !form.atZero) return Highlight::exact;
@@ -222,6 +231,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.diffuse = lit && s.diffuse > 0;
   v.specular = highlights && shines;
   if (!v.specular) v.highlight = Highlight::exact, v.dimmer.clear();
+  v.specularAntialiasing = v.specular && filtersHighlights(look);
   const bool environment = look.shading == Shading::environment;
   v.constantView = orthographic || look.viewer == Viewer::infinite;
   v.unevenScale = !isSimilarity(glm::dmat3(world));

@@ -39,6 +39,7 @@ struct Variant {
   bool specular = false;      ///< some light and m_s > 0
   /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
   HighlightForm highlight;
+  bool specularAntialiasing = false;  ///< the exponent is filtered, pixel by pixel
   /// Lights that have another form, the same as ever from a light of each type on.
   struct Dimmer {
     HighlightForm form;
@@ -66,6 +67,10 @@ struct Variant {
   /// Where each of those is looked up: a place of parameterPlaces(), or -1 at the colour texture's.
   std::array<int, 4> parameterPlaces{};
   int parameterPlaceCount = 0;  ///< of those of the mesh, 0 if none is read
+  /// The highlight is normalised in the shader, since a texture gives what that depends on;
+  /// otherwise the material's numbers hold the factor.
+  bool normalized = false;
+  Normalization normalization = Normalization::none;  ///< of that
   // The program environment alone:
   Environment environment = Environment::studio;
   Fresnel fresnel = Fresnel::exact;
@@ -110,9 +115,13 @@ Shading programOf(const Look&);
 
 /// The forms that draw a material's highlight: those asked for, except that `integer` becomes
 /// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
-/// `none` does where the exponent is 0. An exponent that comes from a texture is no whole number;
-/// where it is 0 the forms are exact, pixel by pixel. Of `integer`, gamma is the exponent.
+/// `none` does where the exponent is 0. An exponent that comes from a texture, or is filtered, is
+/// no whole number; where it is 0 the forms are exact, pixel by pixel. Of `integer`, gamma is the
+/// exponent.
 HighlightForms highlightOf(const Material&, const Look&);
+
+/// Whether a look widens highlights by how the normals turn over a pixel.
+bool filtersHighlights(const Look&);
 
 /// The form of a material's reflectance.
 Fresnel fresnelOf(const Material&, const Look&);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glint/shading/forms.h"
+#include "glint/shading/normalization.h"
 
 namespace glint {
 
@@ -103,6 +104,7 @@ struct Look {
   bool maxErrorInCodes = false;
   std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
   double blinnFactor = 4.0;
+  Normalization normalization = Normalization::none;
   double schlickExponent = 5.0;
   std::map<std::string, MaterialEdit> material;  ///< by key, see material_key.h
 
@@ -138,6 +140,7 @@ struct Look {
 
   glm::ivec2 resolution{1024, 1024};
   AntiAliasing antiAliasing;
+  bool specularAntialiasing = false;
   glm::dvec3 backgroundColor{0.033104766570885055};  ///< linear; #333333
   bool noBackground = false;
   double exposure = 0.0;  ///< EV: the picture is multiplied by 2^exposure before encoding

@@ -115,6 +115,8 @@ void applyEdit(Material& edited, const MaterialEdit& edit) {
 
 Material editedMaterial(const Material& material, const Look& look) {
   Material edited = material;
+  if (look.normalization != Normalization::none && material.highlightShare)
+    edited.shading.specular = *material.highlightShare;
   if (!look.material.empty()) {
     const auto keys = materialKeys(material);
     for (auto key = keys.begin(); key != keys.end(); ++key) {

@@ -57,7 +57,8 @@ std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
 
 /// What a look makes of a scene's material: its own values with those of the edits whose keys are
 /// of it (material_key.h), in their order.
-/// An edited number takes the place of a texture that gave it.
+/// An edited number takes the place of a texture that gave it. Under a normalization m_s is the
+/// share from which it was converted, unless it is given.
 Material editedMaterial(const Material&, const Look&);
 
 /// The exponent of a material's lobe under a look: Phong's, or Blinn-Phong's.

@@ -140,6 +140,9 @@ struct Material {
   int nth = 0;              ///< its place among those of its name
   bool nameShared = false;  ///< others have its name
   ShadingParameters shading;
+  /// The share of the arriving light that the highlight reflects, from which shading.specular was
+  /// converted: what m_s is under --normalization. Empty where the file gives m_s itself.
+  std::optional<double> highlightShare = {};
   double alpha = 1.0;        ///< multiplies the texture's and the vertex colour's, [0, 1]
   glm::dvec3 emission{0.0};  ///< linear radiance added to the sum
   std::optional<Texture> colorTexture;     ///< sRGB colour and alpha

@@ -47,6 +47,7 @@ ConvertedParameters convertPbr(const PbrParameters& pbr) {
   out.specular =
       interpolate(highlightPeak(f0, out.exponent), highlightPeak(1.0, out.exponent), metallic);
   out.diffuse = interpolate(1.0, metalDiffuse, metallic);
+  out.share = interpolate(f0, 1.0, metallic);
   return out;
 }
 

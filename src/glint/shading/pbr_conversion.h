@@ -24,6 +24,7 @@ struct ConvertedParameters {
   double exponent = 20.0;  ///< m_sp, Phong's alpha
   double metalness = 0.0;  ///< m_sm
   double ior = 1.5;        ///< n, [1, 1e3]
+  double share = 0.0;      ///< of the arriving light that the highlight reflects, [0, 1]
 };
 
 /// The m_d of a metal.
@@ -59,7 +60,7 @@ double dielectricReflectance(const PbrParameters& pbr);
 /// The conversion. F0 = ((n-1)/(n+1))^2 specularFactor for dielectrics and 1 for metals, whose
 /// colour the highlight gets by m_sm = metallic; m_s = highlightPeak, m_d = 1 for dielectrics and
 /// 0.6 for metals, so that they keep their colour where there is no environment to reflect; both
-/// interpolated by `metallic`. m_a = 1.
+/// interpolated by `metallic`, and so is the share, F0. m_a = 1.
 ConvertedParameters convertPbr(const PbrParameters& pbr);
 
 /// KHR_materials_pbrSpecularGlossiness, with its defaults. Linear RGB, [0, 1]; values out of range

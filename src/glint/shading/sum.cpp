@@ -18,15 +18,17 @@ glm::dvec3 validIntensity(const glm::dvec3& v) {
 /// no half vector is formed where there may be none.
 template <class Lambda>
 LightTerms light(const SumParameters& p, const glm::dvec3& N, const glm::dvec3& L,
-                 const glm::dvec3& V, const glm::dvec3& intensity, double alpha, Lambda lambda) {
+                 const glm::dvec3& V, const glm::dvec3& intensity, bool blinn, double alpha,
+                 Lambda lambda) {
   const double NoL = glm::dot(N, L);
   if (!(NoL > 0.0)) return {};
   const glm::dvec3 I = validIntensity(intensity);
   LightTerms terms;
   terms.matte = validFactor(p.diffuse) * std::min(NoL, 1.0) * I;
   if (glm::dot(V, V) > 0.0) {
-    terms.specular =
-        validFactor(p.specular) * lobe(p.highlight, p.gamma, lambda(N, L, V), alpha) * I;
+    const double strength =
+        validFactor(p.specular) * lobeNormalization(p.normalization, blinn, alpha);
+    terms.specular = strength * lobe(p.highlight, p.gamma, lambda(N, L, V), alpha) * I;
   }
   return terms;
 }
@@ -39,13 +41,13 @@ LightTerms ambientLight(const SumParameters& p, const glm::dvec3& light) {
 
 LightTerms phongLight(const SumParameters& p, const glm::dvec3& N, const glm::dvec3& L,
                       const glm::dvec3& V, const glm::dvec3& intensity) {
-  return light(p, N, L, V, intensity, validFactor(p.exponent), phongLambda);
+  return light(p, N, L, V, intensity, false, validFactor(p.exponent), phongLambda);
 }
 
 LightTerms blinnPhongLight(const SumParameters& p, const glm::dvec3& N, const glm::dvec3& L,
                            const glm::dvec3& V, const glm::dvec3& intensity) {
   const double alpha = validFactor(p.blinnFactor) * validFactor(p.exponent);
-  return light(p, N, L, V, intensity, alpha, blinnLambda);
+  return light(p, N, L, V, intensity, true, alpha, blinnLambda);
 }
 
 glm::dvec3 specularColor(const glm::dvec3& color, double metalness) {

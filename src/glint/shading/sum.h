@@ -4,13 +4,16 @@
 
 #include "glint/shading/forms.h"
 #include "glint/shading/lobe.h"
+#include "glint/shading/normalization.h"
 
 namespace glint {
 
 // The sum of light at a point, in linear light:
 //
 //     colour = C (m_a A + sum of diffuse) + S (sum of specular),
-//     per light, where N.L > 0:  diffuse = m_d I N.L,  specular = m_s I lobe.
+//     per light, where N.L > 0:  diffuse = m_d I N.L,  specular = m_s k I lobe,
+//
+// k = 1, or what normalization.h says.
 //
 // What C multiplies and what S multiplies are kept apart, so that flat and Gouraud shading can
 // apply the colours per pixel. Values outside their range are clamped to it, NaN to the lower end;
@@ -25,6 +28,7 @@ struct SumParameters {
   double blinnFactor = 4.0;  ///< Blinn-Phong's alpha' is this times alpha, [0, 1e6]
   Highlight highlight = Highlight::exact;
   int gamma = 8;  ///< of the forms that have one: a power of two, [1, 64]
+  Normalization normalization = Normalization::none;
 };
 
 /// What one light, or all of them, send to the viewer: colour = C matte + S specular.

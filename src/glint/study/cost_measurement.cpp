@@ -159,7 +159,7 @@ bool measureBuild(Trials& trials, const StudyScene& scene, GpuScene& gpu, const 
         renderer.begin(gpu, makeDrawList(scene.scene, scene.bounds, trial.look), trial.look));
     all.push_back(&pictures.back());
   }
-  const auto times = timeInTurn(all, warmUp, rounds, stop);
+  const auto times = timeInTurn(all, {warmUp, rounds, false, stop, {}});
   if (times[0].wall.size() < std::size_t(rounds)) return false;
   for (std::size_t i = 0; i < trials.size(); ++i)
     trials[i].milliseconds.push_back(*std::min_element(times[i].wall.begin(), times[i].wall.end()));

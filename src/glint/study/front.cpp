@@ -11,28 +11,21 @@ bool isFaster(std::span<const double> a, std::span<const double> b, double sprea
   return ratio.value > 0 && ratio.high * (1 + spread) < 1;
 }
 
-std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread) {
-  std::vector<int> order(candidates.size());
+std::vector<FrontPlace> paretoFront(std::span<const double> errors,
+                                    const std::function<bool(int, int)>& isFasterThan) {
+  std::vector<int> order(errors.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return candidates[std::size_t(a)].error < candidates[std::size_t(b)].error;
-  });
-  std::vector<FrontPlace> places(candidates.size());
+  const auto error = [&](int i) { return errors[std::size_t(i)]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) < error(b); });
+  std::vector<FrontPlace> places(errors.size());
   int last = -1;
   for (const int i : order) {
-    const FrontCandidate& candidate = candidates[std::size_t(i)];
     FrontPlace& place = places[std::size_t(i)];
-    if (last < 0) {
-      place.onFront = true;
-      last = i;
-      continue;
-    }
-    const FrontCandidate& best = candidates[std::size_t(last)];
-    if (!isFaster(candidate.rounds, best.rounds, spread)) {
+    if (last >= 0 && !isFasterThan(i, last)) {
       place.dominatedBy = last;
       continue;
     }
-    if (candidate.error <= best.error * (1 + sameError)) {
+    if (last >= 0 && error(i) <= error(last) * (1 + sameError)) {
       for (FrontPlace& other : places)
         if (other.dominatedBy == last) other.dominatedBy = i;
       places[std::size_t(last)] = {false, i};
@@ -40,7 +33,18 @@ std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, 
     place.onFront = true;
     last = i;
   }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].dominatedBy >= 0)
+      places[i].isSlower = isFasterThan(places[i].dominatedBy, int(i));
   return places;
+}
+
+std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread) {
+  std::vector<double> errors;
+  for (const FrontCandidate& each : candidates) errors.push_back(each.error);
+  return paretoFront(errors, [&](int a, int b) {
+    return isFaster(candidates[std::size_t(a)].rounds, candidates[std::size_t(b)].rounds, spread);
+  });
 }
 
 double spreadOfControls(std::span<const TimeRatio> ratios) {

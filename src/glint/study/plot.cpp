@@ -55,15 +55,21 @@ struct Point {
   bool onFront, isChosen;
 };
 
+/// Of a variant or a floor, by the clock that decides; null if it was not timed.
+const Json& timesOf(const Json& json, const Json& of) {
+  const std::string clock = json["clock"];
+  return of["times"][clock == "gpu" ? "query" : clock];
+}
+
 std::vector<Point> pointsOf(const Json& json, const std::string& model) {
   std::vector<Point> points;
   for (const Json& v : json["variants"]) {
-    const Json& wall = v["times"]["wall"];
-    if (wall.is_null()) continue;
+    const Json& times = timesOf(json, v);
+    if (times.is_null()) continue;
     for (const Json& e : v["errors"])
       if (e["against"] == model && e["rmse"].is_number())
-        points.push_back({v["name"], v["shading"], wall["median"], wall["lowerQuartile"],
-                          wall["upperQuartile"], std::max(e["rmse"].get<double>(), 1e-9),
+        points.push_back({v["name"], v["shading"], times["median"], times["lowerQuartile"],
+                          times["upperQuartile"], std::max(e["rmse"].get<double>(), 1e-9),
                           e["fronts"].value("rmse", Json()) == Json(true), v.contains("bound")});
   }
   return points;
@@ -110,8 +116,8 @@ std::string studyPlot(const Json& json) {
   }
   double constant = 0;
   for (const Json& floor : json["floors"])
-    if (floor["name"] == "constant" && !floor["times"]["wall"].is_null())
-      constant = floor["times"]["wall"]["median"];
+    if (floor["name"] == "constant" && !timesOf(json, floor).is_null())
+      constant = timesOf(json, floor)["median"];
   if (constant > 0) fastest = std::min(fastest, constant);
   const Axis x{fastest / 1.1, slowest * 1.25, left, width - right};
   const Axis y{least / 2, most * 2, height - bottom, top};
@@ -120,8 +126,11 @@ std::string studyPlot(const Json& json) {
                   " shading: " + json["gl"]["renderer"].get<std::string>(),
               "font-size=\"15\"");
   svg += axes(x, y);
-  svg += text((left + width - right) / 2, height - 12, "ms a frame (median; line: quartiles)",
-              "text-anchor=\"middle\"");
+  svg +=
+      text((left + width - right) / 2, height - 12,
+           "ms a frame, " + json["clock"].get<std::string>() + " time (median; line: quartiles)" +
+               (json["noFront"].is_null() ? "" : ": too uncertain for a front"),
+           "text-anchor=\"middle\"");
   svg += "<text transform=\"translate(16 " + number((top + height - bottom) / 2) +
          ") rotate(-90)\" text-anchor=\"middle\">RMSE, linear light</text>\n";
   if (constant > 0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "glint/scene/look_text.h"
+#include "glint/study/advice.h"
 #include "glint/study/format.h"
 #include "glint/study/statistics.h"
 
@@ -19,18 +20,26 @@ class Results {
     add("# Results\n\nMade by\n\n```sh\n" + command + "\n```\n\n");
     add(formatted(
         "of %s (%zu triangles, %d x %d pixels, %zu compared) on\n%s, %s. Times are this "
-        "machine's: compare\nthem with each other. Two times count as different beyond the "
-        "spread of one program measured twice,\n%.1f %%; [study.md](study.md) says how all of "
-        "this is measured.\n",
+        "machine's: compare\nthem with each other. They are %s; two count as different beyond the "
+        "spread of one program\nmeasured twice, %.1f %%, and each ratio stands with its 95 %% "
+        "interval. [study.md](study.md) says how all of\nthis is measured.\n",
         head_.model.c_str(), r_.triangles, head_.look.resolution.x, head_.look.resolution.y,
-        r_.mask.pixels.size(), r_.gl.renderer.c_str(), r_.gl.version.c_str(), 100 * r_.spread));
+        r_.mask.pixels.size(), r_.gl.renderer.c_str(), r_.gl.version.c_str(),
+        r_.clock == FrameClock::cpu   ? "CPU time, of all threads"
+        : r_.clock == FrameClock::gpu ? "the GPU's time"
+                                      : "wall time",
+        100 * r_.spread()));
     if (!r_.complete) add("\n**Incomplete**: the study was ended early.\n");
+    if (!r_.noFront.empty()) add("\n**" + r_.noFront + "**\n");
     lyon();
     blinn();
     gouraud();
     schlick();
+    aliasing();
     specialisation();
     fronts();
+    if (const std::string advice = adviceText(head_, r_); !advice.empty())
+      add("\n## What to use\n\n" + wrapped(advice, 110) + "\n");
     return document_;
   }
 
@@ -53,18 +62,22 @@ class Results {
       if (l.name == name) return &l;
     return nullptr;
   }
-  static double median(const FrameTimes& times) {
-    return times.wall.empty() ? 0 : quantile(times.wall, 0.5);
+  double median(const FrameTimes& times) const {
+    return times.wall.empty() ? 0 : quantile(times.by(r_.clock), 0.5);
   }
-  /// "0.93 (0.91 to 0.95)": the time of a over that of b.
-  static std::string ratio(const FrameTimes& a, const FrameTimes& b) {
-    const TimeRatio of = timeRatio(a.wall, b.wall);
+  /// "0.93 (0.91 to 0.95)": the time of a over that of b, with its 95 % interval.
+  std::string ratio(const FrameTimes& a, const FrameTimes& b) const {
+    const TimeRatio of = timeRatio(a.by(r_.clock), b.by(r_.clock));
     return formatted("%.3f (%.3f to %.3f)", of.value, of.low, of.high);
+  }
+  bool faster(const FrameTimes& a, const FrameTimes& b) const {
+    return isFaster(a.by(r_.clock), b.by(r_.clock), r_.spread());
   }
   /// "faster", "slower" or "the same", beyond the spread.
   std::string compared(const FrameTimes& a, const FrameTimes& b) const {
-    if (isFaster(a.wall, b.wall, r_.spread)) return "faster";
-    return isFaster(b.wall, a.wall, r_.spread) ? "slower" : "the same";
+    if (!r_.noFront.empty()) return "no more can be told";
+    if (faster(a, b)) return "faster beyond the spread";
+    return faster(b, a) ? "slower beyond the spread" : "the same within the spread";
   }
 
   void lyon() {
@@ -72,42 +85,84 @@ class Results {
     for (const char* program : {"phong", "blinn-phong"}) {
       const VariantResult* pow = variant(std::string(program) + " pow");
       if (!pow || pow->times.wall.empty()) continue;
-      const VariantResult* best = nullptr;
+      Lyons lyons;
       std::string table;
-      int squarings = 0, faster = 0;
       for (const VariantResult& v : r_.variants) {
         if (shadingName(v.variant.program) != program || v.times.wall.empty() || v.variant.bound)
           continue;
         const PictureError& e = v.errors[0].whole;
-        const bool lyons = v.variant.highlight.starts_with("lyon");
-        const bool wins = isFaster(v.times.wall, pow->times.wall, r_.spread);
-        squarings += lyons;
-        faster += lyons && wins;
-        if (lyons && wins && (!best || e.rmse < best->errors[0].whole.rmse)) best = &v;
+        if (v.variant.highlight.starts_with("lyon")) {
+          ++lyons.count;
+          if (faster(v.times, pow->times)) lyons.add(v, median(v.times));
+        }
         table +=
             formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.2f %% |\n", v.variant.highlight.c_str(),
                       median(v.times), &v == pow ? "1" : ratio(v.times, pow->times).c_str(), e.max,
                       e.rmse, 100 * e.offByMore);
       }
-      add(std::string("\n**") + program + ".** ");
-      if (squarings == 0)
-        add("No form of Lyon's was measured.");
-      else if (faster == 0)
-        add(formatted(
-            "No: of %d forms of Lyon's squaring none is faster than `pow` beyond the spread.",
-            squarings));
-      else
-        add(formatted(
-            "Yes: %d of %d forms of Lyon's squaring are faster than `pow` beyond the spread; "
-            "the most accurate of them, `%s`, has an RMSE of %.1e and a largest error of %.1e.",
-            faster, squarings, best->variant.highlight.c_str(), best->errors[0].whole.rmse,
-            best->errors[0].whole.max));
-      add("\n\n| form | ms | time / `pow` | largest error | RMSE | codes off by > 1 |\n"
+      add(std::string("\n**") + program + ".** " + lyonWords(lyons, *pow, program) +
+          "\n\n| form | ms | time / `pow` | largest error | RMSE | codes off by > 1 |\n"
           "|---|---|---|---|---|---|\n" +
           table);
     }
-    if (const StudySeries* s = series("exponent"); s && !s->lines.empty())
+    if (const StudySeries* s = series("exponent"); s && !s->lines.empty()) {
       largestErrors("the exponent α, `phong`", *s);
+      add("\nTimes do not change with α, but that `integer` needs more products for larger ones; "
+          "errors do, and every sentence\nabove is of the exponents named there.\n");
+    }
+  }
+
+  /// Of the forms of Lyon's squaring those that are faster than `pow`.
+  struct Lyons {
+    int count = 0, faster = 0;
+    const VariantResult *best = nullptr, *fastest = nullptr;
+    double least = 0;
+    void add(const VariantResult& v, double milliseconds) {
+      ++faster;
+      if (!best || v.errors[0].whole.rmse < best->errors[0].whole.rmse) best = &v;
+      if (!fastest || milliseconds < least) fastest = &v, least = milliseconds;
+    }
+  };
+
+  /// "at α = 40", of the program's lobe.
+  std::string atExponents(const char* program) const {
+    std::string words;
+    for (const double alpha : r_.exponents)
+      words +=
+          (words.empty() ? "at α = " : ", ") +
+          formatted("%g", std::string(program) == "phong" ? alpha : alpha * head_.look.blinnFactor);
+    return r_.exponents.size() <= 4
+               ? words
+               : formatted("at the exponents of its %zu materials", r_.exponents.size());
+  }
+
+  std::string lyonWords(const Lyons& lyons, const VariantResult& pow, const char* program) const {
+    if (lyons.count == 0) return "No form of Lyon's was measured.";
+    if (!r_.noFront.empty()) return "It cannot be told: see above.";
+    const std::string where = atExponents(program);
+    if (lyons.faster == 0)
+      return formatted(
+          "No: %s none of %d forms of Lyon's squaring is faster than `pow` beyond the "
+          "spread.",
+          where.c_str(), lyons.count);
+    std::string words = formatted(
+        "Yes, %s: %d of %d forms of Lyon's squaring are faster than `pow` beyond the spread. The "
+        "most accurate of them, `%s`, takes %s of its time, with an RMSE of %.1e and a largest "
+        "error of %.1e.",
+        where.c_str(), lyons.faster, lyons.count, lyons.best->variant.highlight.c_str(),
+        ratio(lyons.best->times, pow.times).c_str(), lyons.best->errors[0].whole.rmse,
+        lyons.best->errors[0].whole.max);
+    const VariantResult* integer = variant(std::string(program) + " integer");
+    if (!integer || integer->times.wall.empty())
+      return words +
+             " `integer` has no such exponent (whole ones from 1 to 128): where it has, it "
+             "is exact for about the same time.";
+    return words + formatted(
+                       " But the exponent is whole, and `integer` is exact: it takes %s of "
+                       "the time of the fastest of Lyon's forms, `%s`: %s.",
+                       ratio(integer->times, lyons.fastest->times).c_str(),
+                       lyons.fastest->variant.highlight.c_str(),
+                       compared(integer->times, lyons.fastest->times).c_str());
   }
 
   /// A row for each line, a column for each point.
@@ -130,7 +185,7 @@ class Results {
       const VariantError* distance = errorAgainst(*half, Shading::phong);
       add("\nA frame of `blinn-phong` takes " + ratio(half->times, phong->times) +
           " of one of `phong`, both in the exact form: " + compared(half->times, phong->times) +
-          " beyond the spread.");
+          ".");
       if (distance)
         add(formatted(" On this scene its picture is off Phong's by %.1e at most, RMSE %.1e.",
                       distance->whole.max, distance->whole.rmse));
@@ -197,11 +252,18 @@ class Results {
           on += (on.empty() ? "" : ", ") + front.metric;
     }
     if (!any) {
-      add("The environment was not measured.\n");
+      add(r_.noFront.empty() ? "The environment was not measured.\n"
+                             : "It cannot be told: see above.\n");
       return;
     }
     add(variant("environment rational") ? "" : "(There is no rational form here.) ");
-    add(on.empty() ? "No, of no metric.\n" : "Yes, of the metrics " + on + ".\n");
+    const VariantResult *approximate = variant("environment schlick"),
+                        *rational = variant("environment rational");
+    add(on.empty() ? "No, of no metric" : "Yes, of the metrics " + on);
+    if (approximate && rational && !approximate->times.wall.empty())
+      add(": it takes " + ratio(approximate->times, rational->times) +
+          " of the time of `rational`, " + compared(approximate->times, rational->times));
+    add(".\n");
     add("\n| form | ms | time / exact | largest error | RMSE | FLIP "
         "|\n|---|---|---|---|---|---|\n");
     const VariantResult* exact = variant("environment exact");
@@ -214,6 +276,56 @@ class Results {
     const StudySeries* s = series("ior");
     if (!s || s->lines.empty()) return;
     largestErrors("the index n", *s);
+  }
+
+  const StudyWay* way(const std::string& name) const {
+    for (const StudyWay& each : r_.ways)
+      if (each.name == name && !each.times.wall.empty()) return &each;
+    return nullptr;
+  }
+
+  void aliasing() {
+    if (r_.ways.empty()) return;
+    add("\n## What does aliasing add, and what takes it away?\n\nAgainst the exact form "
+        "supersampled "
+        "in double: the whole error, of form, interpolation, driver and aliasing; inside, where\na "
+        "surface covers all of a pixel, and of the whole picture. `filtered` is "
+        "`--specular-antialiasing`; the RMSE of the truth itself\nis below");
+    for (const WholeTruth& truth : r_.wholeTruths)
+      add(formatted("%s %.1e (%s, %d x %d samples)", &truth == &r_.wholeTruths[0] ? "" : ",",
+                    truth.own.rmse, std::string(shadingName(truth.model)).c_str(), truth.samples,
+                    truth.samples));
+    add(".\n");
+    for (const char* program : {"phong", "blinn-phong"}) {
+      const std::string exact = std::string(program) + " exact";
+      const VariantResult* single = variant(exact);
+      const StudyWay *plain = way(exact),
+                     *filtered = way(std::string(program) + " gaussian filtered");
+      if (!single || !plain || !filtered) continue;
+      add(
+          formatted("\n**%s.** Inside, one exact sample a pixel is off by %.1e at most, RMSE %.1e: "
+                    "%.0f times what the driver and rounding add.\n`gaussian filtered` is off by "
+                    "%.1e, RMSE %.1e",
+                    program, plain->error.inside.max, plain->error.inside.rmse,
+                    plain->error.inside.rmse / std::max(single->errors[0].whole.rmse, 1e-12),
+                    filtered->error.inside.max, filtered->error.inside.rmse));
+      add(r_.noFront.empty()
+              ? ", and takes " + ratio(filtered->times, plain->times) +
+                    " of the time: " + compared(filtered->times, plain->times) + ".\n"
+              : std::string(".\n"));
+    }
+    add("\n| way | ms | time / exact | largest inside | RMSE inside | RMSE of the picture "
+        "|\n|---|---|---|---|---|---|\n");
+    for (const StudyWay& each : r_.ways) {
+      const StudyWay* exact = way(std::string(shadingName(each.model)) + " exact");
+      if (!exact || each.times.wall.empty()) continue;
+      add(formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.1e |\n", each.name.c_str(),
+                    median(each.times),
+                    &each == exact ? "1" : ratio(each.times, exact->times).c_str(),
+                    each.error.inside.max, each.error.inside.rmse, each.error.picture.rmse));
+    }
+    if (const StudySeries* s = series("aliasing"); s && !s->lines.empty())
+      largestErrors("the exponent α, `phong` at 128 pixels across against 16 x 16 samples", *s);
   }
 
   void specialisation() {
@@ -231,24 +343,28 @@ class Results {
   }
 
   void fronts() {
-    add("\n## The fronts\n\nFrom the most accurate to the fastest; what is not named is dominated "
-        "by "
-        "one of these.\n\n");
+    if (r_.fronts.empty()) return;
+    add("\n## The fronts\n\nFrom the most accurate to the fastest, each with its time beside that "
+        "of "
+        "the one before it and the 95 % interval\nof that ratio. What is not named is dominated by "
+        "one of these, or cannot be told from it in time.\n\n");
     for (const StudyFront& front : r_.fronts) {
       if (front.metric != "rmse" && front.metric != "max") continue;
-      std::vector<std::pair<double, std::string>> members;
+      std::vector<std::pair<double, const VariantResult*>> members;
       for (std::size_t i = 0; i < front.variants.size(); ++i) {
         if (!front.places[i].onFront) continue;
         const VariantResult& v = r_.variants[std::size_t(front.variants[i])];
-        const double error = metricOf(*errorAgainst(v, front.model), front.metric);
-        members.emplace_back(
-            error, formatted("%s (%.1e, %.2f ms)", v.variant.name.c_str(), error, median(v.times)));
+        members.emplace_back(metricOf(*errorAgainst(v, front.model), front.metric), &v);
       }
       std::sort(members.begin(), members.end());
       add("* " + std::string(shadingName(front.model)) + ", " +
           (front.metric == "max" ? "largest error" : "RMSE") + ": ");
-      for (std::size_t i = 0; i < members.size(); ++i)
-        add((i == 0 ? "" : ", ") + members[i].second);
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        const auto& [error, v] = members[i];
+        add((i == 0 ? "" : ", ") +
+            formatted("%s (%.1e, %.2f ms", v->variant.name.c_str(), error, median(v->times)));
+        add(i == 0 ? ")" : "; " + ratio(v->times, members[i - 1].second->times) + ")");
+      }
       add("\n");
     }
   }

@@ -84,13 +84,13 @@ StudySeries SeriesDrawer::finish() {
   std::vector<Renderer::Picture*> pictures;
   for (Trial& trial : trials_) pictures.push_back(&trial.picture);
   const int whole = tools_.warmUp + tools_.rounds;
-  const auto times =
-      timeInTurn(pictures, tools_.warmUp, tools_.rounds, tools_.stop,
-                 [&](int round) { tools_.tell(0.5 + 0.5 * (round + tools_.warmUp + 1) / whole); });
+  Timing timing = tools_.timing(tools_.rounds);
+  timing.done = [&](int round) { tools_.tell(0.5 + 0.5 * (round + tools_.warmUp + 1) / whole); };
+  const auto times = timeInTurn(pictures, timing);
   for (std::size_t i = 0; i < trials_.size(); ++i)
     if (!times[i].wall.empty())
       series_.lines[trials_[i].line].points[trials_[i].point].milliseconds =
-          quantile(times[i].wall, 0.5);
+          quantile(times[i].by(tools_.clock), 0.5);
   if (series_.hasOrders) setOrders(series_);
   return std::move(series_);
 }
@@ -186,7 +186,7 @@ std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
   for (std::size_t i = 0; i < scales.size() && !tools.stopped(); ++i) {
     Renderer renderer;  // its target is of this size
     SeriesTools sized{tools.scene,  tools.gpu,    renderer,   tools.look, tools.quick,
-                      tools.warmUp, tools.rounds, tools.stop, {}};
+                      tools.warmUp, tools.rounds, tools.stop, {},         tools.clock};
     sized.look.resolution = glm::max(glm::ivec2(1), glm::ivec2(glm::round(scales[i] * size)));
     SeriesDrawer drawer(sized, whole);
     for (const Shading program : lightPrograms)

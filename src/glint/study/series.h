@@ -17,7 +17,9 @@ struct SeriesTools {
   int warmUp = 3, rounds = 30;
   Stop stop;
   std::function<void(double share)> progress;
+  FrameClock clock = FrameClock::wall;  ///< whose times the points have
 
+  Timing timing(int count) const { return {warmUp, count, clock == FrameClock::gpu, stop, {}}; }
   bool stopped() const { return stop && stop(); }
   void tell(double share) const {
     if (progress) progress(share);
@@ -52,6 +54,7 @@ class SeriesDrawer {
 /// Error and time over one quantity. None where the scene has nothing that it changes.
 /// Of a stopped series there are the points measured by then.
 std::optional<StudySeries> exponentSeries(const SeriesTools&);    ///< forms of the highlight
+std::optional<StudySeries> aliasingSeries(const SeriesTools&);    ///< what is done about it
 std::optional<StudySeries> iorSeries(const SeriesTools&);         ///< forms of the reflectance
 std::optional<StudySeries> lightSeries(const SeriesTools&);       ///< programs
 std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs; times alone

@@ -100,7 +100,7 @@ Specialisation compared(const SeriesTools& tools, const StudyScene& general, Gpu
   Renderer::Picture ownPicture = tools.renderer.begin(tools.gpu, own, look);
   Renderer::Picture allPicture = tools.renderer.begin(generalGpu, all, allLook);
   Renderer::Picture* const pictures[] = {&ownPicture, &allPicture};
-  auto times = timeInTurn(pictures, tools.warmUp, 2 * tools.rounds, tools.stop);
+  auto times = timeInTurn(pictures, tools.timing(2 * tools.rounds));
   s.times = std::move(times[0]);
   s.generalTimes = std::move(times[1]);
   return s;

@@ -38,24 +38,35 @@ Interval medianInterval(const std::vector<double>& values) {
 
 TimeRatio timeRatio(std::span<const double> a, std::span<const double> b) {
   const std::size_t rounds = std::min(a.size(), b.size());
-  if (rounds == 0) return {};
+  const std::span<const double> times[] = {a.first(rounds), b.first(rounds)};
+  return quartileFunction(times, [](std::span<const double> q) { return q[0] / q[1]; });
+}
+
+TimeRatio quartileFunction(std::span<const std::span<const double>> times,
+                           const std::function<double(std::span<const double>)>& function) {
+  if (times.empty() || times[0].empty()) return {};
   constexpr double share = 0.25;
-  std::vector<double> first(a.begin(), a.begin() + std::ptrdiff_t(rounds)),
-      second(b.begin(), b.begin() + std::ptrdiff_t(rounds));
+  const std::size_t rounds = times[0].size();
+  std::vector<std::vector<double>> drawn;
+  for (const std::span<const double> each : times) drawn.emplace_back(each.begin(), each.end());
+  std::vector<double> quartiles(times.size());
+  const auto value = [&] {
+    for (std::size_t k = 0; k < times.size(); ++k) quartiles[k] = quantile(drawn[k], share);
+    return function(quartiles);
+  };
   TimeRatio ratio;
-  ratio.value = quantile(first, share) / quantile(second, share);
+  ratio.value = value();
   std::mt19937 random(1);
-  std::vector<double> ratios(1000);
-  for (double& each : ratios) {
+  std::vector<double> values(1000);
+  for (double& each : values) {
     for (std::size_t i = 0; i < rounds; ++i) {
-      const auto drawn = std::size_t(std::uint64_t(random()) * rounds >> 32);
-      first[i] = a[drawn];
-      second[i] = b[drawn];
+      const auto from = std::size_t(std::uint64_t(random()) * rounds >> 32);
+      for (std::size_t k = 0; k < times.size(); ++k) drawn[k][i] = times[k][from];
     }
-    each = quantile(first, share) / quantile(second, share);
+    each = value();
   }
-  ratio.low = quantile(ratios, 0.025);
-  ratio.high = quantile(ratios, 0.975);
+  ratio.low = quantile(values, 0.025);
+  ratio.high = quantile(values, 0.975);
   return ratio;
 }
 

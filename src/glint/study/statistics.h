@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,5 +38,10 @@ struct TimeRatio {
 /// quartile leaves it out as long as it hits less than three rounds of four. Bootstrap: rounds are
 /// drawn for a and b together, so that a machine that slows down or speeds up changes both.
 TimeRatio timeRatio(std::span<const double> a, std::span<const double> b);
+
+/// The same of any function of the lower quartiles of times that were measured in turn, in their
+/// order: all have the same rounds.
+TimeRatio quartileFunction(std::span<const std::span<const double>> times,
+                           const std::function<double(std::span<const double>)>& function);
 
 }  // namespace glint

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "glint/image/error.h"
+#include "glint/scene/material_parameters.h"
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
 
@@ -29,7 +30,10 @@ class Study {
     prepare();
     if (!measureErrors()) return leave("errors of some variants");
     measureTimes();
+    measureParts();
+    if (options_.filter.isEmpty()) measureWays();
     if (options_.filter.isEmpty()) measureSeries();
+    for (WholeTruth& truth : result_.wholeTruths) truth.picture = {};
     result_.complete = result_.missing.empty();
     return std::move(result_);
   }
@@ -48,6 +52,8 @@ class Study {
   void prepare() {
     tell("pixels to compare", 0);
     result_.gl = glStrings();
+    result_.clock = clockFor(options_.clock, result_.gl.renderer, elapsedTimer()->works());
+    result_.spreadLimit = options_.spreadLimit;
     {
       Renderer renderer;  // the variants' programs are to be compiled when that is timed
       result_.mask = maskOf(renderer, gpu_, scene_, options_.look);
@@ -59,13 +65,19 @@ class Study {
           "a larger --resolution");
     const DrawList list = makeDrawList(scene_.scene, scene_.bounds, options_.look);
     result_.draws = drawCalls(list.items).size();
+    std::set<double> exponents;
     for (const DrawItem& item : list.items) {
       const Mesh& mesh = scene_.scene.meshes[std::size_t(item.mesh)];
       if (mesh.topology == Topology::triangles) result_.triangles += mesh.indices.size() / 3;
+      if (item.variant.specular)
+        exponents.insert(
+            editedMaterial(scene_.scene.materials[std::size_t(item.material)], options_.look)
+                .shading.exponent);
     }
+    result_.exponents.assign(exponents.begin(), exponents.end());
     for (StudyVariant& v :
          studyVariants(scene_.scene, scene_.bounds, options_.look, options_.filter))
-      result_.variants.push_back({std::move(v), {}, 0, 0, {}, {}, {}, {}, {}});
+      result_.variants.push_back({std::move(v), {}, 0, 0, {}, {}, {}, {}, {}, {}});
     if (result_.variants.empty())
       throw InputError(
           "no variant is left to study: give no --shading, --highlight or --fresnel, "
@@ -122,6 +134,19 @@ class Study {
     const Radiances& given = program == model ? truthAtDriver(program) : truth(program);
     v.shading = errorOf(given, drawn, exposure);
     v.interpolation = errorOf(truth(model), given, exposure);
+    if (const WholeTruth* whole = wholeTruth(model))
+      v.whole = wholeErrorOf(*whole, picture, result_.mask, exposure);
+  }
+
+  /// Null if there is none, or it was stopped.
+  const WholeTruth* wholeTruth(Shading model) {
+    if (options_.truthSamples == 0) return nullptr;
+    const auto found = std::ranges::find(result_.wholeTruths, model, &WholeTruth::model);
+    if (found != result_.wholeTruths.end()) return &*found;
+    WholeTruth truth =
+        wholeTruthOf(scene_, options_.look, model, options_.truthSamples, result_.mask, stop_);
+    if (truth.picture.values.empty()) return nullptr;
+    return &result_.wholeTruths.emplace_back(std::move(truth));
   }
 
   /// Begins the pictures of the variants, if they are not there, and of floors and controls.
@@ -169,26 +194,37 @@ class Study {
       std::vector<Renderer::Picture*> pictures;
       for (Renderer::Picture& picture : pictures_) pictures.push_back(&picture);
       const int rounds = options_.rounds * (build + 1) / builds - options_.rounds * build / builds;
-      const auto part = timeInTurn(pictures, warmUpOf(build), rounds, stop_,
-                                   [&](int) { tell("frame times", double(++past) / whole); });
+      const auto part =
+          timeInTurn(pictures, {warmUpOf(build), rounds, result_.clock == FrameClock::gpu, stop_,
+                                [&](int) { tell("frame times", double(++past) / whole); }});
       for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i].wall.insert(times[i].wall.end(), part[i].wall.begin(), part[i].wall.end());
-        times[i].query.insert(times[i].query.end(), part[i].query.begin(), part[i].query.end());
+        const auto add = [&](std::vector<double> FrameTimes::*clock) {
+          const std::vector<double>& more = part[i].*clock;
+          (times[i].*clock).insert((times[i].*clock).end(), more.begin(), more.end());
+        };
+        for (const auto clock : {&FrameTimes::wall, &FrameTimes::cpu, &FrameTimes::query})
+          add(clock);
+        times[i].batch = std::max(times[i].batch, part[i].batch);
       }
     }
     if (times[0].wall.size() < std::size_t(options_.rounds))
       result_.missing.emplace_back("frame times after " + std::to_string(times[0].wall.size()) +
                                    " of " + std::to_string(options_.rounds) + " rounds");
-    for (std::size_t k = 0; k < controls.size(); ++k) {
-      result_.controls.push_back(result_.variants[controls[k]].variant.name);
-      result_.controlRatios.push_back(
-          timeRatio(times[count + 2 + k].wall, times[controls[k]].wall));
+    for (const std::size_t i : controls)
+      result_.controls.push_back(result_.variants[i].variant.name);
+    for (std::size_t c = 0; c < frameClocks; ++c) {
+      ClockNoise& noise = result_.noise[c];
+      for (std::size_t k = 0; k < controls.size(); ++k)
+        noise.ratios.push_back(timeRatio(times[count + 2 + k].by(FrameClock(c)),
+                                         times[controls[k]].by(FrameClock(c))));
+      noise.spread = spreadOfControls(noise.ratios);
     }
-    result_.spread = spreadOfControls(result_.controlRatios);
     for (std::size_t i = 0; i < count; ++i) result_.variants[i].times = std::move(times[i]);
     result_.floors = {{"empty", std::move(times[count])},
                       {"constant", std::move(times[count + 1])}};
-    if (!result_.variants[0].times.wall.empty()) makeFronts();
+    if (result_.variants[0].times.wall.empty()) return;
+    result_.noFront = whyNoFront(result_.noise, result_.clock, options_.spreadLimit);
+    if (result_.noFront.empty()) makeFronts();
   }
 
   /// Three variants from the first to the last, which are of different programs.
@@ -198,34 +234,117 @@ class Study {
   }
 
   void makeFronts() {
+    std::map<std::pair<int, int>, bool> known;  // fronts of one model ask about the same pairs
+    const auto faster = [&](int a, int b) {
+      const auto [place, isNew] = known.try_emplace({a, b});
+      const auto times = [&](int i) {
+        return std::span(result_.variants[std::size_t(i)].times.by(result_.clock));
+      };
+      if (isNew) place->second = isFaster(times(a), times(b), result_.spread());
+      return place->second;
+    };
     for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
       for (const std::string& metric : errorMetrics()) {
         StudyFront front{model, metric, {}, {}};
-        std::vector<FrontCandidate> candidates;
+        std::vector<double> errors;
         for (std::size_t i = 0; i < result_.variants.size(); ++i) {
-          const VariantResult& v = result_.variants[i];
-          const VariantError* error = errorAgainst(v, model);
+          const VariantError* error = errorAgainst(result_.variants[i], model);
           if (!error) continue;
           front.variants.push_back(int(i));
-          candidates.push_back({metricOf(*error, metric), v.times.wall});
+          errors.push_back(metricOf(*error, metric));
         }
-        if (candidates.empty()) continue;
-        front.places = paretoFront(candidates, result_.spread);
+        if (errors.empty()) continue;
+        front.places = paretoFront(errors, [&](int a, int b) {
+          return faster(front.variants[std::size_t(a)], front.variants[std::size_t(b)]);
+        });
         result_.fronts.push_back(std::move(front));
       }
+    }
+  }
+
+  void measureParts() {
+    if (stop_ && stop_()) {
+      result_.missing.emplace_back("parts of a frame");
+      return;
+    }
+    tell("parts of a frame", 0);
+    result_.parts =
+        frameParts(scene_, gpu_, options_.look, modelOf(programOf(options_.look)), result_.clock,
+                   {3,
+                    std::min(options_.rounds, options_.quick ? 20 : 40),
+                    result_.clock == FrameClock::gpu,
+                    stop_,
+                    {}});
+    if (result_.parts.empty()) result_.missing.emplace_back("parts of a frame");
+  }
+
+  /// What is done about aliasing: each kind of samples has a target, and a renderer, of its own.
+  void measureWays() {
+    pictures_.clear();
+    renderer_.emplace();
+    const double exposure = std::exp2(options_.look.exposure);
+    std::map<std::string, Renderer> renderers;
+    std::deque<Renderer::Picture> pictures;
+    std::vector<Renderer::Picture*> all;
+    std::vector<StudyWay> ways = studyWays(scene_, options_.look);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      StudyWay& way = ways[i];
+      tell("whole pictures", 0.5 * double(i) / double(ways.size()));
+      const WholeTruth* truth = stop_ && stop_() ? nullptr : wholeTruth(way.model);
+      if (!truth) {
+        result_.missing.emplace_back("whole pictures");
+        return;
+      }
+      Renderer& renderer = renderers[antiAliasingText(way.look.antiAliasing)];
+      const auto list = [&] { return makeDrawList(scene_.scene, scene_.bounds, way.look); };
+      try {
+        const Image picture = drawList(renderer, gpu_, list(), way.look);
+        way.error = wholeErrorOf(*truth, picture, result_.mask, exposure);
+      } catch (const InputError&) {
+        continue;  // a driver without so many samples or pixels
+      }
+      pictures.push_back(renderer.begin(gpu_, list(), way.look));
+      all.push_back(&pictures.back());
+      result_.ways.push_back(std::move(way));
+    }
+    const int rounds = std::min(options_.rounds, options_.quick ? 12 : 30);
+    auto times = timeInTurn(
+        all, {3, rounds, result_.clock == FrameClock::gpu, stop_, [&](int round) {
+                tell("whole pictures", 0.5 + 0.5 * double(round + 4) / double(rounds + 3));
+              }});
+    for (std::size_t i = 0; i < times.size(); ++i) result_.ways[i].times = std::move(times[i]);
+    if (!result_.ways.empty() && !result_.ways[0].times.wall.empty() && result_.noFront.empty())
+      makeWayFronts();
+  }
+
+  void makeWayFronts() {
+    for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
+      StudyFront front{model, "rmse", {}, {}};
+      std::vector<FrontCandidate> candidates;
+      for (std::size_t i = 0; i < result_.ways.size(); ++i) {
+        const StudyWay& way = result_.ways[i];
+        if (way.model != model) continue;
+        front.variants.push_back(int(i));
+        candidates.push_back({way.error.picture.rmse, way.times.by(result_.clock)});
+      }
+      if (candidates.empty()) continue;
+      front.places = paretoFront(candidates, result_.spread());
+      result_.wayFronts.push_back(std::move(front));
     }
   }
 
   void measureSeries() {
     pictures_.clear();
     Renderer renderer;  // of pictures of another size
-    SeriesTools tools{scene_, gpu_, renderer, options_.look, options_.quick, 3, 30, stop_, {}};
+    SeriesTools tools{scene_, gpu_,  renderer, options_.look, options_.quick, 3,
+                      30,     stop_, {},       result_.clock};
     tools.look.resolution = glm::max(glm::ivec2(1), options_.look.resolution / 2);
     tools.rounds = std::min(options_.rounds, options_.quick ? 10 : 30);
     using Make = std::optional<StudySeries> (*)(const SeriesTools&);
     const std::pair<const char*, Make> all[] = {
-        {"exponent", exponentSeries}, {"ior", iorSeries},      {"incidence", incidenceSeries},
-        {"fineness", finenessSeries}, {"lights", lightSeries}, {"resolution", resolutionSeries}};
+        {"exponent", exponentSeries},    {"aliasing", aliasingSeries}, {"ior", iorSeries},
+        {"incidence", incidenceSeries},  {"fineness", finenessSeries}, {"lights", lightSeries},
+        {"resolution", resolutionSeries}};
     const auto begin = [&](const std::string& what) {
       tools.progress = [this, what](double share) { tell(what, share); };
       if (!tools.stopped()) return true;

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "glint/gl/context.h"
+#include "glint/study/frame_parts.h"
 #include "glint/study/frame_times.h"
 #include "glint/study/front.h"
 #include "glint/study/picture_error.h"
 #include "glint/study/variants.h"
+#include "glint/study/whole_picture.h"
 
 // Speed against error: how long each way of shading a scene takes with this driver, and how far its
 // picture is from the exact one.
@@ -21,7 +25,11 @@ struct StudyOptions {
   int warmUp = 10;     ///< rounds that are not counted
   int rounds = 60;     ///< frames of each variant
   int builds = 6;      ///< of each program, which share the rounds
-  bool quick = false;  ///< series of fewer points
+  /// Which clock decides; empty: the GPU's where there is one, otherwise the wall's.
+  std::optional<FrameClock> clock;
+  double spreadLimit = largestSpread;  ///< with a larger spread there are no fronts
+  bool quick = false;                  ///< series of fewer points
+  int truthSamples = 8;  ///< N x N a pixel of the supersampled truth; even, 0 for none
   bool keepPictures = false;
 };
 
@@ -44,7 +52,8 @@ struct VariantResult {
   /// that differs from the exact. Of flat and gouraud the latter is that light is interpolated and
   /// not the normal.
   PictureError shading, interpolation;
-  Image picture;  ///< if kept; premultiplied
+  std::optional<WholeError> whole;  ///< against its own model, supersampled
+  Image picture;                    ///< if kept; premultiplied
 };
 
 /// What a frame of the same target takes that shades nothing.
@@ -88,22 +97,46 @@ struct Specialisation {
   double difference = 0;  ///< largest, of the two pictures
 };
 
+/// How well a clock tells one program's time: what was measured twice, by programs of their own.
+struct ClockNoise {
+  std::vector<TimeRatio> ratios;  ///< of the second measurement to the first
+  double spread = 0;              ///< noise floor of a ratio of times; 0 if there is no such clock
+};
+
 struct StudyResult {
   bool complete = false;
   std::vector<std::string> missing;  ///< what was left out when it ended early
   GlStrings gl;
   std::size_t triangles = 0, draws = 0;
-  StudyMask mask;  ///< of the variants' pictures
+  std::vector<double> exponents;  ///< Phong's, of the materials that have a highlight; ascending
+  StudyMask mask;                 ///< of the variants' pictures
   std::vector<VariantResult> variants;
   std::vector<StudyFloor> floors;
-  std::vector<std::string> controls;     ///< variants measured twice, by programs of their own
-  std::vector<TimeRatio> controlRatios;  ///< of the second measurement to the first
-  double spread = 0;                     ///< noise floor of a ratio of times
+  std::vector<std::string> controls;          ///< variants measured twice
+  std::array<ClockNoise, frameClocks> noise;  ///< by clock, of the controls
+  FrameClock clock = FrameClock::wall;        ///< which decides
+  double spreadLimit = largestSpread;
+  std::string noFront;  ///< why there is no front, and what to do; empty if there may be one
   std::vector<StudyFront> fronts;
   std::vector<StudySeries> series;
   std::vector<Specialisation> specialisations;
+  std::vector<WholeTruth> wholeTruths;  ///< by model, without their pictures
+  std::vector<StudyWay> ways;
+  std::vector<FramePart> parts;       ///< of a frame of the look's model in the exact form
+  std::vector<StudyFront> wayFronts;  ///< of `ways`, by the RMSE of the whole picture
   std::vector<std::pair<Shading, Radiances>> truths;  ///< by model, if pictures are kept
+
+  /// Of the clock that decides.
+  double spread() const { return noise[std::size_t(clock)].spread; }
 };
+
+/// The clock that decides where none is asked for. Throws InputError for one that is asked for and
+/// that this driver does not have.
+FrameClock clockFor(std::optional<FrameClock> asked, std::string_view renderer, bool hasGpuTimer);
+
+/// Why fronts cannot be told by this clock, in a sentence that says what to do; empty if they can.
+std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameClock clock,
+                       double spreadLimit);
 
 /// Tells what is being done and what share of it is done, [0, 1].
 using StudyProgress = std::function<void(std::string_view what, double share)>;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "glint/study/study.h"
+
+// What the files and tables of a report share.
+namespace glint {
+
+/// "wall time", "CPU time", "GPU time".
+const char* clockWords(FrameClock clock);
+
+/// 0 of none.
+double medianOf(const std::vector<double>& times);
+
+/// Nanoseconds, by the clock that decides, that a frame takes above the empty one, for each pixel
+/// the model covers.
+double perPixel(const StudyResult& r, const FrameTimes& times);
+
+/// Null if there is none.
+const StudyFront* frontOf(const StudyResult& r, Shading model, const std::string& metric);
+const StudyFront* wayFrontOf(const StudyResult& r, Shading model);
+
+/// Its place on the front of a model, or null.
+const FrontPlace* placeOf(const StudyFront* front, std::size_t variant);
+
+/// The name of the variant that dominates a place, which is not on the front.
+std::string dominator(const StudyResult& r, const StudyFront& front, const FrontPlace& place);
+
+/// "on the front"; "by X" if X is faster; "as fast as X" if no difference can be told; empty
+/// without a place. Of variants and of ways.
+std::string placeWords(const StudyResult& r, const StudyFront* front, std::size_t variant);
+std::string wayPlaceWords(const StudyResult& r, std::size_t way);
+
+}  // namespace glint

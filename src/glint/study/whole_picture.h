@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glint/study/frame_times.h"
+#include "glint/study/picture_error.h"
+
+// A second truth: the exact picture as it is, not as one sample a pixel finds it. Against it a
+// picture has its whole error: of form, interpolation, driver and aliasing.
+namespace glint {
+
+/// The exact form of a model in double, N x N samples a pixel averaged.
+struct WholeTruth {
+  Shading model = Shading::phong;
+  int samples = 0;   ///< N
+  Image picture;     ///< premultiplied, over nothing; empty if it was stopped
+  PictureError own;  ///< of N/2 x N/2 samples against it: more than it may be off
+};
+
+/// Against a WholeTruth, in linear light before exposure.
+struct WholeError {
+  PictureError inside;   ///< over the mask's pixels, where a surface covers all of a pixel
+  PictureError picture;  ///< over all pixels that truth or picture covers, outlines too
+};
+
+/// `samples` is even.
+WholeTruth wholeTruthOf(const StudyScene& scene, const Look& look, Shading model, int samples,
+                        const StudyMask& mask, const Stop& stop);
+
+WholeError wholeErrorOf(const WholeTruth& truth, const Image& drawn, const StudyMask& mask,
+                        double exposureScale);
+
+/// A way of drawing a model that does something about aliasing, or nothing.
+struct StudyWay {
+  std::string name;  ///< "phong exact filtered msaa:4"
+  Shading model = Shading::phong;
+  Look look;
+  WholeError error;
+  FrameTimes times;
+};
+
+/// Of each model that the scene has a highlight for: the exact lobe and two cheap ones, with and
+/// without --specular-antialiasing; the exact one with msaa:4, both with and without that, and by
+/// ssaa:2. Without errors and times.
+std::vector<StudyWay> studyWays(const StudyScene& scene, const Look& look);
+
+}  // namespace glint
