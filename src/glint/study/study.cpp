@@ -213,6 +213,7 @@ class Study {
     for (const std::size_t i : controls)
       result_.controls.push_back(result_.variants[i].variant.name);
     for (std::size_t c = 0; c < frameClocks; ++c) {
+      if (FrameClock(c) == FrameClock::gpu && drawsOnCpu(result_.gl.renderer)) continue;
       ClockNoise& noise = result_.noise[c];
       for (std::size_t k = 0; k < controls.size(); ++k)
         noise.ratios.push_back(timeRatio(times[count + 2 + k].by(FrameClock(c)),
