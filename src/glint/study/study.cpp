@@ -8,6 +8,7 @@
 #include <set>
 
 #include "glint/image/error.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
