@@ -40,6 +40,7 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   for (const char* clock : {"wall", "cpu"})
     EXPECT_GE(json["clocks"][clock]["controls"].size(), 2u) << clock;
   EXPECT_EQ(json["clock"], "wall");
+  EXPECT_FALSE(json["clocks"].contains("gpu"));  // there is none
   EXPECT_TRUE(json["noFront"].is_null());
   std::set<std::string> names;
   for (const Json& v : json["variants"]) {

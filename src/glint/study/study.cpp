@@ -8,6 +8,7 @@
 #include <set>
 
 #include "glint/image/error.h"
+#include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
@@ -213,6 +214,7 @@ class Study {
     for (const std::size_t i : controls)
       result_.controls.push_back(result_.variants[i].variant.name);
     for (std::size_t c = 0; c < frameClocks; ++c) {
+      if (FrameClock(c) == FrameClock::gpu && drawsOnCpu(result_.gl.renderer)) continue;
       ClockNoise& noise = result_.noise[c];
       for (std::size_t k = 0; k < controls.size(); ++k)
         noise.ratios.push_back(timeRatio(times[count + 2 + k].by(FrameClock(c)),
