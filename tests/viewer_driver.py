@@ -234,13 +234,13 @@ class Viewer:
 
 # Centres of widgets in the tab Shading of a model with one material, scale 1.
 PANEL_LEFT = 1000
-TWO_SIDED = (PANEL_LEFT + 174, 213)
-ROW = {"ambient": 315, "diffuse": 340, "specular": 365, "exponent": 390, "metalness": 415}
+TWO_SIDED = (PANEL_LEFT + 174, 238)
+ROW = {"ambient": 340, "diffuse": 365, "specular": 390, "exponent": 415, "metalness": 440, "preset": 541}
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 
 # Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
-TIME = 215           # tab Picture, of a model that is animated
+TIME = 240           # tab Picture, of a model that is animated
 INTENSITY = 249      # tab Lights, three lights of which a directional one is selected
 
 

@@ -223,6 +223,45 @@ def test_a_light_is_dragged_switched_off_and_on():
         assert viewer.picture()[0] == dragged
 
 
+def test_a_preset_of_ones_own_is_kept_shown_and_taken():
+    with Viewer(TEAPOT) as viewer:
+        first, look = viewer.picture()
+        size = tuple(look["resolution"])
+        viewer.key("ctrl+k")
+        viewer.settled()
+        viewer.key("Return")
+        path = os.path.join(viewer.folder, "config/glint/materials", MATERIAL + ".json")
+        wait_for("the preset's file", lambda: os.path.exists(path))
+        viewer.key("m")
+        metal, _ = viewer.picture()
+        assert metal != first
+        viewer.click(PANEL_LEFT + 30, ROW["preset"])  # the list of presets, whose first row is that one
+        viewer.settled()
+        viewer.move(PANEL_LEFT + 40, ROW["preset"] - 367)
+        viewer.shows(size, first, "the picture with the preset under the pointer")
+        viewer.key("Escape")
+        viewer.move(20, 20)
+        viewer.shows(size, metal, "the picture as it was")
+        assert values(viewer)["metalness"] == 1
+        viewer.click(PANEL_LEFT + 30, ROW["preset"])
+        viewer.settled()
+        viewer.click(PANEL_LEFT + 40, ROW["preset"] - 367)
+        assert viewer.picture()[0] == first
+        viewer.key("ctrl+z")
+        assert viewer.picture()[0] == metal
+
+
+def test_the_environment_is_turned_by_dragging():
+    with Viewer(TEAPOT, "--shading", "environment") as viewer:
+        first, _ = viewer.picture()
+        viewer.xdotool("keydown", "shift")
+        viewer.drag(400, 400, 500, 400, button=3)
+        viewer.xdotool("keyup", "shift")
+        turned, look = viewer.picture()
+        assert turned != first and 5 < look["environment-rotation"] < 90, look
+        assert "camera-position" not in look
+
+
 def test_saving_asks_once_and_a_deleted_model_is_told():
     with Viewer(TEAPOT) as viewer:
         def content():
