@@ -266,6 +266,14 @@ TEST(GltfAllowed, SpecularAndGlossinessByTexels) {
               testing::ElementsAre(191, 0, 10));
   EXPECT_THAT(std::vector<int>(numbers.begin() + 5, numbers.begin() + 8),
               testing::ElementsAre(153, 255, 255));
+
+  // An unlit one shows the file's diffuse picture as it is, and the other is not read.
+  for (Json& each : sample.json["materials"])
+    each["extensions"]["KHR_materials_unlit"] = Json::object();
+  const glint::Scene unlit = sample.load();
+  ASSERT_EQ(unlit.images.size(), 1u);
+  EXPECT_FALSE(unlit.images[0].gloss);
+  EXPECT_EQ(unlit.materials.at(0).textured, 0u);
 }
 
 TEST(GltfAllowed, CamerasOfTheFileShowTheirWholeFrame) {

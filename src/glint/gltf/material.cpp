@@ -178,7 +178,8 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
   takeConverted(material, converted, color);
   material.alpha = std::min(diffuse.a, 1.0);
   material.colorTexture = textures.read(from.member("diffuseTexture"));
-  if (textured) readGlossTexture(from, gloss, material, textures, messages);
+  // An unlit one shows its diffuse colour, and has no use for the rest.
+  if (textured && !material.unlit) readGlossTexture(from, gloss, material, textures, messages);
 }
 
 Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) {
@@ -198,6 +199,7 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   material.alpha = std::min(color.a, 1.0);
   material.colorTexture = textures.read(pbr.member("baseColorTexture"));
 
+  material.unlit = extensions.member("KHR_materials_unlit").exists();
   const Cursor gloss = extensions.member("KHR_materials_pbrSpecularGlossiness");
   if (gloss.exists()) readSpecularGlossiness(gloss, material, textures, messages);
 
@@ -218,7 +220,6 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   material.shading.transmission =
       unit(extensions.member("KHR_materials_transmission").member("transmissionFactor"), 0);
   readUnused(extensions, material);
-  material.unlit = extensions.member("KHR_materials_unlit").exists();
   material.doubleSided = from.member("doubleSided").boolean(false);
   material.alphaCutoff = std::max(from.member("alphaCutoff").number(0.5), 0.0);
   const std::string mode = from.member("alphaMode").text("OPAQUE");
