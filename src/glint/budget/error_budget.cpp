@@ -339,9 +339,10 @@ FormChoice choiceFor(const std::string& name, Group& group, const Setting& setti
 
 using Groups = std::map<std::string, Group>;
 
-// Of one picture. Gives how many triangles of it are blended.
-std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setting,
-                        Shading program) {
+// Of one picture. Gives how many triangles of it are blended. Interpolation above `enough` is only
+// known to be so.
+std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setting, Shading program,
+                        double enough) {
   std::size_t blended = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -359,7 +360,7 @@ std::size_t addSurfaces(Groups& groups, const Scene& scene, const Setting& setti
     group.interpolation = std::max(
         group.interpolation, interpolationBound({scene, mesh, instance.world, normalized,
                                                  setting.look, setting.camera, setting.lights, v},
-                                                program));
+                                                program, enough));
   }
   return blended;
 }
@@ -520,7 +521,7 @@ ResolvedLook resolveSequence(std::size_t count,
         for (const Instance& each : p.scene.instances)
           vertices += i > 0 ? 0 : p.scene.meshes[std::size_t(each.mesh)].positions.size();
       }
-      blended = std::max(blended, addSurfaces(groups, p.scene, settings[i], program));
+      blended = std::max(blended, addSurfaces(groups, p.scene, settings[i], program, *budget));
       if (i == 0)
         all = settings[0];
       else

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "glint/image/task.h"
 #include "glint/shading/angles.h"
 #include "glint/shading/safe.h"
 
@@ -308,20 +310,24 @@ Errors errorsOf(const Light& light, const Patch& patch, const Corners& corners,
   return e;
 }
 
-std::vector<Corner> cornersOf(const Mold& mold, const Light& light, const Camera& camera,
-                              const Variant& v, double side) {
-  std::vector<Corner> corners(mold.points.size());
+// Of these vertices.
+std::vector<Corner> cornersOf(const Mold& mold, const std::vector<std::uint32_t>& vertices,
+                              const Light& light, const PlacedMesh& p, double side) {
+  const Camera& camera = p.camera;
+  std::vector<Corner> corners(vertices.size());
   const bool placed = light.type == Light::Type::point || light.type == Light::Type::spot;
   const glm::dvec3 from = light.position - camera.eye, axis = safeNormalize(light.direction);
   const glm::dvec3 direction = light.type == Light::Type::camera ? camera.axes * axis : axis;
   for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3& point = mold.points[vertices[i]];
     Corner& c = corners[i];
-    const glm::dvec3 way = from - mold.points[i];
+    const glm::dvec3 way = from - point;
     const glm::dvec3 L = placed ? safeNormalize(way) : direction;
-    const glm::dvec3 V = v.constantView ? camera.axes[2] : safeNormalize(-mold.points[i]);
-    const glm::dvec3 N = side * mold.normals[i];
+    const glm::dvec3 V = p.variant.constantView ? camera.axes[2] : safeNormalize(-point);
+    const glm::dvec3 N = side * mold.normals[vertices[i]];
     c.cosine = glm::dot(N, L);
-    if (v.specular) c.angle = std::acos(std::clamp(glm::dot(2 * c.cosine * N - L, V), -1.0, 1.0));
+    if (p.variant.specular)
+      c.angle = std::acos(std::clamp(glm::dot(2 * c.cosine * N - L, V), -1.0, 1.0));
     if (!placed) continue;
     c.distance = glm::length(way);
     c.axis = -glm::dot(L, axis);
@@ -329,9 +335,50 @@ std::vector<Corner> cornersOf(const Mold& mold, const Light& light, const Camera
   return corners;
 }
 
+// What the errors of all lights are multiplied by.
+struct Weights {
+  glm::dvec3 matte, shine;
+  glm::dvec3 ambient;  // the error of the ambient light
+};
+
+// The largest error on some patches that lie next to each other, of one side.
+double worstOf(const Mold& mold, std::size_t begin, std::size_t end, const PlacedMesh& p,
+               const PowerLobe& lobe, const Weights& weights, double side, Shading program) {
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t i = begin; i < end; ++i)
+    vertices.insert(vertices.end(), mold.patches[i].corners.begin(), mold.patches[i].corners.end());
+  std::ranges::sort(vertices);
+  const auto rest = std::ranges::unique(vertices);
+  vertices.erase(rest.begin(), rest.end());
+  std::vector<std::array<std::size_t, 3>> places;
+  for (std::size_t i = begin; i < end; ++i) {
+    std::array<std::size_t, 3>& place = places.emplace_back();
+    for (std::size_t j = 0; j < 3; ++j)
+      place[j] = std::size_t(std::ranges::lower_bound(vertices, mold.patches[i].corners[j]) -
+                             vertices.begin());
+  }
+  std::vector<glm::dvec3> errors(end - begin, weights.ambient);
+  for (const Light& light : p.lights) {
+    const std::vector<Corner> corners = cornersOf(mold, vertices, light, p, side);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const auto& [a, b, c] = places[i];
+      const Errors e =
+          errorsOf(light, mold.patches[begin + i], {&corners[a], &corners[b], &corners[c]}, lobe,
+                   mold.offFace, program);
+      if (!(e.most < unbounded)) return unbounded;
+      // The driver interpolates what is carried: a few roundings of it.
+      errors[i] += light.intensity * (weights.matte * (e.diffuse + 4e-6 * e.most) +
+                                      weights.shine * (e.specular + 4e-6 * e.most));
+    }
+  }
+  double worst = 0;
+  for (const glm::dvec3& error : errors) worst = std::max(worst, largest(error));
+  return worst;
+}
+
 }  // namespace
 
-double interpolationBound(const PlacedMesh& p, Shading program) {
+double interpolationBound(const PlacedMesh& p, Shading program, double enough) {
   const Variant& v = p.variant;
   if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
@@ -349,25 +396,20 @@ double interpolationBound(const PlacedMesh& p, Shading program) {
   const glm::dvec3 matte = v.diffuse ? m.diffuse * C : glm::dvec3(0.0);
   const glm::dvec3 shine = v.specular ? m.specular * S : glm::dvec3(0.0);
 
-  double worst = 0;
-  for (const double side : {1.0, -1.0}) {
-    if (side < 0 && !v.twoSided) break;
-    // The driver interpolates what is carried: a few roundings of it.
-    const glm::dvec3 ambient = 4e-6 * m.ambient * C * p.look.ambientLight;
-    std::vector<glm::dvec3> errors(mold.patches.size(), ambient);
-    for (const Light& light : p.lights) {
-      const std::vector<Corner> corners = cornersOf(mold, light, p.camera, v, side);
-      for (std::size_t i = 0; i < errors.size(); ++i) {
-        const auto& [a, b, c] = mold.patches[i].corners;
-        const Errors e = errorsOf(light, mold.patches[i], {&corners[a], &corners[b], &corners[c]},
-                                  lobe, mold.offFace, program);
-        if (!(e.most < unbounded)) return unbounded;
-        errors[i] += light.intensity *
-                     (matte * (e.diffuse + 4e-6 * e.most) + shine * (e.specular + 4e-6 * e.most));
-      }
+  const Weights weights{matte, shine, 4e-6 * m.ambient * C * p.look.ambientLight};
+
+  constexpr std::size_t blockLength = 1024;
+  const std::size_t blocks = (mold.patches.size() + blockLength - 1) / blockLength;
+  std::atomic<double> worst = 0;
+  inParallel(0, v.twoSided ? 2 * blocks : blocks, [&](std::size_t i, int) {
+    if (worst > enough) return;
+    const std::size_t begin = i % blocks * blockLength;
+    const double found = worstOf(mold, begin, std::min(begin + blockLength, mold.patches.size()), p,
+                                 lobe, weights, i < blocks ? 1.0 : -1.0, program);
+    double before = worst;
+    while (found > before && !worst.compare_exchange_weak(before, found)) {
     }
-    for (const glm::dvec3& error : errors) worst = std::max(worst, largest(error));
-  }
+  });
   return worst;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "glint/render/variant.h"
@@ -61,6 +62,10 @@ struct PlacedMesh {
 ///    counts.
 /// 7. flat shows f of the centroid, at most 2/3 of an edge away: 2/3 of f', and all of the
 ///    highlight where the gate closes. With directional lights and viewer nothing changes.
-double interpolationBound(const PlacedMesh&, Shading program);
+///
+/// Above `enough` any value above it may be given: what is known to be too much is not looked at
+/// further.
+double interpolationBound(const PlacedMesh&, Shading program,
+                          double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace glint
