@@ -116,6 +116,42 @@ TEST(Render, ExposureScalesByPowersOfTwo) {
   }
 }
 
+// A step of 8-bit codes is 1 / (255 * 12.92) wide at black, after exposure, and wider elsewhere.
+TEST(Render, ErrorsInCodesAreThoseOfThePicture) {
+  Folder folder("codes");
+  const auto chosen = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"info", torus, "--json", "-"});
+    const Ran ran = runGlint(arguments);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return nlohmann::json::parse(ran.out)["choice"];
+  };
+  const double step = 1 / (255 * 12.92);
+  EXPECT_NEAR(chosen({"--max-error", "1code"})["max-error"].get<double>(), step, 1e-12);
+  EXPECT_NEAR(chosen({"--max-error", "2.5code", "--exposure", "3"})["max-error"].get<double>(),
+              2.5 * step / 8, 1e-12);
+  const nlohmann::json choice = chosen({"--max-error", "40code", "--highlight", "exact"});
+  EXPECT_NE(choice["materials"][0]["highlight"], "exact");
+  EXPECT_LE(choice["bound"].get<double>(), 40 * step);
+
+  for (const char* exposure : {"0", "2"}) {
+    picture(folder, {"--exposure", exposure}, "exact.png");
+    picture(folder, {"--exposure", exposure, "--max-error", "3code"}, "a.png");
+    const auto codes = [&](const char* name) {
+      const glint::StoredImage stored = glint::readStoredImage(folder / name);
+      return std::get<std::vector<std::uint8_t>>(stored.values);
+    };
+    const std::vector<std::uint8_t> exact = codes("exact.png"), near = codes("a.png");
+    ASSERT_EQ(exact.size(), near.size());
+    for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_LE(std::abs(exact[i] - near[i]), 3) << i;
+  }
+  for (const char* wrong : {"code", "-1code", "1codes", "nancode"}) {
+    const Ran ran = runGlint({"info", torus, "--max-error", wrong});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_THAT(ran.errorLines(), ElementsAre(AllOf(StartsWith("glint: --max-error: "),
+                                                    HasSubstr(wrong), HasSubstr("Ncode"))));
+  }
+}
+
 TEST(Render, BackgroundIsWhatIsAskedFor) {
   Folder folder("background");
   const auto corner = [&](std::vector<std::string> arguments) {

@@ -264,7 +264,11 @@ Parameter maxError() {
   p.read = [read = p.read](Look& look, const std::string& text) {
     const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
     const bool codes = at != std::string::npos && text.compare(at, 4, "code") == 0;
-    read(look, codes ? text.substr(0, at) : text);
+    try {
+      read(look, codes ? text.substr(0, at) : text);
+    } catch (const InputError&) {
+      throw InputError("--max-error: '" + text + "' is not a number from 0 to 1e+06, nor Ncode");
+    }
     look.maxErrorInCodes = codes;
   };
   p.save = [save = p.save](const Look& look) {
