@@ -18,8 +18,9 @@ Thumbnail ballOf(const ShadingParameters& s, const FitForm& form, int side) {
       glm::dvec3 sum(0.0);
       int inside = 0;
       for (int k = 0; k < samples * samples; ++k) {
-        const double u = (x + (k % samples + 0.5) / samples) / side * 2 - 1;
-        const double v = 1 - (y + (k / samples + 0.5) / samples) / side * 2;
+        const int column = k % samples, row = k / samples;
+        const double u = (x + (column + 0.5) / samples) / side * 2 - 1;
+        const double v = 1 - (y + (row + 0.5) / samples) / side * 2;
         const double square = u * u + v * v;
         if (square >= 1) continue;
         const glm::dvec3 N(u, v, std::sqrt(1 - square));

@@ -102,12 +102,9 @@ std::string costFileText(const CostFile& file) {
       {"fresnel-denser-side", Json::object()}};
   forCosts(file.costs, [&](const char* group, std::string_view name, const auto& cost) {
     Json& entry = json[group][std::string(name)];
-    if constexpr (std::is_same_v<decltype(cost), const double&>)
-      entry = cost;
-    else if (cost.size() == 1)
-      entry = cost[0];
-    else
-      entry = cost;
+    entry = cost;
+    if constexpr (!std::is_same_v<decltype(cost), const double&>)
+      if (cost.size() == 1) entry = cost[0];
   });
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

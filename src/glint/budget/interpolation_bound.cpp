@@ -33,11 +33,11 @@ glm::dmat3 normalTransform(const glm::dmat3& m) {
 
 // What a function of the points of a triangle and its derivatives along a way as long as an edge
 // are at most.
-struct Along {
+struct Derivatives {
   double most = 1, slope = 0, bend = 0;
 };
 
-Along operator*(const Along& f, const Along& g) {
+Derivatives operator*(const Derivatives& f, const Derivatives& g) {
   return {f.most * g.most, f.slope * g.most + f.most * g.slope,
           f.bend * g.most + 2 * f.slope * g.slope + f.most * g.bend};
 }
@@ -60,7 +60,7 @@ struct Steepness {
 };
 
 // A triangle of corners that stand in arrays, and how far normal and view turn over it.
-struct Patch {
+struct Triangle {
   std::array<std::uint32_t, 3> corners{};
   double edge = 0, chord = 0;
   double shorter = 0;  // 1 - |n| at most
@@ -69,87 +69,89 @@ struct Patch {
   bool known = true;  // otherwise only that everything lies between nothing and all
 };
 
-struct Mold {
+struct ShadedTriangles {
   std::vector<glm::dvec3> points, normals;  // world, points from the eye
-  std::vector<Patch> patches;
+  std::vector<Triangle> triangles;
   double offFace = 0;  // flat: how far the normals of a face are from its own
 };
 
 // Whether a triangle shows its back alone, and so nothing: seen from more than a degree behind its
 // plane, which rounding does not turn.
-bool isTurnedAway(const PlacedMesh& p, const Mold& mold, const Patch& patch, bool mirrored) {
-  const auto& [a, b, c] = patch.corners;
+bool isTurnedAway(const PlacedMesh& p, const ShadedTriangles& set, const Triangle& triangle,
+                  bool mirrored) {
+  const auto& [a, b, c] = triangle.corners;
   const glm::dvec3 across =
-      glm::cross(mold.points[b] - mold.points[a], mold.points[c] - mold.points[a]);
-  const glm::dvec3 toEye = p.camera.orthographic ? p.camera.axes[2] : -mold.points[a];
+      glm::cross(set.points[b] - set.points[a], set.points[c] - set.points[a]);
+  const glm::dvec3 toEye = p.camera.orthographic ? p.camera.axes[2] : -set.points[a];
   const double facing = (mirrored ? -1 : 1) * glm::dot(across, toEye);
   return facing < -0.02 * glm::length(across) * glm::length(toEye);
 }
 
 // The corners as the program shades them: those of the mesh, or each face's own.
-Mold moldOf(const PlacedMesh& p, Shading program) {
-  Mold mold;
+ShadedTriangles shadedTriangles(const PlacedMesh& p, Shading program) {
+  ShadedTriangles set;
   const Mesh& mesh = p.mesh;
   const glm::dmat3 linear(p.world), toNormals = normalTransform(linear);
   for (const glm::vec3& n : mesh.normals)
-    mold.normals.push_back(safeNormalize(toNormals * glm::dvec3(n)));
+    set.normals.push_back(safeNormalize(toNormals * glm::dvec3(n)));
   for (const glm::vec3& x : mesh.positions)
-    mold.points.push_back(linear * (glm::dvec3(x) + mesh.origin) + glm::dvec3(p.world[3]) -
-                          p.camera.eye);
+    set.points.push_back(linear * (glm::dvec3(x) + mesh.origin) + glm::dvec3(p.world[3]) -
+                         p.camera.eye);
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    mold.patches.push_back({{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+    set.triangles.push_back({{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
   const bool mirrored = glm::determinant(linear) < 0;
   if (!p.variant.twoSided)
-    std::erase_if(mold.patches,
-                  [&](const Patch& patch) { return isTurnedAway(p, mold, patch, mirrored); });
+    std::erase_if(set.triangles, [&](const Triangle& triangle) {
+      return isTurnedAway(p, set, triangle, mirrored);
+    });
   if (program == Shading::flat) {
-    Mold faces;
-    for (const Patch& patch : mold.patches) {
-      const auto& [a, b, c] = patch.corners;
+    ShadedTriangles faces;
+    for (const Triangle& triangle : set.triangles) {
+      const auto& [a, b, c] = triangle.corners;
       const glm::dvec3 across =
-          glm::cross(mold.points[b] - mold.points[a], mold.points[c] - mold.points[a]);
+          glm::cross(set.points[b] - set.points[a], set.points[c] - set.points[a]);
       const bool nothing = mesh.positions[a] == mesh.positions[b] ||
                            mesh.positions[b] == mesh.positions[c] ||
                            mesh.positions[c] == mesh.positions[a];
       if (nothing) continue;
       const glm::dvec3 normal = (mirrored ? -1.0 : 1.0) * safeNormalize(across);
-      Patch own;
+      Triangle own;
       for (int j = 0; j < 3; ++j) {
-        const std::uint32_t k = patch.corners[std::size_t(j)];
+        const std::uint32_t k = triangle.corners[std::size_t(j)];
         own.corners[std::size_t(j)] = std::uint32_t(faces.points.size());
-        faces.points.push_back(mold.points[k]);
+        faces.points.push_back(set.points[k]);
         faces.normals.push_back(normal);
-        faces.offFace = std::max(faces.offFace, glm::length(mold.normals[k] - normal));
+        faces.offFace = std::max(faces.offFace, glm::length(set.normals[k] - normal));
       }
       if (faces.offFace > flatLimit) return faces;
-      faces.patches.push_back(own);
+      faces.triangles.push_back(own);
     }
-    mold = std::move(faces);
+    set = std::move(faces);
   }
-  for (Patch& patch : mold.patches) {
+  for (Triangle& triangle : set.triangles) {
     double near = unbounded;
     for (std::size_t j = 0; j < 3; ++j) {
-      const std::uint32_t a = patch.corners[j], b = patch.corners[(j + 1) % 3];
-      patch.chord = std::max(patch.chord, glm::length(mold.normals[a] - mold.normals[b]));
-      patch.edge = std::max(patch.edge, glm::length(mold.points[a] - mold.points[b]));
-      near = std::min(near, glm::length(mold.points[a]));
-      if (mold.normals[a] == glm::dvec3(0.0)) patch.known = false;
+      const std::uint32_t a = triangle.corners[j], b = triangle.corners[(j + 1) % 3];
+      triangle.chord = std::max(triangle.chord, glm::length(set.normals[a] - set.normals[b]));
+      triangle.edge = std::max(triangle.edge, glm::length(set.points[a] - set.points[b]));
+      near = std::min(near, glm::length(set.points[a]));
+      if (set.normals[a] == glm::dvec3(0.0)) triangle.known = false;
     }
     // 2. of the header asks for corners whose normals see each other.
-    if (!(patch.chord <= 1)) patch.known = false;
-    if (!patch.known) continue;
-    const double length = std::sqrt(1 - squared(patch.chord) / 3);
-    patch.shorter = 1 - length;
-    patch.turn = patch.chord / length;
-    patch.bent = 1.58 * patch.turn * patch.turn * patch.turn;
+    if (!(triangle.chord <= 1)) triangle.known = false;
+    if (!triangle.known) continue;
+    const double length = std::sqrt(1 - squared(triangle.chord) / 3);
+    triangle.shorter = 1 - length;
+    triangle.turn = triangle.chord / length;
+    triangle.bent = 1.58 * triangle.turn * triangle.turn * triangle.turn;
     if (p.variant.constantView) continue;
-    const double least2 = squared(near) - squared(patch.edge) / 3;
+    const double least2 = squared(near) - squared(triangle.edge) / 3;
     if (least2 > 0)
-      patch.view = patch.edge / std::sqrt(least2);
+      triangle.view = triangle.edge / std::sqrt(least2);
     else
-      patch.known = false;
+      triangle.known = false;
   }
-  return mold;
+  return set;
 }
 
 // One light at one corner.
@@ -160,9 +162,9 @@ struct Corner {
   double axis = 0;      // -L.axis
 };
 
-// How one light reaches a patch: its intensity beside the full one, and how L turns.
-struct Reach {
-  Along share;
+// How one light reaches a triangle: its intensity beside the full one, and how L turns.
+struct LightOnTriangle {
+  Derivatives share;
   double cap = 1;   // the most that it is
   double step = 0;  // what `share` is too large or too small by beyond the ramp of a spot
   double turn = 0;
@@ -172,11 +174,12 @@ struct Reach {
 using Corners = std::array<const Corner*, 3>;
 
 // Empty where nothing arrives; `cap` infinite where anything may.
-std::optional<Reach> reachOf(const Light& light, const Patch& patch, const Corners& corners,
-                             Shading program) {
-  Reach reach;
-  reach.known = patch.known;
-  if (light.type == Light::Type::directional || light.type == Light::Type::camera) return reach;
+std::optional<LightOnTriangle> lightOnTriangle(const Light& light, const Triangle& triangle,
+                                               const Corners& corners, Shading program) {
+  LightOnTriangle onTriangle;
+  onTriangle.known = triangle.known;
+  if (light.type == Light::Type::directional || light.type == Light::Type::camera)
+    return onTriangle;
   double near = unbounded, far = 0, low = 1, high = -1;
   for (const Corner* c : corners) {
     near = std::min(near, c->distance);
@@ -184,44 +187,45 @@ std::optional<Reach> reachOf(const Light& light, const Patch& patch, const Corne
     low = std::min(low, c->axis);
     high = std::max(high, c->axis);
   }
-  const double least2 = squared(near) - squared(patch.edge) / 3;
+  const double least2 = squared(near) - squared(triangle.edge) / 3;
   if (!(least2 > 0)) {
-    reach.known = false;
-    if (light.fallsOff) reach.cap = unbounded;
-    return reach;
+    onTriangle.known = false;
+    if (light.fallsOff) onTriangle.cap = unbounded;
+    return onTriangle;
   }
-  const double least = std::sqrt(least2), edge = patch.edge;
-  reach.turn = edge / least;
+  const double least = std::sqrt(least2), edge = triangle.edge;
+  onTriangle.turn = edge / least;
   if (light.fallsOff) {
     const double r = light.range, window = r > 0 ? 1 / squared(squared(r)) : 0.0;
     if (r > 0 && least >= r) return std::nullopt;
-    if (r > 0 && far > r) reach.known = false;
-    reach.share = {1 / least2 - least2 * window, 2 * edge * (1 / (least * least2) + far * window),
-                   2 * squared(edge) * (3 / squared(least2) + window)};
-    reach.cap = reach.share.most;
+    if (r > 0 && far > r) onTriangle.known = false;
+    onTriangle.share = {1 / least2 - least2 * window,
+                        2 * edge * (1 / (least * least2) + far * window),
+                        2 * squared(edge) * (3 / squared(least2) + window)};
+    onTriangle.cap = onTriangle.share.most;
   }
-  if (light.type != Light::Type::spot) return reach;
-  const double bend = bentDirection * squared(reach.turn);
+  if (light.type != Light::Type::spot) return onTriangle;
+  const double bend = bentDirection * squared(onTriangle.turn);
   // The least is that of a corner: what is linear over what is convex, where it is positive.
   high = std::min(high + bend / 6, 1.0);
   const double outer = std::cos(light.outerAngle * radians);
   const double inner = std::cos(light.innerAngle * radians), range = inner - outer;
   if (high <= outer) return std::nullopt;
-  if (low >= inner && low > outer) return reach;
+  if (low >= inner && low > outer) return onTriangle;
   if (!(range > 0)) {
-    reach.known = false;
-    return reach;
+    onTriangle.known = false;
+    return onTriangle;
   }
   const double from = std::max((low - outer) / range, 0.0), to = (high - outer) / range;
   const double beyond = std::max(to * to - 1, 0.0), missing = 1 - from * from;
   const bool full = program == Shading::gouraud && missing < beyond;
-  if (program == Shading::gouraud) reach.step = reach.cap * std::min(beyond, missing);
-  reach.cap *= squared(std::min(to, 1.0));
-  if (full) return reach;
+  if (program == Shading::gouraud) onTriangle.step = onTriangle.cap * std::min(beyond, missing);
+  onTriangle.cap *= squared(std::min(to, 1.0));
+  if (full) return onTriangle;
   const double aside = std::sqrt(1 - squared(std::max(low, 0.0)));  // sine of the largest angle
-  const Along ramp{to, reach.turn * aside / range, bend / range};
-  reach.share = reach.share * (ramp * ramp);
-  return reach;
+  const Derivatives ramp{to, onTriangle.turn * aside / range, bend / range};
+  onTriangle.share = onTriangle.share * (ramp * ramp);
+  return onTriangle;
 }
 
 struct Errors {
@@ -239,7 +243,7 @@ struct PowerLobe {
   }
   // With `turn` of R and V and `bent` of their second derivatives; below an exponent of 2 `bend` is
   // six times the error, and below 1 `slope` 3/2 of what 2/3 of an edge may change.
-  Along over(double most, double turn, double bent) const {
+  Derivatives over(double most, double turn, double bent) const {
     const double a = exponent;
     if (turn == 0) return {most, 0, 0};
     const double hoelder = 6 * std::pow(squared(turn) / 3, a / 2);
@@ -259,72 +263,73 @@ double nearestAngle(const Corners& corners, double turn) {
   return std::max({least - 2 * turn / 3, most - turn, 0.0});
 }
 
-Errors errorsOf(const Light& light, const Patch& patch, const Corners& corners,
+Errors errorsOf(const Light& light, const Triangle& triangle, const Corners& corners,
                 const PowerLobe& lobe, double offFace, Shading program) {
-  const std::optional<Reach> found = reachOf(light, patch, corners, program);
+  const std::optional<LightOnTriangle> found = lightOnTriangle(light, triangle, corners, program);
   if (!found) return {};
-  const Reach& reach = *found;
-  const double l = reach.turn, w = patch.turn, v = patch.view;
+  const LightOnTriangle& onTriangle = *found;
+  const double l = onTriangle.turn, w = triangle.turn, v = triangle.view;
   double low = 1, high = -1;
   for (const Corner* c : corners) {
     low = std::min(low, c->cosine);
     high = std::max(high, c->cosine);
   }
   Errors e;
-  e.most = reach.cap;
-  e.diffuse = e.specular = reach.cap;
-  if (!reach.known) return e;
+  e.most = onTriangle.cap;
+  e.diffuse = e.specular = onTriangle.cap;
+  if (!onTriangle.known) return e;
   const double kink = high > 0 && low < 0 ? high * low / (low - high) : 0.0;
-  const double bent = 2 * patch.chord * l + bentDirection * l * l;
+  const double bent = 2 * triangle.chord * l + bentDirection * l * l;
   low -= bent / 6;
   high += bent / 6;
   if (high <= 0) return {};
 
-  const double facing = std::min(high / (1 - patch.shorter), 1.0);
-  const Along cosine{std::min(std::max(high, -low), 1.0), patch.chord + l, bent};
+  const double facing = std::min(high / (1 - triangle.shorter), 1.0);
+  const Derivatives cosine{std::min(std::max(high, -low), 1.0), triangle.chord + l, bent};
   const double turn = 2 * w + l + v;
   const double brightest = lobe.value(nearestAngle(corners, turn));
-  const Along highlight =
-      lobe.over(brightest, turn, 2 * w * w + 4 * w * l + l * l + v * v + 2 * patch.bent);
+  const Derivatives highlight =
+      lobe.over(brightest, turn, 2 * w * w + 4 * w * l + l * l + v * v + 2 * triangle.bent);
   double diffuse = 0, specular = 0;
   if (program == Shading::flat) {
-    diffuse = (reach.share * cosine).slope * 2 / 3 + reach.cap * offFace;
-    specular = low <= 0 ? reach.cap : (reach.share * highlight).slope * 2 / 3;
+    diffuse = (onTriangle.share * cosine).slope * 2 / 3 + onTriangle.cap * offFace;
+    specular = low <= 0 ? onTriangle.cap : (onTriangle.share * highlight).slope * 2 / 3;
     specular +=
-        reach.cap * (lobe.exponent < 1 ? std::pow(2 * offFace, lobe.exponent)
-                                       : 2 * offFace * lobe.exponent * lobe.steepness.slope);
+        onTriangle.cap * (lobe.exponent < 1 ? std::pow(2 * offFace, lobe.exponent)
+                                            : 2 * offFace * lobe.exponent * lobe.steepness.slope);
   } else {
-    diffuse = (reach.share * cosine).bend / 6 + reach.step * facing +
-              reach.share.most * std::max(kink, patch.shorter * facing);
-    specular = (reach.share * highlight).bend / 6 + reach.step * brightest;
+    diffuse = (onTriangle.share * cosine).bend / 6 + onTriangle.step * facing +
+              onTriangle.share.most * std::max(kink, triangle.shorter * facing);
+    specular = (onTriangle.share * highlight).bend / 6 + onTriangle.step * brightest;
     if (low <= 0) {
       double open = 0, closed = 0;
       for (const Corner* c : corners)
         (c->cosine > 0 ? open : closed) =
             std::max(c->cosine > 0 ? open : closed, lobe.value(c->angle));
-      specular = std::max(specular + reach.cap * closed, reach.cap * open);
+      specular = std::max(specular + onTriangle.cap * closed, onTriangle.cap * open);
     }
   }
-  e.diffuse = std::min(diffuse, reach.cap * facing);
-  e.specular = std::min(specular, reach.cap * brightest);
+  e.diffuse = std::min(diffuse, onTriangle.cap * facing);
+  e.specular = std::min(specular, onTriangle.cap * brightest);
   return e;
 }
 
 // Of these vertices.
-std::vector<Corner> cornersOf(const Mold& mold, const std::vector<std::uint32_t>& vertices,
-                              const Light& light, const PlacedMesh& p, double side) {
+std::vector<Corner> cornersOf(const ShadedTriangles& set,
+                              const std::vector<std::uint32_t>& vertices, const Light& light,
+                              const PlacedMesh& p, double side) {
   const Camera& camera = p.camera;
   std::vector<Corner> corners(vertices.size());
   const bool placed = light.type == Light::Type::point || light.type == Light::Type::spot;
   const glm::dvec3 from = light.position - camera.eye, axis = safeNormalize(light.direction);
   const glm::dvec3 direction = light.type == Light::Type::camera ? camera.axes * axis : axis;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3& point = mold.points[vertices[i]];
+    const glm::dvec3& point = set.points[vertices[i]];
     Corner& c = corners[i];
     const glm::dvec3 way = from - point;
     const glm::dvec3 L = placed ? safeNormalize(way) : direction;
     const glm::dvec3 V = p.variant.constantView ? camera.axes[2] : safeNormalize(-point);
-    const glm::dvec3 N = side * mold.normals[vertices[i]];
+    const glm::dvec3 N = side * set.normals[vertices[i]];
     c.cosine = glm::dot(N, L);
     if (p.variant.specular)
       c.angle = std::acos(std::clamp(glm::dot(2 * c.cosine * N - L, V), -1.0, 1.0));
@@ -341,30 +346,30 @@ struct Weights {
   glm::dvec3 ambient;  // the error of the ambient light
 };
 
-// The largest error on some patches that lie next to each other, of one side.
-double worstOf(const Mold& mold, std::size_t begin, std::size_t end, const PlacedMesh& p,
+// The largest error on some triangles that lie next to each other, of one side.
+double worstOf(const ShadedTriangles& set, std::size_t begin, std::size_t end, const PlacedMesh& p,
                const PowerLobe& lobe, const Weights& weights, double side, Shading program) {
   std::vector<std::uint32_t> vertices;
   for (std::size_t i = begin; i < end; ++i)
-    vertices.insert(vertices.end(), mold.patches[i].corners.begin(), mold.patches[i].corners.end());
-  std::ranges::sort(vertices);
-  const auto rest = std::ranges::unique(vertices);
-  vertices.erase(rest.begin(), rest.end());
+    vertices.insert(vertices.end(), set.triangles[i].corners.begin(),
+                    set.triangles[i].corners.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::vector<std::array<std::size_t, 3>> places;
   for (std::size_t i = begin; i < end; ++i) {
     std::array<std::size_t, 3>& place = places.emplace_back();
     for (std::size_t j = 0; j < 3; ++j)
-      place[j] = std::size_t(std::ranges::lower_bound(vertices, mold.patches[i].corners[j]) -
+      place[j] = std::size_t(std::ranges::lower_bound(vertices, set.triangles[i].corners[j]) -
                              vertices.begin());
   }
   std::vector<glm::dvec3> errors(end - begin, weights.ambient);
   for (const Light& light : p.lights) {
-    const std::vector<Corner> corners = cornersOf(mold, vertices, light, p, side);
+    const std::vector<Corner> corners = cornersOf(set, vertices, light, p, side);
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const auto& [a, b, c] = places[i];
       const Errors e =
-          errorsOf(light, mold.patches[begin + i], {&corners[a], &corners[b], &corners[c]}, lobe,
-                   mold.offFace, program);
+          errorsOf(light, set.triangles[begin + i], {&corners[a], &corners[b], &corners[c]}, lobe,
+                   set.offFace, program);
       if (!(e.most < unbounded)) return unbounded;
       // The driver interpolates what is carried: a few roundings of it.
       errors[i] += light.intensity * (weights.matte * (e.diffuse + 4e-6 * e.most) +
@@ -383,8 +388,8 @@ double interpolationBound(const PlacedMesh& p, Shading program, double enough) {
   if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
   if (v.normalTexture || v.specularAntialiasing) return unbounded;  // of pixels alone
-  const Mold mold = moldOf(p, program);
-  if (mold.offFace > flatLimit) return unbounded;
+  const ShadedTriangles set = shadedTriangles(p, program);
+  if (set.offFace > flatLimit) return unbounded;
   const ShadingParameters& m = p.material.shading;
   const PowerLobe lobe{m.exponent, Steepness(std::max(m.exponent, 1.0))};
   glm::vec4 most(1);
@@ -399,12 +404,12 @@ double interpolationBound(const PlacedMesh& p, Shading program, double enough) {
   const Weights weights{matte, shine, 4e-6 * m.ambient * C * p.look.ambientLight};
 
   constexpr std::size_t blockLength = 1024;
-  const std::size_t blocks = (mold.patches.size() + blockLength - 1) / blockLength;
+  const std::size_t blocks = (set.triangles.size() + blockLength - 1) / blockLength;
   std::atomic<double> worst = 0;
   inParallel(0, v.twoSided ? 2 * blocks : blocks, [&](std::size_t i, int) {
     if (worst > enough) return;
     const std::size_t begin = i % blocks * blockLength;
-    const double found = worstOf(mold, begin, std::min(begin + blockLength, mold.patches.size()), p,
+    const double found = worstOf(set, begin, std::min(begin + blockLength, set.triangles.size()), p,
                                  lobe, weights, i < blocks ? 1.0 : -1.0, program);
     double before = worst;
     while (found > before && !worst.compare_exchange_weak(before, found)) {

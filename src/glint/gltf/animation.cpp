@@ -235,7 +235,7 @@ std::vector<double> valueAt(const Keys& keys, std::size_t width, bool rotation, 
   const auto value = [&](std::size_t key) {
     return rotation && !cubic ? normalised(part(key, 1)) : part(key, 1);
   };
-  const auto finish = [&](std::vector<double> v) { return rotation ? normalised(v) : v; };
+  const auto finish = [&](const std::vector<double>& v) { return rotation ? normalised(v) : v; };
   const std::size_t next = static_cast<std::size_t>(
       std::upper_bound(keys.times.begin(), keys.times.end(), seconds) - keys.times.begin());
   if (next == 0) return finish(value(0));

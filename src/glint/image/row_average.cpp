@@ -71,6 +71,7 @@ void decodeTexels(std::span<const std::uint8_t> codes, bool isData, float* row) 
 
 void encodeTexels(std::span<const float> row, bool isData, std::uint8_t* codes) {
   // In double the sum is exact. Rounding in the means may lift white above 255 by a little.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): no value is below 0
   const auto rounded = [](float v) { return std::uint8_t(std::min(double(v), 255.0) + 0.5); };
   if (isData) {
     for (std::size_t i = 0; i < row.size(); ++i) codes[i] = rounded(row[i]);

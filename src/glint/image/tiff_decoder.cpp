@@ -15,10 +15,12 @@
 namespace glint::detail {
 
 bool isTiff(std::span<const std::byte> bytes) {
-  const auto is = [&](const char* magic) {
+  const auto is = [&](char a, char b, char c, char d) {
+    const char magic[] = {a, b, c, d};
     return bytes.size() >= 8 && std::memcmp(bytes.data(), magic, 4) == 0;
   };
-  return is("II*\0") || is("MM\0*") || is("II+\0") || is("MM\0+");
+  return is('I', 'I', '*', 0) || is('M', 'M', 0, '*') || is('I', 'I', '+', 0) ||
+         is('M', 'M', 0, '+');
 }
 
 #if GLINT_TIFF

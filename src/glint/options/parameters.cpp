@@ -55,7 +55,7 @@ Parameter number(std::string name, std::string unit, double min, double max, Val
   return p;
 }
 
-Parameter flag(std::string name, bool Look::*member, std::string help) {
+Parameter flag(const std::string& name, bool Look::*member, const std::string& help) {
   auto read = [=](Look& look, const std::string& text) {
     if (text != "true" && text != "false")
       throw InputError("--" + name + ": '" + text + "' is not true or false");
@@ -68,8 +68,8 @@ Parameter flag(std::string name, bool Look::*member, std::string help) {
 }
 
 template <typename Enum>
-Parameter choice(std::string name, std::span<const std::string_view> names, Enum Look::*member,
-                 std::string help) {
+Parameter choice(const std::string& name, std::span<const std::string_view> names,
+                 Enum Look::*member, const std::string& help) {
   std::string value;
   for (const auto& each : names) value += (value.empty() ? "" : "|") + std::string(each);
   auto read = [=](Look& look, const std::string& text) {
@@ -81,8 +81,8 @@ Parameter choice(std::string name, std::span<const std::string_view> names, Enum
   return p;
 }
 
-Parameter vector(std::string name, double limit, std::optional<glm::dvec3> Look::*member,
-                 std::string help) {
+Parameter vector(const std::string& name, double limit, std::optional<glm::dvec3> Look::*member,
+                 const std::string& help) {
   auto read = [=](Look& look, const std::string& text) {
     look.*member = parseVector(text, -limit, limit, "--" + name);
   };
@@ -93,8 +93,9 @@ Parameter vector(std::string name, double limit, std::optional<glm::dvec3> Look:
   return p;
 }
 
-Parameter direction(std::string name, std::optional<glm::dvec3> Look::*member, std::string help) {
-  Parameter p = vector(std::move(name), 1e6, member, std::move(help));
+Parameter direction(const std::string& name, std::optional<glm::dvec3> Look::*member,
+                    const std::string& help) {
+  Parameter p = vector(name, 1e6, member, help);
   p.kind = ParameterKind::direction;
   p.read = [read = p.read, name = p.name, member](Look& look, const std::string& text) {
     read(look, text);
@@ -104,7 +105,7 @@ Parameter direction(std::string name, std::optional<glm::dvec3> Look::*member, s
   return p;
 }
 
-Parameter color(std::string name, glm::dvec3 Look::*member, std::string help) {
+Parameter color(const std::string& name, glm::dvec3 Look::*member, const std::string& help) {
   auto read = [=](Look& look, const std::string& text) {
     look.*member = parseColor(text, "--" + name);
   };

@@ -238,7 +238,7 @@ void a13(Bench& bench, Record& record) {
          {"indices", document.indices({0, 1, 2, 0, 1, 3})}});
     const Scene scene = document.load();
     const std::string what = "a vertex at " + numberText(bad);
-    record.near(what + ": triangles left", double(scene.meshes.at(0).indices.size() / 3), 1, 0);
+    record.near(what + ": triangles left", double(scene.meshes.at(0).indices.size()) / 3, 1, 0);
     record.that("a warning tells of it", !scene.warnings.empty());
     const Bounds bounds = boundsOf(scene);
     record.near(what + ": radius of what is drawn", bounds.radius, std::sqrt(0.5), 1e-9);

@@ -68,6 +68,7 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
           "exact form. Left out of %zu covered: %zu at edges, %zu covered by one alone, %zu that "
           "show another or a blended surface.",
           r.mask.pixels.size(), r.mask.covered, r.mask.edge, r.mask.onlyOne, r.mask.other),
+      // NOLINTNEXTLINE(bugprone-suspicious-missing-comma)
       "flat, gouraud and phong are compared with phong per pixel, blinn-phong and environment with "
       "themselves, blinn-phong with phong too.",
       "whole: against the exact form supersampled in double, where a surface covers all of a pixel "
