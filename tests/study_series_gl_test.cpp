@@ -7,6 +7,7 @@
 
 #include "glint/study/frame_parts.h"
 #include "glint/study/series.h"
+#include "scenes.h"
 #include "stage.h"
 
 namespace glint {
@@ -114,6 +115,50 @@ TEST_F(StudySeriesOnGl, PartsOfAFrameAreSharesOfIt) {
                                              "other light"}));
   // But for parts that came out below 0 and are told as 0.
   EXPECT_NEAR(sum, 1, 0.3);
+}
+
+// Smaller pictures of the same highlight are off by more, and more samples by less.
+TEST_F(StudySeriesOnGl, AliasingGrowsWithDistance) {
+  look_.material[""].exponent = 1000;
+  const StudySeries series = *distanceSeries(tools());
+  const std::vector<SeriesPoint>& one = line(series, "one sample").points;
+  ASSERT_EQ(one.size(), 2u);
+  EXPECT_EQ(one[0].x, 128);
+  EXPECT_EQ(one[1].x, 32);
+  EXPECT_GT(one[1].rmse, 2 * one[0].rmse);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT(line(series, "ssaa:2").points[i].rmse, 0.7 * one[i].rmse);
+}
+
+// A ball of 360 segments, lit from the eye, looks the same from one degree to the next: one picture
+// is far from the truth, the change from it to the next is not. Lit from elsewhere the change is
+// wrong by at most what both pictures are.
+TEST_F(StudySeriesOnGl, MotionIsTheErrorOfTheChange) {
+  look_.material[""].exponent = 1000;
+  look_.light.emplace(1);
+  look_.light->front().type = Light::Type::camera;
+  look_.light->front().direction = {0.3, 0.4, 1};
+  Material material;
+  material.shading = sphereMaterial();
+  StudyScene ball(test::sceneOf(test::sphere(360, 90), material), look_);
+  GpuScene gpu(ball.scene, ball.images);
+  const auto tools = [&] { return SeriesTools{ball, gpu, *renderer_, look_, true, 0, 1, {}, {}}; };
+  const auto pointAt = [&](const StudySeries& series, double exponent) {
+    for (const SeriesPoint& p : line(series, "one sample").points)
+      if (p.x == exponent) return p;
+    throw Error("no such point");
+  };
+  const double alone = pointAt(*distanceSeries(tools()), 128).max;
+  EXPECT_GT(alone, 1e-2);
+  EXPECT_LT(pointAt(*motionSeries(tools()), 1000).max, 1e-2 * alone);
+
+  look_.light->front().type = Light::Type::directional;
+  const double change = pointAt(*motionSeries(tools()), 1000).max;
+  const double before = pointAt(*distanceSeries(tools()), 128).max;
+  look_ = turnedLook(look_, ball.scene, ball.bounds, 1);
+  const double after = pointAt(*distanceSeries(tools()), 128).max;
+  EXPECT_LE(change, before + after);
+  EXPECT_GT(change, 0.05 * before);
 }
 
 TEST_F(StudySeriesOnGl, StoppedSeriesKeepWhatIsMeasured) {

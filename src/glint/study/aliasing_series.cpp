@@ -1,16 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "glint/study/series.h"
 
-// Aliasing of a small picture over the exponent: how it compares with what forms are off by.
+// Aliasing of small pictures: over the exponent, beside what forms are off by; over the distance,
+// as a model moves away; and over time, in how a highlight changes from one picture to the next.
 namespace glint {
 namespace {
 
-constexpr int smallSize = 128;  ///< pixels of the longer side
+constexpr int smallSize = 128;   ///< pixels of the longer side
+constexpr double stepAngle = 1;  ///< degrees from one picture of a motion to the next
 
 SeriesPoint pointOf(double x, const PictureError& e) {
   SeriesPoint point;
@@ -21,70 +24,177 @@ SeriesPoint pointOf(double x, const PictureError& e) {
   return point;
 }
 
+Look smallLook(const SeriesTools& tools, int size) {
+  Look look = exactLook(tools.look, Shading::phong);
+  const double shrink = double(size) / std::max(look.resolution.x, look.resolution.y);
+  look.resolution =
+      glm::max(glm::ivec2(1), glm::ivec2(glm::round(shrink * glm::dvec2(look.resolution))));
+  return look;
+}
+
+bool hasHighlight(const SeriesTools& tools, const Look& look) {
+  const DrawList list = makeDrawList(tools.scene.scene, tools.scene.bounds, look);
+  return std::ranges::any_of(list.items,
+                             [](const DrawItem& item) { return item.variant.specular; });
+}
+
+/// What is done about aliasing.
+struct Way {
+  const char* name;
+  bool filtered;
+  AntiAliasing samples;
+};
+const Way ways[] = {{"one sample", false, {AntiAliasing::Mode::none, 1}},
+                    {"filtered", true, {AntiAliasing::Mode::none, 1}},
+                    {"msaa:4", false, {AntiAliasing::Mode::msaa, 4}},
+                    {"msaa:4 filtered", true, {AntiAliasing::Mode::msaa, 4}},
+                    {"ssaa:2", false, {AntiAliasing::Mode::ssaa, 2}}};
+
+/// Draws small pictures of one size: each kind of samples has a renderer of its own.
+class SmallPictures {
+ public:
+  explicit SmallPictures(const SeriesTools& tools) : tools_(tools) {}
+
+  Image draw(const Look& look) {
+    return drawList(renderers_[antiAliasingText(look.antiAliasing)], tools_.gpu,
+                    makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
+  }
+  Image draw(Look look, const Way& way) {
+    look.specularAntialiasing = way.filtered;
+    look.antiAliasing = way.samples;
+    return draw(look);
+  }
+  StudyMask mask(Look look) {
+    look.antiAliasing = ways[0].samples;
+    return maskOf(renderers_[antiAliasingText(look.antiAliasing)], tools_.gpu, tools_.scene, look);
+  }
+  WholeTruth truth(const Look& look, const StudyMask& mask) {
+    return wholeTruthOf(tools_.scene, look, Shading::phong, tools_.quick ? 8 : 16, mask,
+                        tools_.stop);
+  }
+
+ private:
+  const SeriesTools& tools_;
+  std::map<std::string, Renderer> renderers_;
+};
+
+/// Adds a point to the line of each way that the driver has; `draw` gives its picture.
+template <typename Draw>
+void addWays(StudySeries& series, double x, const WholeTruth& truth, const StudyMask& mask,
+             const Draw& draw) {
+  for (std::size_t k = 0; k < std::size(ways); ++k) try {
+      series.lines[k].points.push_back(
+          pointOf(x, wholeErrorOf(truth, draw(ways[k]), mask, 1).inside));
+    } catch (const InputError&) {  // a driver without so many samples
+    }
+}
+
+StudySeries seriesOfWays(const char* name, const char* title, const char* axis, const char* note) {
+  StudySeries series;
+  series.name = name;
+  series.title = title;
+  series.axis = axis;
+  series.note = note;
+  for (const Way& way : ways) series.lines.push_back({way.name, {}});
+  return series;
+}
+
+StudySeries finished(StudySeries series) {
+  std::erase_if(series.lines, [](const SeriesLine& line) { return line.points.empty(); });
+  return series;
+}
+
+void subtract(Image& from, const Image& what) {
+  for (std::size_t i = 0; i < from.values.size(); ++i) from.values[i] -= what.values[i];
+}
+
 }  // namespace
 
 std::optional<StudySeries> aliasingSeries(const SeriesTools& tools) {
-  Look look = exactLook(tools.look, Shading::phong);
-  const double shrink = double(smallSize) / std::max(look.resolution.x, look.resolution.y);
-  look.resolution =
-      glm::max(glm::ivec2(1), glm::ivec2(glm::round(shrink * glm::dvec2(look.resolution))));
-  const DrawList list = makeDrawList(tools.scene.scene, tools.scene.bounds, look);
-  if (std::ranges::none_of(list.items, [](const DrawItem& item) { return item.variant.specular; }))
-    return {};
-  StudySeries series;
-  series.name = "aliasing";
-  series.title = "Aliasing of a small picture over the exponent";
-  series.axis = "exponent α";
-  series.note =
+  Look look = smallLook(tools, smallSize);
+  if (!hasHighlight(tools, look)) return {};
+  StudySeries series = seriesOfWays(
+      "aliasing", "Aliasing of a small picture over the exponent", "exponent α",
       "phong, 128 pixels across, where a surface covers all of a pixel: against the supersampled "
       "exact picture; lyon:8 against one exact sample a pixel, which is the error of the form "
-      "alone";
-  struct Way {
-    const char* name;
-    bool filtered;
-    AntiAliasing samples;
-  };
-  const AntiAliasing none{AntiAliasing::Mode::none, 1}, msaa{AntiAliasing::Mode::msaa, 4};
-  const Way ways[] = {{"one sample", false, none},
-                      {"filtered", true, none},
-                      {"msaa:4", false, msaa},
-                      {"msaa:4 filtered", true, msaa},
-                      {"ssaa:2", false, {AntiAliasing::Mode::ssaa, 2}}};
-  for (const Way& way : ways) series.lines.push_back({way.name, {}});
+      "alone");
   series.lines.push_back({"lyon:8, the form", {}});
-  std::map<std::string, Renderer> renderers;
-  const auto drawn = [&](const Look& of) {
-    return drawList(renderers[antiAliasingText(of.antiAliasing)], tools.gpu,
-                    makeDrawList(tools.scene.scene, tools.scene.bounds, of), of);
-  };
-  const StudyMask mask = maskOf(renderers[antiAliasingText(none)], tools.gpu, tools.scene, look);
+  SmallPictures pictures(tools);
+  const StudyMask mask = pictures.mask(look);
   std::vector<double> exponents{10, 100, 1000, 10000};
   if (tools.quick) exponents = {100, 10000};
   for (std::size_t i = 0; i < exponents.size() && !tools.stopped(); ++i) {
-    const double exponent = exponents[i];
-    look.material[""].exponent = exponent;
-    const WholeTruth truth =
-        wholeTruthOf(tools.scene, look, Shading::phong, tools.quick ? 8 : 16, mask, tools.stop);
+    look.material[""].exponent = exponents[i];
+    const WholeTruth truth = pictures.truth(look, mask);
     if (truth.picture.values.empty()) break;
-    for (std::size_t k = 0; k < std::size(ways); ++k) {
-      Look own = look;
-      own.specularAntialiasing = ways[k].filtered;
-      own.antiAliasing = ways[k].samples;
-      try {
-        series.lines[k].points.push_back(
-            pointOf(exponent, wholeErrorOf(truth, drawn(own), mask, 1).inside));
-      } catch (const InputError&) {  // a driver without so many samples
-      }
-    }
+    addWays(series, exponents[i], truth, mask,
+            [&](const Way& way) { return pictures.draw(look, way); });
     Look lyon = look;
     setForms(lyon, "lyon:8", "exact");
     const Radiances single = truthOf(tools.scene, look, Shading::phong, mask);
     series.lines.back().points.push_back(
-        pointOf(exponent, errorOf(single, radiancesOf(drawn(lyon), mask))));
+        pointOf(exponents[i], errorOf(single, radiancesOf(pictures.draw(lyon), mask))));
     tools.tell(double(i + 1) / double(exponents.size()));
   }
-  std::erase_if(series.lines, [](const SeriesLine& line) { return line.points.empty(); });
-  return series;
+  return finished(std::move(series));
+}
+
+std::optional<StudySeries> distanceSeries(const SeriesTools& tools) {
+  if (!hasHighlight(tools, smallLook(tools, smallSize))) return {};
+  StudySeries series =
+      seriesOfWays("distance", "Aliasing as the model moves away", "pixels across",
+                   "phong, where a surface covers all of a pixel: against the supersampled exact "
+                   "picture");
+  std::vector<int> sizes{256, 128, 64, 32};
+  if (tools.quick) sizes = {128, 32};
+  for (std::size_t i = 0; i < sizes.size() && !tools.stopped(); ++i) {
+    const Look look = smallLook(tools, sizes[i]);
+    SmallPictures pictures(tools);
+    const StudyMask mask = pictures.mask(look);
+    if (mask.pixels.empty()) break;
+    const WholeTruth truth = pictures.truth(look, mask);
+    if (truth.picture.values.empty()) break;
+    addWays(series, sizes[i], truth, mask,
+            [&](const Way& way) { return pictures.draw(look, way); });
+    tools.tell(double(i + 1) / double(sizes.size()));
+  }
+  return finished(std::move(series));
+}
+
+std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
+  Look look = smallLook(tools, smallSize);
+  if (!hasHighlight(tools, look)) return {};
+  StudySeries series = seriesOfWays(
+      "motion", "Flicker: how the change from one picture to the next is off", "exponent α",
+      "phong, 128 pixels across, the view turned by 1 degree, where a surface covers all of a "
+      "pixel "
+      "in both pictures: their difference against that of the supersampled exact pictures");
+  SmallPictures pictures(tools);
+  const auto turned = [&] {
+    return turnedLook(look, tools.scene.scene, tools.scene.bounds, stepAngle);
+  };
+  const StudyMask before = pictures.mask(look), after = pictures.mask(turned());
+  StudyMask both;
+  std::set_intersection(before.pixels.begin(), before.pixels.end(), after.pixels.begin(),
+                        after.pixels.end(), std::back_inserter(both.pixels));
+  if (both.pixels.empty()) return {};
+  std::vector<double> exponents{10, 100, 1000, 10000};
+  if (tools.quick) exponents = {1000};
+  for (std::size_t i = 0; i < exponents.size() && !tools.stopped(); ++i) {
+    look.material[""].exponent = exponents[i];
+    const Look next = turned();
+    const WholeTruth first = pictures.truth(look, both);
+    WholeTruth change = pictures.truth(next, both);
+    if (first.picture.values.empty() || change.picture.values.empty()) break;
+    subtract(change.picture, first.picture);
+    addWays(series, exponents[i], change, both, [&](const Way& way) {
+      Image drawn = pictures.draw(next, way);
+      subtract(drawn, pictures.draw(look, way));
+      return drawn;
+    });
+    tools.tell(double(i + 1) / double(exponents.size()));
+  }
+  return finished(std::move(series));
 }
 
 }  // namespace glint

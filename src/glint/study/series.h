@@ -55,6 +55,8 @@ class SeriesDrawer {
 /// Of a stopped series there are the points measured by then.
 std::optional<StudySeries> exponentSeries(const SeriesTools&);    ///< forms of the highlight
 std::optional<StudySeries> aliasingSeries(const SeriesTools&);    ///< what is done about it
+std::optional<StudySeries> distanceSeries(const SeriesTools&);    ///< the same, over the size
+std::optional<StudySeries> motionSeries(const SeriesTools&);      ///< the same, of a moving view
 std::optional<StudySeries> iorSeries(const SeriesTools&);         ///< forms of the reflectance
 std::optional<StudySeries> lightSeries(const SeriesTools&);       ///< programs
 std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs; times alone

@@ -343,10 +343,15 @@ class Study {
     tools.look.resolution = glm::max(glm::ivec2(1), options_.look.resolution / 2);
     tools.rounds = std::min(options_.rounds, options_.quick ? 10 : 30);
     using Make = std::optional<StudySeries> (*)(const SeriesTools&);
-    const std::pair<const char*, Make> all[] = {
-        {"exponent", exponentSeries},    {"aliasing", aliasingSeries}, {"ior", iorSeries},
-        {"incidence", incidenceSeries},  {"fineness", finenessSeries}, {"lights", lightSeries},
-        {"resolution", resolutionSeries}};
+    const std::pair<const char*, Make> all[] = {{"exponent", exponentSeries},
+                                                {"aliasing", aliasingSeries},
+                                                {"distance", distanceSeries},
+                                                {"motion", motionSeries},
+                                                {"ior", iorSeries},
+                                                {"incidence", incidenceSeries},
+                                                {"fineness", finenessSeries},
+                                                {"lights", lightSeries},
+                                                {"resolution", resolutionSeries}};
     const auto begin = [&](const std::string& what) {
       tools.progress = [this, what](double share) { tell(what, share); };
       if (!tools.stopped()) return true;
