@@ -19,13 +19,14 @@ def png(width, height, pixel):
     def chunk(kind, data):
         return (struct.pack(">I", len(data)) + kind + data
                 + struct.pack(">I", zlib.crc32(kind + data)))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def helmet(path):
-    """A shell and a visor before it, each a bumpy sphere; the shell has pictures for colour, normals
-    and metallic-roughness, the visor glows where its picture says so."""
+    """A shell and a visor before it, each a bumpy sphere; the shell has pictures for colour,
+    normals and metallic-roughness, the visor glows where its picture says so."""
     positions, normals, indices = scale_models.sphere(10000)
     columns = 2 * max(2, round(math.sqrt(10000 / 4)))
     rows = columns // 2
