@@ -97,10 +97,10 @@ NodeName=one NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=2
 NodeName=two NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=2
 PartitionName=all Nodes=one,two Default=YES MaxTime=10 State=UP
 """)
+        # A slurmd wants a way to control groups even where nothing is controlled and none is mounted.
         version = subprocess.run(["/usr/sbin/slurmd", "-V"], text=True, stdout=subprocess.PIPE, check=True)
-        if int(re.search(r"(\d+)\.", version.stdout).group(1)) >= 24:
-            # Newer ones want a control group of their own even where none is used.
-            (folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
+        newer = int(re.search(r"(\d+)\.", version.stdout).group(1)) >= 24
+        (folder / "cgroup.conf").write_text("CgroupPlugin=%s\n" % ("disabled" if newer else "cgroup/v1"))
         self.environment = dict(os.environ, SLURM_CONF=str(conf),
                                 PATH=os.pathsep.join([os.path.dirname(glint), os.environ["PATH"],
                                                       "/usr/sbin"]))

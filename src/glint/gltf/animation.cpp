@@ -257,7 +257,7 @@ std::vector<double> valueAt(const Keys& keys, std::size_t width, bool rotation, 
     result[i] = (2 * t3 - 3 * t2 + 1) * a[i] + span * (t3 - 2 * t2 + t) * out[i] +
                 (3 * t2 - 2 * t3) * b[i] + span * (t3 - t2) * in[i];
   }
-  return finish(std::move(result));
+  return finish(result);
 }
 
 }  // namespace glint::gltf
