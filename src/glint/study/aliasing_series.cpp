@@ -12,8 +12,7 @@
 namespace glint {
 namespace {
 
-constexpr int smallSize = 128;   ///< pixels of the longer side
-constexpr double stepAngle = 1;  ///< degrees from one picture of a motion to the next
+constexpr int smallSize = 128;  ///< pixels of the longer side
 
 SeriesPoint pointOf(double x, const PictureError& e) {
   SeriesPoint point;
@@ -104,6 +103,19 @@ StudySeries finished(StudySeries series) {
   return series;
 }
 
+/// The look with its camera moved so that the model's middle moves by so many pixels.
+Look movedLook(const SeriesTools& tools, const Look& look, const glm::dvec2& pixels) {
+  const StudyScene& s = tools.scene;
+  Look moved = definiteLook(look, s.scene, s.bounds);
+  const Camera camera = cameraFor(s.scene, s.bounds, moved);
+  const double away = camera.orthographic ? 1.0 : glm::length(camera.eye - s.bounds.center);
+  const double pixel = 2 * camera.halfHeight * away / look.resolution.y;
+  const glm::dvec3 way = camera.axes * glm::dvec3(-pixel * pixels, 0.0);
+  *moved.cameraPosition += way;
+  *moved.cameraFocalPoint += way;
+  return moved;
+}
+
 void subtract(Image& from, const Image& what) {
   for (std::size_t i = 0; i < from.values.size(); ++i) from.values[i] -= what.values[i];
 }
@@ -166,14 +178,12 @@ std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
   if (!hasHighlight(tools, look)) return {};
   StudySeries series = seriesOfWays(
       "motion", "Flicker: how the change from one picture to the next is off", "exponent α",
-      "phong, 128 pixels across, the view turned by 1 degree, where a surface covers all of a "
-      "pixel "
-      "in both pictures: their difference against that of the supersampled exact pictures");
+      "phong, 128 pixels across, the model moved by 0.5 and 0.25 pixels, where a surface covers "
+      "all of "
+      "a pixel in both pictures: their difference against that of the supersampled exact pictures");
   SmallPictures pictures(tools);
-  const auto turned = [&] {
-    return turnedLook(look, tools.scene.scene, tools.scene.bounds, stepAngle);
-  };
-  const StudyMask before = pictures.mask(look), after = pictures.mask(turned());
+  const auto moved = [&] { return movedLook(tools, look, {0.5, 0.25}); };
+  const StudyMask before = pictures.mask(look), after = pictures.mask(moved());
   StudyMask both;
   std::set_intersection(before.pixels.begin(), before.pixels.end(), after.pixels.begin(),
                         after.pixels.end(), std::back_inserter(both.pixels));
@@ -182,7 +192,7 @@ std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
   if (tools.quick) exponents = {1000};
   for (std::size_t i = 0; i < exponents.size() && !tools.stopped(); ++i) {
     look.material[""].exponent = exponents[i];
-    const Look next = turned();
+    const Look next = moved();
     const WholeTruth first = pictures.truth(look, both);
     WholeTruth change = pictures.truth(next, both);
     if (first.picture.values.empty() || change.picture.values.empty()) break;
