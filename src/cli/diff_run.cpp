@@ -53,8 +53,32 @@ std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
   return names;
 }
 
-std::vector<DiffEntry> pairsOf(const DiffRequest& request) {
-  const auto inA = isThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
+/// A path without links and turns, as far as it is there.
+std::string plainPath(const std::string& path) {
+  std::error_code error;
+  const fs::path plain = fs::weakly_canonical(path, error);
+  return error ? path : plain.string();
+}
+
+/// The conditions of single pairs: those of the file that is given, or of A's own.
+std::vector<PairConditions> conditionsOf(const DiffRequest& request) {
+  std::string path = request.conditions;
+  if (path.empty() && isThere(request.a + "/glint-diff.txt")) path = request.a + "/glint-diff.txt";
+  return path.empty() ? std::vector<PairConditions>() : readConditions(path);
+}
+
+std::vector<DiffEntry> pairsOf(const DiffRequest& request,
+                               const std::vector<PairConditions>& conditions) {
+  auto inA = isThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
+  // Masks are no baselines, wherever they lie.
+  std::set<std::string> masks;
+  if (!request.mask.empty()) masks.insert(plainPath(request.mask));
+  for (const PairConditions& one : conditions)
+    if (!one.settings.maskPath.empty()) masks.insert(plainPath(one.settings.maskPath));
+  if (!masks.empty())
+    std::erase_if(inA, [&](const std::string& name) {
+      return masks.count(plainPath(request.a + "/" + name)) > 0;
+    });
   const auto inB = picturesIn(request.b, false);
   std::vector<std::string> all;
   std::set_union(inA.begin(), inA.end(), inB.begin(), inB.end(), std::back_inserter(all));
@@ -103,13 +127,14 @@ DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairCondit
 }
 
 /// Compares, and gives the JSON of the pairs.
-Json comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* page,
-                  std::vector<DiffEntry>& entries) {
-  std::string conditionsPath = request.conditions;
-  if (conditionsPath.empty() && isThere(request.a + "/glint-diff.txt"))
-    conditionsPath = request.a + "/glint-diff.txt";
-  std::vector<PairConditions> conditions;
-  if (!conditionsPath.empty()) conditions = readConditions(conditionsPath);
+Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>& conditions,
+                  DiffHtml* page, std::vector<DiffEntry>& entries) {
+  DiffSettings settings = request.settings;
+  for (const PairConditions& one : conditions)
+    if (std::none_of(entries.begin(), entries.end(),
+                     [&](const DiffEntry& entry) { return isNamedBy(one.pattern, entry.name); }))
+      std::cerr << "glint: " << one.where << printablePath(one.pattern)
+                << ": names no pair: check the pattern\n";
   std::vector<Json> pairs(entries.size());
   const int jobs = std::min(threadsFor(request.jobs), 64);
   if (jobs > 1 && entries.size() > 1) settings.compare.flip.threads = 1;
@@ -138,7 +163,8 @@ int statusOf(const Json& pairs) {
 }
 
 struct Summary {
-  std::size_t same = 0, differ = 0, missing = 0, extra = 0, errors = 0, updated = 0, drivers = 0;
+  std::size_t same = 0, differ = 0, missing = 0, extra = 0, errors = 0, updated = 0, removed = 0,
+              drivers = 0;
   std::map<std::string, std::size_t> notFollowed;
 
   explicit Summary(const Json& pairs) {
@@ -150,6 +176,7 @@ struct Summary {
       extra += kind == "no baseline";
       errors += kind == "error";
       updated += pair.value("updated", false);
+      removed += pair.value("removed", false);
       drivers += pair.value("acrossDrivers", false);
       if (const auto found = pair.find("notFollowed"); found != pair.end())
         for (const auto& [what, value] : found->items()) ++notFollowed[what];
@@ -166,7 +193,12 @@ struct Summary {
                        std::to_string(same) + " same, " + std::to_string(differ) + " differ, " +
                        std::to_string(missing) + " missing, " + std::to_string(extra) +
                        " without baseline, " + std::to_string(errors) + " unreadable";
-    if (updated > 0) text += "; " + std::to_string(updated) + " baselines updated";
+    const auto baselines = [&](std::size_t count, const char* what) {
+      if (count > 0)
+        text += "; " + std::to_string(count) + (count == 1 ? " baseline " : " baselines ") + what;
+    };
+    baselines(updated, "updated");
+    baselines(removed, "removed");
     if (drivers > 0) text += "; " + std::to_string(drivers) + " compared across drivers";
     std::string ignored;
     for (const auto& [what, count] : notFollowed)
@@ -176,7 +208,9 @@ struct Summary {
   }
 };
 
+/// A word as a shell reads it; one that begins as an option would is a name in this folder.
 std::string quoted(const std::string& word) {
+  if (word.starts_with('-') && word != "-") return quoted("./" + word);
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
            std::string_view("._-/+=:%").find(c) != std::string_view::npos;
@@ -226,31 +260,42 @@ std::unique_ptr<DiffHtml> openedPage(const DiffRequest& request) {
 int diffFolders(const DiffRequest& request) {
   if (!request.settings.output.empty())
     throw InputError("--output with folders: use --html for the pictures of differences");
-  std::vector<DiffEntry> entries = pairsOf(request);
-  checkNames(request.named, entries);
+  const std::vector<PairConditions> conditions = conditionsOf(request);
+  std::vector<DiffEntry> entries = pairsOf(request, conditions);
+  const std::set<std::string> meant = namesMeant(request.named, entries);
   const std::unique_ptr<DiffHtml> page = openedPage(request);
-  Json pairs = comparePairs(request, request.settings, page.get(), entries);
+  Json pairs = comparePairs(request, conditions, page.get(), entries);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     DiffEntry& entry = entries[i];
     if (request.updating)
-      update(request.named, entry,
+      update(meant, entry,
              request.perDriver ? driverBaseline(request.a, entry) : request.a + "/" + entry.name);
     if (request.pruning && entry.b.empty()) prune(entry);
-    if (entry.updated) pairs[i] = diffJson(entry, request.settings.compare);
+    if (entry.updated || entry.removed) pairs[i] = diffJson(entry, request.settings.compare);
   }
   return report(request, std::move(pairs), page.get(), {});
 }
 
+/// Throws InputError for options that mean nothing without two folders.
+void refuseOfFolders(const DiffRequest& request, bool ofPictures) {
+  if (!request.conditions.empty())
+    throw InputError("--conditions " + printablePath(request.conditions) +
+                     ": it is of two folders: give its options themselves");
+  if (ofPictures && request.pruning)
+    throw InputError("--prune: it is of folders: remove the file yourself");
+}
+
 /// What the tests of a build have left.
 int diffTestRun(const DiffRequest& request) {
+  refuseOfFolders(request, false);
   TestRun run = readTestRun(request.testRun);
-  checkNames(request.named, run.entries);
+  const std::set<std::string> meant = namesMeant(request.named, run.entries);
   const std::unique_ptr<DiffHtml> page = openedPage(request);
   for (std::size_t i = 0; i < run.entries.size(); ++i) {
     DiffEntry& entry = run.entries[i];
     if (page) page->add(i, entry.status != done, picturesOf(run.records[i], entry, run.pairs[i]));
     if (!request.updating) continue;
-    update(request.named, entry, run.records[i].baseline);
+    update(meant, entry, run.records[i].baseline);
     if (!entry.updated) continue;
     Json& pair = run.pairs[i];
     pair.erase("error");
@@ -271,6 +316,7 @@ int diffTestRun(const DiffRequest& request) {
 }
 
 int diffPictures(const DiffRequest& request) {
+  refuseOfFolders(request, true);
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
   if (request.a == "-" && request.b == "-")
@@ -279,11 +325,9 @@ int diffPictures(const DiffRequest& request) {
   if (request.a == "-" || isThere(request.a)) entry.a = request.a;
   if (request.b == "-" || isThere(request.b)) entry.b = request.b;
   if (!entry.a.empty() && entry.a != "-") entry.others = otherBaselines(entry.a);
-  if (request.b == "-" && (request.updating || !entry.others.empty())) {
-    if (request.updating) throw InputError("--update with stdin: give the picture as a file");
-    entry.others.clear();
-  }
-  checkNames(request.named, entries);
+  if (request.updating && (request.a == "-" || request.b == "-"))
+    throw InputError("--update with stdin: give both pictures as files");
+  const std::set<std::string> meant = namesMeant(request.named, entries);
   std::string baseline = request.a;
   if (request.perDriver) {
     const fs::path a = request.a;
@@ -303,7 +347,7 @@ int diffPictures(const DiffRequest& request) {
     entry.error = printablePath(request.a) + ": no baseline: look at " + printablePath(request.b) +
                   " and accept it with --update";
   }
-  if (request.updating) update(request.named, entry, baseline);
+  if (request.updating) update(meant, entry, baseline);
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));
