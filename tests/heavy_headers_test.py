@@ -34,6 +34,7 @@ HEAVY = {
     # 2 to 5
     r"(Imf|OpenEXR/).*": ["src/glint/image/exr_*.cpp", "tests/image_formats_test.cpp"],
     r"(draco|meshoptimizer).*": ["src/glint/gltf/draco.cpp", "src/glint/gltf/meshopt.cpp",
+                                 "viewer/coarse.cpp",
                                  "tests/gltf_compression_test.cpp"],
     r"boost/.*": ["tests/fresnel_test.cpp", "tests/lobe_test.cpp", "tests/srgb_test.cpp"],
     r"(gtest|gmock)/.*": ["tests/*", "src/glint/image/matchers.cpp"],

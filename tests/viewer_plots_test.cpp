@@ -33,6 +33,45 @@ TEST(LobePlot, ShowsHowFarAnApproximationIsOff) {
   EXPECT_LT(error, 1.05 * 0.134 / 64);
 }
 
+TEST(LobeSurface, StandsAroundTheMirrorDirection) {
+  LobeInput input;
+  for (const bool blinn : {false, true})
+    for (const double exponent : {0.0, 4.0, 500.0}) {
+      input.blinn = blinn;
+      input.exponent = exponent;
+      const LobeSurface surface = lobeSurface(input, 40);
+      const std::size_t rows = surface.points.size() / surface.columns;
+      ASSERT_EQ(rows * surface.columns, surface.points.size());
+      const double a = 40 * std::acos(-1.0) / 180;
+      const glm::dvec3 R(std::sin(a), 0, std::cos(a));
+      for (std::size_t i = 0; i < rows; ++i) {
+        if (exponent == 0) break;  // a lobe that breaks off, at the horizon too: by rounding
+        for (std::size_t j = 0; j < surface.columns; ++j) {
+          const glm::dvec3 p = surface.points[surface.columns * i + j];
+          ASSERT_GE(p.z, 0);
+          ASSERT_LE(glm::length(p), 1 + 1e-12);
+          // Nothing tells the two sides of the plane of incidence apart: a row begins at y, and
+          // goes on over x.
+          const std::size_t mirrored = (surface.columns - 1) / 2 + surface.columns - 1 - j;
+          const glm::dvec3 q =
+              surface.points[surface.columns * i + mirrored % (surface.columns - 1)];
+          ASSERT_NEAR(p.x, q.x, 1e-9);
+          ASSERT_NEAR(p.y, -q.y, 1e-9);
+        }
+      }
+      EXPECT_NEAR(glm::length(surface.points[0] - R), 0, 1e-7);  // the peak, in every column
+      // In the outermost row what is left above the horizon is at most 1 %, but for exponent 0,
+      // whose lobe is 1 everywhere (Blinn-Phong: narrower across the plane than in it).
+      const glm::dvec3 last = surface.points[surface.columns * (rows - 1)];
+      if (exponent == 500) {
+        EXPECT_LE(glm::length(last), 0.0101);
+      }
+      if (exponent == 0) {
+        EXPECT_NEAR(glm::length(surface.points[surface.columns]), 1, 1e-12);
+      }
+    }
+}
+
 TEST(FresnelPlot, KnowsTheAnglesOfGlass) {
   const FresnelPlot in = fresnelPlot(Fresnel::exact, 1, 1.5, 5);
   EXPECT_NEAR(in.normalIncidence, 0.04, 1e-12);

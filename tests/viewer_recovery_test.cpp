@@ -117,7 +117,7 @@ TEST_F(SettingsTest, ComeBackFromTheirFile) {
   s.panel = false;
   s.scale = 1.5;
   s.incidence = 12;
-  s.polar = false;
+  s.lobe = LobeView::inSpace;
   s.amplification = 3;
   saveSettings(s);
   EXPECT_TRUE(fs::exists(folder_ / "glint" / "viewer.json"));
@@ -152,7 +152,7 @@ TEST_F(SettingsTest, OwnPresetsAreTextFiles) {
 TEST_F(SettingsTest, WrongOnesAreDefaults) {
   EXPECT_EQ(readSettings("no JSON"), Settings());
   EXPECT_EQ(readSettings("[1, 2]"), Settings());
-  EXPECT_EQ(readSettings(R"({"window": [1, "x"], "panel": 3, "scale": 1e9, "polar": null})"),
+  EXPECT_EQ(readSettings(R"({"window": [1, "x"], "panel": 3, "scale": 1e9, "lobe": "round"})"),
             Settings());
 }
 

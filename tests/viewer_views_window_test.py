@@ -211,12 +211,12 @@ def test_presets_and_plots_have_keys():
         viewer.key("ctrl+r")
         assert viewer.picture()[0] == first
         plots = []
-        for _ in range(5):
+        for _ in range(6):
             viewer.key("F8")
             viewer.move(20, 20)
             viewer.settled()
             plots.append(viewer.x.capture(PANEL_LEFT, 0, viewer.panel, viewer.screen[1]))
-        assert len(set(plots)) == 5, "plots look the same"
+        assert len(set(plots)) == 6, "plots look the same"
         viewer.key("F8")
         viewer.settled()
         assert viewer.x.capture(PANEL_LEFT, 0, viewer.panel, viewer.screen[1]) == plots[0]

@@ -15,6 +15,8 @@ namespace {
 
 // So long a frame waits for the picture that it asks for; longer ones come in a later frame.
 constexpr double patience = 0.05;
+// Finding programs takes less than this, compiling one more; ms.
+constexpr double compiling = 5;
 
 CodePicture codesOf(const DrawnPicture& picture) {
   return {picture.look.resolution.x, picture.look.resolution.y, picture.codes.data()};
@@ -51,9 +53,8 @@ PaintRequest App::wanted(bool& moving) {
   const bool isWhole =
       shownResult_.a && !shownResult_.request.preview && shownResult_.request.a == want.a;
   if (moving && !isWhole && pace_.tooSlow()) {
-    const Look fast = pace_.faster(want.a);
-    want.preview = fast != want.a;
-    want.a = fast;
+    want.preview = true;
+    want.a = pace_.faster(want.a);
   }
   if (comparesLooks(document)) {
     want.b = *document.b;
@@ -107,9 +108,9 @@ void App::receive(PaintResult result) {
   failed_.reset();
   if (result.a != shownResult_.a) {
     if (request.preview)
-      pace_.drewFaster(result.a->milliseconds);
+      pace_.drewFaster(result.a->milliseconds, result.a->times.compile > compiling);
     else
-      pace_.drewWhole(result.a->milliseconds, result.a->times.compile > 1);
+      pace_.drewWhole(result.a->milliseconds, result.a->times.compile > compiling);
   }
   if (result.model && result.model != session_.model) session_.takePose(result.model);
   shownResult_ = std::move(result);

@@ -155,13 +155,25 @@ void beginFlattened(const char* name) {
 #endif
 }
 
-void image(unsigned texture, float width, float height) {
+namespace {
+
+ImTextureID idOf(unsigned texture) {
 #if IMGUI_VERSION_NUM >= 19140
-  ImGui::Image(ImTextureID(texture), ImVec2(width, height));
+  return ImTextureID(texture);
 #else
   // NOLINTNEXTLINE(performance-no-int-to-ptr): GL's names, as ImGui's own part for GL takes them
-  ImGui::Image(reinterpret_cast<ImTextureID>(std::intptr_t(texture)), ImVec2(width, height));
+  return reinterpret_cast<ImTextureID>(std::intptr_t(texture));
 #endif
+}
+
+}  // namespace
+
+void image(unsigned texture, float width, float height) {
+  ImGui::Image(idOf(texture), ImVec2(width, height));
+}
+
+void imageAt(unsigned texture, float x, float y, float width, float height) {
+  ImGui::GetWindowDrawList()->AddImage(idOf(texture), ImVec2(x, y), ImVec2(x + width, y + height));
 }
 
 // From 1.92 on letters are drawn as they are needed, at any size.

@@ -25,6 +25,8 @@ void beginFlattened(const char* name);
 
 /// A picture of GL's name `texture`.
 void image(unsigned texture, float width, float height);
+/// The same at a place of the screen, of the window that is drawn; takes no room in its layout.
+void imageAt(unsigned texture, float x, float y, float width, float height);
 
 /// The fonts have been added.
 void buildFonts();

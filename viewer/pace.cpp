@@ -15,7 +15,8 @@ void Pace::drewWhole(double ms, bool cold) {
   if (!cold || whole_ == 0) whole_ = ms;
 }
 
-void Pace::drewFaster(double ms) {
+void Pace::drewFaster(double ms, bool cold) {
+  if (cold) return;
   const double d = division_;
   if (ms > slowFrame) {
     if (larger_ > 0 && ms > 0.85 * larger_) {

@@ -18,9 +18,9 @@ class Pace {
 
   /// A whole picture took so long. `cold`: shaders were compiled for it, the next ones are faster.
   void drewWhole(double ms, bool cold);
-  /// A picture by faster() took so long. Where smaller ones are hardly faster (vertices take the
-  /// time, not pixels) they are not made smaller still.
-  void drewFaster(double ms);
+  /// A picture by faster() took so long; `cold` as above. Where smaller ones are hardly faster
+  /// (vertices take the time, not pixels) they are not made smaller still.
+  void drewFaster(double ms, bool cold = false);
 
   int division() const { return division_; }
 

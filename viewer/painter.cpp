@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "choice.h"
+#include "coarse.h"
 #include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
@@ -35,12 +36,40 @@ struct PosedScene {
   }
 };
 
+// What is drawn of a heavy model while something moves.
+struct CoarseScene {
+  std::shared_ptr<const Model> of;
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<GpuScene> drawn;
+
+  void begin(std::shared_ptr<const Model> with, Scene coarse, GpuScene& textures) {
+    forget();
+    of = std::move(with);
+    scene = std::make_unique<Scene>(std::move(coarse));
+    drawn = std::make_unique<GpuScene>(*scene, textures);
+  }
+
+  void forget() {
+    drawn.reset();  // refers to the scene
+    scene.reset();
+    of.reset();
+  }
+
+  // Of this pose, or nothing where other vertices than those it was made of are seen.
+  GpuScene* inPose(const Model& posed) {
+    if (!of || !changedMeshes(*of, posed).empty()) return nullptr;
+    scene->instances = posed.scene.instances;
+    return drawn.get();
+  }
+};
+
 }  // namespace
 
 struct Painter::Objects {
   std::unique_ptr<Renderer> renderer;
   PosedScene first;
-  PosedScene second;  ///< of B, where that has a pose of its own
+  PosedScene second;   ///< of B, where that has a pose of its own
+  CoarseScene coarse;  ///< reads the textures of `first`
   std::unique_ptr<OverlayDrawer> overlay;
   Chooser chooser;
   SharedPicture a, b, plain;
@@ -48,6 +77,7 @@ struct Painter::Objects {
   Look layerLook;
   Overlay layerKind = Overlay::none;
   int layerMaterial = -1;
+  bool layerCoarse = false;
 };
 
 Painter::Painter(const Window& window, const std::filesystem::path& glsl,
@@ -64,19 +94,25 @@ Painter::Painter(const Window& window, const std::filesystem::path& glsl,
   worker_->queue([this, sources = std::move(sources)](const std::atomic<bool>&) {
     objects_->renderer = std::make_unique<Renderer>(sources);
   });
+  coarsener_ = std::make_unique<Worker>([] { stepBack(3); });
 }
 
-Painter::~Painter() { worker_.reset(); }
+Painter::~Painter() {
+  coarsener_.reset();
+  worker_.reset();
+}
 
 void Painter::setModel(std::shared_ptr<const Model> model) {
+  int number = 0;
   {
     const std::lock_guard lock(mutex_);
-    ++model_;
+    number = ++model_;
     result_.reset();
     asked_.reset();
   }
   worker_->stopLatest();
-  worker_->queue([this, model = std::move(model)](const std::atomic<bool>&) {
+  coarsener_->stopLatest();
+  worker_->queue([this, model](const std::atomic<bool>&) {
     Objects& o = *objects_;
     // The old model's objects in the driver refer to its scene.
     o.a.reset();
@@ -84,8 +120,25 @@ void Painter::setModel(std::shared_ptr<const Model> model) {
     o.plain.reset();
     o.layer.reset();
     o.chooser.forget();
+    o.coarse.forget();
     o.second = {};
     o.first.begin(model);
+  });
+  if (model && primitivesDrawn(model->scene) > heavyTriangles)
+    coarsener_->latest([this, model = std::move(model), number](const std::atomic<bool>& stop) {
+      if (auto coarse = coarseScene(model->scene, coarseTriangles, stop))
+        takeCoarse(model, std::move(*coarse), number);
+    });
+}
+
+void Painter::takeCoarse(std::shared_ptr<const Model> model, Scene coarse, int number) {
+  worker_->queue([this, model = std::move(model), number,
+                  coarse = std::make_shared<Scene>(std::move(coarse))](const std::atomic<bool>&) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (number != model_) return;
+    }
+    objects_->coarse.begin(model, std::move(*coarse), *objects_->first.scene);
   });
 }
 
@@ -113,12 +166,20 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
     const auto choice =
         o.chooser.choose(its.scene, its.bounds, look, request.size, request.preview);
     const double choosing = since(start);
-    const auto fits = [&] { return kept && kept->asked == look && kept->choice == choice; };
+    GpuScene* const coarse = request.preview ? o.coarse.inPose(its) : nullptr;
+    Look definite = withChoice(look, *choice);
+    if (request.preview) definite = withFewerLights(its.scene, its.bounds, definite);
+    const bool isCoarse = coarse || (request.preview && definite.light != look.light);
+    const auto fits = [&] {
+      return kept && kept->asked == look && kept->choice == choice && kept->coarse == isCoarse;
+    };
     if (!fits()) {
       auto picture =
-          drawPicture(*o.renderer, *posed.scene, its.bounds, withChoice(look, *choice), stop);
+          drawPicture(*o.renderer, coarse ? *coarse : *posed.scene, its.bounds, definite, stop);
       if (picture) {
+        picture->coarse = isCoarse;
         picture->asked = look;
+        picture->look = withChoice(look, *choice);
         picture->choice = choice;
         picture->milliseconds += choosing;
         kept = std::make_shared<const DrawnPicture>(std::move(*picture));
@@ -139,15 +200,17 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
                       request.overlay == Overlay::normals || request.overlay == Overlay::facing ||
                       request.overlay == Overlay::outline;
     if (laid) {
+      GpuScene* const coarse = request.preview ? o.coarse.inPose(*o.first.model) : nullptr;
       if (!o.layer || o.layerKind != request.overlay || o.layerLook != request.a ||
-          o.layerMaterial != request.outlined) {
+          o.layerMaterial != request.outlined || o.layerCoarse != (coarse != nullptr)) {
         if (!o.overlay) o.overlay = std::make_unique<OverlayDrawer>();
         o.layer = std::make_shared<const std::vector<std::uint8_t>>(
-            o.overlay->draw(*o.first.scene, result.a->list, request.overlay, request.outlined,
-                            request.a.resolution));
+            o.overlay->draw(coarse ? *coarse : *o.first.scene, result.a->list, request.overlay,
+                            request.outlined, request.a.resolution));
         o.layerKind = request.overlay;
         o.layerLook = request.a;
         o.layerMaterial = request.outlined;
+        o.layerCoarse = coarse != nullptr;
       }
       result.overlay = o.layer;
     }

@@ -19,7 +19,8 @@ namespace glint::viewer {
 /// Pictures that the window wants at one time.
 struct PaintRequest {
   Look a;
-  bool preview = false;       ///< a is smaller than the window, for speed
+  /// Something moves: a may be smaller than the window, and heavy models are drawn coarsely.
+  bool preview = false;
   glm::ivec2 size{1};         ///< of the whole picture: forms are chosen for that one
   std::optional<Look> b;      ///< what A is compared with
   std::optional<Look> plain;  ///< A without anti-aliasing, for the probe
@@ -80,6 +81,7 @@ class Painter {
   struct Objects;  ///< all that lives in the context; touched by the worker's thread alone
 
   void paint(const PaintRequest&, const std::atomic<bool>& stop, int model);
+  void takeCoarse(std::shared_ptr<const Model>, Scene coarse, int number);
   void report(Done, std::string error);
 
   std::unique_ptr<OffscreenContext> context_;
@@ -93,6 +95,7 @@ class Painter {
   int model_ = 0;  ///< counts models
   int saves_ = 0;
   std::unique_ptr<Worker> worker_;
+  std::unique_ptr<Worker> coarsener_;  ///< gives way; ends before worker_, to which it hands over
 };
 
 }  // namespace glint::viewer

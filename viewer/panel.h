@@ -5,6 +5,7 @@
 
 #include "actions.h"
 #include "picture.h"
+#include "plots.h"
 #include "probe.h"
 #include "session.h"
 #include "settings.h"
@@ -45,6 +46,12 @@ void drawChoice(PanelContext&);
 
 /// The plots of the selected material, below its sliders.
 void drawPlots(PanelContext&);
+
+/// The plot of the lobe, as the settings want it.
+void drawLobe(Settings&, const LobeInput&);
+
+/// The list of materials, and the numbers of the selected one.
+void drawMaterials(PanelContext&);
 
 /// The textures of the selected material, and what they drive.
 void drawTextures(PanelContext&);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 #include "widgets.h"
@@ -14,6 +16,8 @@ namespace {
 
 ImU32 gridColor() { return IM_COL32(255, 255, 255, 28); }
 ImU32 textColor() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
+
+constexpr ImU32 differenceColor = IM_COL32(240, 110, 90, 255);
 
 }  // namespace
 
@@ -84,6 +88,40 @@ double yAt(const Curve& curve, double x) {
   if (above == p.begin() || above->x == x) return above->y;
   const glm::dvec2 a = *(above - 1), b = *above;
   return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+}
+
+void differencePlot(const Curve& chosen, const Curve& exact, double largest,
+                    std::initializer_list<double> ticks) {
+  if (!(largest > 1e-13)) {  // rounding in double
+    ImGui::TextDisabled("the chosen form is the exact one");
+    return;
+  }
+  // Ticks at a round number below the largest value.
+  const double power = std::pow(10.0, std::floor(std::log10(largest)));
+  const double tick = largest >= 5 * power ? 5 * power : largest >= 2 * power ? 2 * power : power;
+  const auto first = exact.points.front().x, last = exact.points.back().x;
+  const Plot axes({first, -1.1 * largest}, {last, 1.1 * largest}, 74, 3.3f);
+  char text[32];
+  for (const double x : ticks) {
+    std::snprintf(text, sizeof text, "%.0f", x);
+    axes.gridX(x, text);
+  }
+  axes.gridY(0, "0");
+  std::snprintf(text, sizeof text, "%.0e", tick);
+  std::string shortened = text;  // 2e-03 as 2e-3
+  if (const auto zero = shortened.find("e-0"); zero != std::string::npos)
+    shortened.erase(zero + 2, 1);
+  if (const auto plus = shortened.find("e+00"); plus != std::string::npos) shortened.erase(plus);
+  axes.gridY(tick, shortened.c_str());
+  axes.gridY(-tick, "");
+  const Curve d = difference(chosen, exact);
+  axes.curve(d, differenceColor, 1.4f);
+  if (const auto x = axes.hovered())
+    ImGui::SetTooltip("%.1f degrees: chosen - exact = %.4g", *x, yAt(d, *x));
+  legend(differenceColor, "chosen - exact");
+  ImGui::SameLine();
+  std::snprintf(text, sizeof text, "at most %.3g", largest);
+  ImGui::TextDisabled("%s", text);
 }
 
 }  // namespace glint::viewer

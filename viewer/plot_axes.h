@@ -2,11 +2,15 @@
 
 #include <imgui.h>
 
+#include <initializer_list>
 #include <optional>
 
 #include "plots.h"
 
 namespace glint::viewer {
+
+inline constexpr ImU32 exactColor = IM_COL32(240, 190, 80, 255);
+inline constexpr ImU32 chosenColor = IM_COL32(90, 170, 255, 255);
 
 /// Axes on a rectangle of the panel.
 class Plot {
@@ -34,5 +38,10 @@ void legend(ImU32 color, const char* text);
 
 /// The curve between its points.
 double yAt(const Curve& curve, double x);
+
+/// What the chosen form adds to the exact one, at most `largest`, on a scale of its own; `ticks` of
+/// the x axis.
+void differencePlot(const Curve& chosen, const Curve& exact, double largest,
+                    std::initializer_list<double> ticks);
 
 }  // namespace glint::viewer

@@ -56,6 +56,29 @@ LobePlot lobePlot(const LobeInput& input, double incidence) {
   return plot;
 }
 
+LobeSurface lobeSurface(const LobeInput& input, double incidence) {
+  constexpr int rows = 20, columns = 40;
+  const glm::dvec3 N(0, 0, 1), L = at(-incidence), R = at(incidence);
+  const glm::dvec3 side(0, 1, 0), up = glm::cross(R, side);
+  const double alpha = input.blinn ? input.blinnFactor * input.exponent : input.exponent;
+  // The angle of R and V where cos^alpha is 1 %; for N and H, in the plane, twice that.
+  const double d = alpha > 0 ? std::acos(std::pow(0.01, 1 / alpha)) : 90 * radians;
+  const double reach = std::min(input.blinn ? 2 * d : d, 180 * radians);
+  LobeSurface surface;
+  surface.columns = columns + 1;
+  for (int i = 0; i <= rows; ++i)
+    for (int j = 0; j <= columns; ++j) {
+      const double away = reach * i / rows, around = 360 * radians * j / columns;
+      const glm::dvec3 V =
+          R * std::cos(away) + (side * std::cos(around) + up * std::sin(around)) * std::sin(away);
+      const double lambda = input.blinn ? blinnLambda(N, L, V) : phongLambda(N, L, V);
+      const double value =
+          V.z < 0 ? 0 : lobe(input.highlight.form, input.highlight.gamma, lambda, alpha);
+      surface.points.push_back(V * value);
+    }
+  return surface;
+}
+
 FresnelPlot fresnelPlot(Fresnel form, double n1, double n2, double schlickExponent) {
   FresnelPlot plot;
   std::vector<double> angles;

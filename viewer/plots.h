@@ -34,6 +34,16 @@ struct LobePlot {
 
 LobePlot lobePlot(const LobeInput&, double incidenceDegrees);
 
+/// The lobe as a surface around the point that is lit: the way to the viewer times the lobe there,
+/// in the form chosen. N is z, the light lies in the plane y = 0 at x < 0.
+struct LobeSurface {
+  std::size_t columns = 0;         ///< of a row; the last one is the first one again
+  std::vector<glm::dvec3> points;  ///< rows around the mirror direction, from there outwards, to
+                                   ///< where the exact lobe is 1 % or the horizon ends it
+};
+
+LobeSurface lobeSurface(const LobeInput&, double incidenceDegrees);
+
 /// Reflectance over the angle of incidence, [0, 90] degrees.
 struct FresnelPlot {
   Curve exact, chosen, perpendicular, parallel;

@@ -1,7 +1,5 @@
 #include "reference_task.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,9 +16,6 @@ namespace glint::viewer {
 namespace {
 
 constexpr int rowsAtOnce = 16;
-
-// Threads that it starts inherit this: the window comes first.
-void stepBack() { setpriority(PRIO_PROCESS, 0, 10); }
 
 constexpr double snapped = 1.0 / 128;  // samples: twice the grid of 1/256
 
@@ -115,7 +110,7 @@ Look comparableLook(const Look& look) {
 }
 
 ReferenceTask::ReferenceTask(std::function<void()> progressed)
-    : progressed_(std::move(progressed)), worker_(stepBack) {}
+    : progressed_(std::move(progressed)), worker_([] { stepBack(10); }) {}
 
 void ReferenceTask::want(std::shared_ptr<const Model> model, const Look& look) {
   const Look exact = exactLook(look);

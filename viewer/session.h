@@ -46,8 +46,8 @@ struct FileState {
 FileState stateOf(const std::filesystem::path&);
 
 /// What the panel plots of a material.
-enum class PlotView { lobe, lobeOverAngle, fresnel, fresnelLeaving, widths };
-inline constexpr int plotCount = 5;
+enum class PlotView { lobe, lobeOverAngle, lobeInSpace, fresnel, fresnelLeaving, widths };
+inline constexpr int plotCount = 6;
 
 enum class Overlay { none, wireframe, normals, facing, clipped, outline };
 

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+constexpr const char* lobeViews[] = {"polar", "over-angle", "in-space"};
+
 void number(const Json& json, const char* key, double low, double high, double& value) {
   const auto found = json.find(key);
   if (found == json.end() || !found->is_number()) return;
@@ -57,7 +59,9 @@ Settings readSettings(const std::string& text) {
   number(json, "panel-width", 240, 4096, s.panelWidth);
   if (json.contains("scale")) number(json, "scale", 0.5, 4, s.scale);
   number(json, "incidence", 0, 89, s.incidence);
-  flag(json, "polar", s.polar);
+  if (const auto found = json.find("lobe"); found != json.end())
+    for (std::size_t i = 0; i < std::size(lobeViews); ++i)
+      if (*found == lobeViews[i]) s.lobe = LobeView(i);
   number(json, "amplification", 1, 256, s.amplification);
   return s;
 }
@@ -70,7 +74,7 @@ std::string settingsText(const Settings& s) {
   json["panel-width"] = s.panelWidth;
   if (s.scale > 0) json["scale"] = s.scale;
   json["incidence"] = s.incidence;
-  json["polar"] = s.polar;
+  json["lobe"] = lobeViews[std::size_t(s.lobe)];
   json["amplification"] = s.amplification;
   return json.dump(2) + "\n";
 }

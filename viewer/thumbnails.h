@@ -21,6 +21,10 @@ class Thumbnails {
   Shown of(const std::shared_ptr<const DecodedImages>&, int image);
   /// The ball of a preset, by its place in presets().
   Shown ofPreset(int preset, const FitForm&);
+  /// The ball of a scene's material as the look has it, in the mean colour of its colour texture;
+  /// drawn again when that has changed.
+  Shown ofMaterial(const std::shared_ptr<const DecodedImages>&, const Scene&, const Look&,
+                   int material, const FitForm&);
 
  private:
   std::shared_ptr<const DecodedImages> images_;
@@ -28,11 +32,20 @@ class Thumbnails {
     TextureHandle texture;
     int width = 0, height = 0;
   };
+  struct Ball {
+    ShadingParameters of;
+    FitForm form;
+    Kept kept;
+  };
   static Kept kept(const Thumbnail&);
+  void keepTo(const std::shared_ptr<const DecodedImages>&);
+  glm::dvec3 meanOf(int image);
   static Shown shown(const Kept&);
   std::map<int, Kept> kept_;
   FitForm ballForm_;
   std::map<int, Kept> balls_;
+  std::map<int, Ball> materialBalls_;
+  std::map<int, glm::dvec3> means_;  ///< of images, linear
 };
 
 }  // namespace glint::viewer

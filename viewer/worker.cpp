@@ -1,8 +1,12 @@
 #include "worker.h"
 
+#include <sys/resource.h>
+
 #include <utility>
 
 namespace glint::viewer {
+
+void stepBack(int steps) { setpriority(PRIO_PROCESS, 0, steps); }
 
 Worker::Worker(std::function<void()> begin, std::function<void()> end)
     : thread_([this, begin = std::move(begin), end = std::move(end)] { run(begin, end); }) {}

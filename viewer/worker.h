@@ -45,4 +45,8 @@ class Worker {
   std::thread thread_;
 };
 
+/// For a thread whose work can wait, and those that it starts: the window comes first, by so many
+/// steps of the system's priorities.
+void stepBack(int steps);
+
 }  // namespace glint::viewer

@@ -121,7 +121,7 @@ def series(programs, folder, most):
 
 def plot(path, label, rows, names):
     """rows: (value, {name: seconds})."""
-    width, height, left, right, top, bottom = 640, 400, 70, 20, 40, 50
+    width, height, left, right, top, bottom = 640, 400, 70, 45, 40, 50
     xs = [value for value, _ in rows]
     ys = [s for _, times in rows for s in times.values()]
     x0, x1 = math.log10(min(xs)), math.log10(max(xs))

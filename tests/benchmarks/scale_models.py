@@ -1,10 +1,16 @@
-"""Models of any size for measurements: bumpy spheres, and many nodes of one of them. Each is made
-once and kept in the folder given."""
+"""Models of any size for measurements: bumpy spheres, many nodes of one of them, and a scene of many
+draws, materials and lights. Each is made once and kept in the folder given.
+
+  scale_models.py FOLDER sphere TRIANGLES [NODES]
+  scale_models.py FOLDER scene DRAWS MATERIALS LIGHTS TRIANGLES
+
+prints the path; TRIANGLES are those of one sphere."""
 import array
 import json
 import math
 import os
 import struct
+import sys
 
 
 def write_glb(path, document, chunk):
@@ -84,3 +90,52 @@ def sphere_model(folder, triangles, nodes=1):
     write_glb(path, document_of(*parts, places if nodes > 1 else [{"mesh": 0}]),
               b"".join(part.tobytes() for part in parts))
     return path
+
+
+def scene_model(folder, draws, materials, lights, triangles):
+    """The path of a model of so many spheres in a square, each of so many triangles, with so many
+    materials in turn, under directional, point and spot lights."""
+    path = os.path.join(folder, f"scene-{draws}-{materials}-{lights}-{triangles}.glb")
+    if os.path.exists(path):
+        return path
+    parts = sphere(triangles)
+    side = math.ceil(math.sqrt(draws))
+    middle = 1.5 * (side - 1)
+    nodes = [{"mesh": i % materials, "translation": [3 * (i % side), 3 * (i // side), 0]}
+             for i in range(draws)]
+    given = []
+    for i in range(lights):
+        turn = i * 2.4  # radians, about the golden angle: evenly around
+        color = [0.6 + 0.4 * math.sin(i + k) for k in range(3)]
+        kind = ("directional", "point", "spot")[i % 3]
+        light = {"type": kind, "color": color, "intensity": 1 if kind == "directional" else 200}
+        if kind == "spot":
+            light["spot"] = {"innerConeAngle": 0.2, "outerConeAngle": 0.7}
+        given.append(light)
+        # A light shines along -Z of its node: turned up and down by so much.
+        tilt = 0.5 * math.sin(turn)
+        nodes.append({"extensions": {"KHR_lights_punctual": {"light": i}},
+                      "rotation": [math.sin(tilt), 0, 0, math.cos(tilt)],
+                      "translation": [middle + middle * math.cos(turn),
+                                      middle + middle * math.sin(turn), 6]})
+    document = document_of(*parts, nodes)
+    primitive = document["meshes"][0]["primitives"][0]
+    document["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorFactor": [i % 7 / 7, i % 11 / 11, i % 13 / 13, 1],
+                                  "metallicFactor": i % 2, "roughnessFactor": 0.2 + i % 5 / 8}}
+        for i in range(materials)]
+    document["meshes"] = [{"primitives": [dict(primitive, material=i)]} for i in range(materials)]
+    document["extensionsUsed"] = ["KHR_lights_punctual"]
+    document["extensions"] = {"KHR_lights_punctual": {"lights": given}}
+    write_glb(path, document, b"".join(part.tobytes() for part in parts))
+    return path
+
+
+def main():
+    folder, kind, *counts = sys.argv[1:]
+    os.makedirs(folder, exist_ok=True)
+    print({"sphere": sphere_model, "scene": scene_model}[kind](folder, *map(int, counts)))
+
+
+if __name__ == "__main__":
+    main()

@@ -178,6 +178,9 @@ TextureHandle uploadTexture(const DecodedImage& decoded) {
 GpuScene::GpuScene(const Scene& scene, DecodedImages images)
     : scene_(&scene), inPlace_(drawsFromOwnMemory()), images_(std::move(images)) {}
 
+GpuScene::GpuScene(const Scene& scene, GpuScene& textures)
+    : scene_(&scene), inPlace_(drawsFromOwnMemory()), shared_(&textures) {}
+
 void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
   scene_ = &scene;
   for (const int mesh : changed) {
@@ -282,6 +285,7 @@ void GpuScene::drawShown(int mesh, bool faces) {
 }
 
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {
+  if (shared_) return shared_->bindTexture(use, unit);
   glActiveTexture(GL_TEXTURE0 + unit);
   TextureHandle& texture = textures_[use.image];
   if (!texture) {

@@ -19,6 +19,8 @@ namespace glint {
 class GpuScene {
  public:
   GpuScene(const Scene& scene, DecodedImages images);
+  /// With the textures of another one, which must outlive it and whose scene has the same images.
+  GpuScene(const Scene& scene, GpuScene& textures);
 
   /// Goes on with the same scene in another pose, in which the vertices of `changed` meshes are
   /// others.
@@ -49,7 +51,10 @@ class GpuScene {
   void bindTexture(const Texture&, GLuint unit);
 
   /// Whether an image has been given, be it that it was not uploaded yet.
-  bool hasImage(int image) const { return images_.contains(image) || textures_.contains(image); }
+  bool hasImage(int image) const {
+    return images_.contains(image) || textures_.contains(image) ||
+           (shared_ && shared_->hasImage(image));
+  }
   void addImages(DecodedImages images) { images_.merge(images); }
 
   const Scene& scene() const { return *scene_; }
@@ -64,6 +69,7 @@ class GpuScene {
   std::vector<std::string> warnings_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
   std::map<int, TextureHandle> textures_;
+  GpuScene* shared_ = nullptr;         ///< has the textures, if not null
   std::vector<std::uint32_t> firsts_;  ///< of the stretches found last
   std::vector<std::int32_t> counts_;
 };
