@@ -106,9 +106,7 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "--ignore", "0,0-23,15"}, 1, "no pixel is left to compare"},
       {{"a.png", "wide.png"}, 1, "the sizes differ: 24 x 16 and 25 x 16 pixels"},
       {{"nan.pfm", "nan.pfm", "--metric", "max", "--threshold", "1"}, 1, "is not a number"},
-      {{"a.exr", "infinite.pfm", "--metric", "hdr-flip", "--threshold", "1"},
-       1,
-       "1 pixel is inf"},
+      {{"a.exr", "infinite.pfm", "--metric", "hdr-flip", "--threshold", "1"}, 1, "1 pixel is inf"},
       {{"a.exr", "nan.pfm"}, 1, "worst at 0,0"},
       // Wrong usage and what cannot be read.
       {{}, 2, "glint diff A B"},

@@ -306,7 +306,8 @@ TEST(DiffSizes, LargePagesAreNotHeld) {
   }
   const auto expectSmall = [](const Ran& ran) { EXPECT_LT(ran.peakKib, 60 << 10) << ran.out; };
   Ran ran = files.diff({"a.png", "b.png"});
-  EXPECT_THAT(ran.out, HasSubstr("1 of 27655200 pixels differ (1 pixel differs); worst at 7,20000"));
+  EXPECT_THAT(ran.out,
+              HasSubstr("1 of 27655200 pixels differ (1 pixel differs); worst at 7,20000"));
   expectSmall(ran);
   ran = files.diff({"a.png", "b.png", "--max-pixels", "1", "-o", "d.png"});
   EXPECT_EQ(ran.status, 0) << ran.out;
@@ -367,6 +368,34 @@ TEST(DiffReports, MarkdownOfAMergeRequest) {
   EXPECT_THAT(ran.out, HasSubstr("### Pictures: 1 differs\n"));
   EXPECT_THAT(ran.out, HasSubstr("| one\\|two\\_\\<b>\\&\\$.png | differs |"));
   EXPECT_THAT(ran.out, HasSubstr("`glint diff x y --update`"));
+}
+
+TEST(DiffPicture, OnStdoutAndBesideThePage) {
+  const Files files("stdout");
+  Image b = grey;
+  b.values[0] = 1;
+  write(files / "a.png", grey);
+  write(files / "b.png", b);
+  // Nothing but the picture is written there.
+  for (const char* kind : {"flip", "absolute"}) {
+    ASSERT_EQ(files.diff({"a.png", "b.png", "-o", "d.png", "--difference", kind}).status, 1);
+    const Ran ran = files.diff({"a.png", "b.png", "-o", "-", "--difference", kind});
+    EXPECT_EQ(ran.status, 1) << ran.err;
+    EXPECT_EQ(ran.out, contents(files / "d.png"));
+  }
+  // The page has its own map, since JPEG would change its colours, and |a - b| is another picture.
+  const auto mapOf = [&](const std::string& output) {
+    const std::string kind = output == "a.jpg" ? "absolute" : "flip";
+    EXPECT_EQ(files.diff({"a.png", "b.png", "-o", output, "--html", "r.html", "--difference", kind})
+                  .status,
+              1);
+    const std::string page = contents(files / "r.html"), begin = "id=\"m0\">";
+    const auto at = page.find(begin);
+    return page.substr(at, page.find('<', at) - at);
+  };
+  EXPECT_THAT(mapOf("d.png"), HasSubstr("iVBOR"));
+  for (const char* output : {"d.jpg", "a.jpg", "d.exr", "-"})
+    EXPECT_EQ(mapOf(output), mapOf("d.png"));
 }
 
 TEST(DiffReports, PicturesBesideThePage) {

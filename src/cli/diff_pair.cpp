@@ -149,23 +149,29 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   }
   // What is looked at: the main picture, or where that is equal the first that is not.
   const LayerPair& shown = pairs.matched[pairs.shown];
-  const bool flipWanted =
-      shown.a->colour && settings.difference == DifferenceKind::flip &&
+  const bool flipPossible =
+      shown.a->colour &&
       std::uint64_t(shown.width()) * std::uint64_t(shown.height()) <= std::uint64_t(1) << 28;
-  const bool flipOutput = !settings.output.empty() && flipWanted;
+  const bool flipOutput =
+      flipPossible && !settings.output.empty() && settings.difference == DifferenceKind::flip;
+  const bool flipOfPage = flipPossible && pictures;
   const bool besideColours = std::any_of(pairs.matched.begin(), pairs.matched.end(),
                                          [](const LayerPair& pair) { return pair.a->colour; });
   std::optional<TemporaryPng> map;
-  std::optional<FlipPicture> output;
+  // The page's own, whose colours tell errors, whatever format the other has.
+  std::optional<FlipPicture> forPage, forFile;
   try {
     for (std::size_t i = 0; i < pairs.matched.size(); ++i) {
       const LayerPair& pair = pairs.matched[i];
       CompareOptions options = optionsFor(settings, pair.a->image, pair.b->image);
-      if (i == pairs.shown && flipWanted && (pictures || flipOutput)) {
-        if (!flipOutput) map.emplace();
-        output.emplace(flipOutput ? settings.output : map->path, shown.width(), shown.height());
+      if (i == pairs.shown && (flipOfPage || flipOutput)) {
+        if (flipOfPage) forPage.emplace(map.emplace().path, shown.width(), shown.height());
+        if (flipOutput) forFile.emplace(settings.output, shown.width(), shown.height());
         if (!asksFor(options, "hdr-flip")) options.metrics.push_back("flip");
-        options.flipMap = [&](int, const float* errors) { output->add(errors); };
+        options.flipMap = [&](int, const float* errors) {
+          if (forPage) forPage->add(errors);
+          if (forFile) forFile->add(errors);
+        };
       }
       addLayer(pair, options, i == 0, besideColours, entry);
     }
@@ -181,7 +187,8 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
                                pairs.missing.end());
   entry.result.same = entry.result.same && pairs.missing.empty();
   entry.shown = shown.a->name;
-  if (output) output->finish();
+  if (forPage) forPage->finish();
+  if (forFile) forFile->finish();
   const bool anyDifference =
       pairs.shown > 0 || entry.result.differing > 0 || entry.result.sizesDiffer;
   if (!settings.output.empty() && !flipOutput)
@@ -192,7 +199,7 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
     pictures->a = browserPicture(both.bytesA, *shown.a, shown.range());
     if (anyDifference) {
       pictures->b = browserPicture(both.bytesB, *shown.b, shown.range());
-      if (flipWanted) pictures->map = readFile(flipOutput ? settings.output : map->path, Noted::no);
+      if (map) pictures->map = readFile(map->path, Noted::no);
       pictures->valuesA = trueValues(*shown.a);
       pictures->valuesB = trueValues(*shown.b);
     }

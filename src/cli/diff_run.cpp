@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "diff_baselines.h"
+#include "diff_folders.h"
 #include "diff_html.h"
 #include "diff_options.h"
 #include "diff_test_run.h"
@@ -34,107 +35,11 @@ bool isThere(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
-/// The pictures in a folder and its folders, by their paths in it. Driver folders of baselines
-/// begin with "driver-".
-std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end;
-       i.increment(error)) {
-    const fs::path relative = i->path().lexically_relative(folder);
-    if (baselines && relative.begin()->string().starts_with("driver-")) continue;
-    std::error_code ignored;
-    if (!i->is_regular_file(ignored)) continue;
-    if (isPictureName(i->path().string())) names.push_back(relative.generic_string());
-  }
-  if (error)
-    throw InputError(printablePath(folder) + ": " + error.message() + ": check the folder");
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/// A path without links and turns, as far as it is there.
-std::string plainPath(const std::string& path) {
-  std::error_code error;
-  const fs::path plain = fs::weakly_canonical(path, error);
-  return error ? path : plain.string();
-}
-
-/// The conditions of single pairs: those of the file that is given, or of A's own.
-std::vector<PairConditions> conditionsOf(const DiffRequest& request) {
-  std::string path = request.conditions;
-  if (path.empty() && isThere(request.a + "/glint-diff.txt")) path = request.a + "/glint-diff.txt";
-  return path.empty() ? std::vector<PairConditions>() : readConditions(path);
-}
-
-std::vector<DiffEntry> pairsOf(const DiffRequest& request,
-                               const std::vector<PairConditions>& conditions) {
-  auto inA = isThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
-  // Masks are no baselines, wherever they lie.
-  std::set<std::string> masks;
-  if (!request.mask.empty()) masks.insert(plainPath(request.mask));
-  for (const PairConditions& one : conditions)
-    if (!one.settings.maskPath.empty()) masks.insert(plainPath(one.settings.maskPath));
-  if (!masks.empty())
-    std::erase_if(inA, [&](const std::string& name) {
-      return masks.count(plainPath(request.a + "/" + name)) > 0;
-    });
-  const auto inB = picturesIn(request.b, false);
-  std::vector<std::string> all;
-  std::set_union(inA.begin(), inA.end(), inB.begin(), inB.end(), std::back_inserter(all));
-  if (all.empty())
-    throw InputError(
-        printablePath(request.a) + " and " + printablePath(request.b) +
-        ": no pictures in them: give folders of PNG, EXR, PFM, HDR, JPEG, WebP, TIFF, PPM, BMP "
-        "or TGA files");
-  // NAME_1.png is one more baseline of NAME.png, unless it has a picture of its own.
-  std::set<std::string> alternatives;
-  for (const std::string& name : inA)
-    for (const std::string& other : otherBaselines(request.a + "/" + name))
-      if (const std::string inside = other.substr(request.a.size() + 1);
-          !std::binary_search(inB.begin(), inB.end(), inside))
-        alternatives.insert(inside);
-  std::vector<DiffEntry> entries;
-  for (const std::string& name : all) {
-    if (alternatives.count(name) > 0) continue;
-    DiffEntry entry;
-    entry.name = name;
-    if (std::binary_search(inA.begin(), inA.end(), name))
-      for (const std::string& other : otherBaselines(request.a + "/" + name))
-        if (alternatives.count(other.substr(request.a.size() + 1)) > 0)
-          entry.others.push_back(other);
-    if (std::binary_search(inA.begin(), inA.end(), name)) entry.a = request.a + "/" + name;
-    if (std::binary_search(inB.begin(), inB.end(), name)) entry.b = request.b + "/" + name;
-    entries.push_back(std::move(entry));
-  }
-  return entries;
-}
-
-/// The settings of a pair: those of the last line of the conditions that names it, with what the
-/// command line says of reports.
-DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairConditions>& conditions,
-                         const std::string& name) {
-  const auto found = std::find_if(conditions.rbegin(), conditions.rend(),
-                                  [&](const auto& one) { return isNamedBy(one.pattern, name); });
-  if (found == conditions.rend()) return given;
-  DiffSettings settings = found->settings;
-  settings.allMetrics = given.allMetrics;
-  settings.compare.regions = given.compare.regions;
-  settings.compare.flip.threads = given.compare.flip.threads;
-  settings.difference = given.difference;
-  settings.scale = given.scale;
-  return settings;
-}
-
 /// Compares, and gives the JSON of the pairs.
 Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>& conditions,
                   DiffHtml* page, std::vector<DiffEntry>& entries) {
   DiffSettings settings = request.settings;
-  for (const PairConditions& one : conditions)
-    if (std::none_of(entries.begin(), entries.end(),
-                     [&](const DiffEntry& entry) { return isNamedBy(one.pattern, entry.name); }))
-      std::cerr << "glint: " << one.where << printablePath(one.pattern)
-                << ": names no pair: check the pattern\n";
+  tellUnused(conditions, entries);
   std::vector<Json> pairs(entries.size());
   const int jobs = std::min(threadsFor(request.jobs), 64);
   if (jobs > 1 && entries.size() > 1) settings.compare.flip.threads = 1;
@@ -221,6 +126,14 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// Whether stdout is a file's, so that no line may stand in it.
+bool writesToStdout(const DiffRequest& request) {
+  const std::string* const files[] = {&request.json, &request.junit, &request.html,
+                                      &request.markdown, &request.settings.output};
+  return std::any_of(std::begin(files), std::end(files),
+                     [](const std::string* path) { return *path == "-"; });
+}
+
 /// Writes all reports of several pairs; the exit status.
 int report(const DiffRequest& request, Json pairs, DiffHtml* page,
            const std::vector<std::string>& unused) {
@@ -241,9 +154,7 @@ int report(const DiffRequest& request, Json pairs, DiffHtml* page,
   if (!request.junit.empty()) writeText(request.junit, junitXml(json["pairs"]));
   if (!request.markdown.empty()) writeText(request.markdown, markdownText(json));
   if (page) page->finish(json);
-  const bool toStdout =
-      request.json == "-" || request.junit == "-" || request.html == "-" || request.markdown == "-";
-  if (toStdout) return status;
+  if (writesToStdout(request)) return status;
   for (const Json& pair : json["pairs"])
     if (pair["status"] != done || pair.contains("notCompared")) std::cout << diffLine(pair) << "\n";
   for (const std::string& path : unused)
@@ -364,8 +275,7 @@ int diffPictures(const DiffRequest& request) {
   }
   if (!entry.error.empty()) {
     std::cerr << "glint: " << entry.error << "\n";
-  } else if (request.json != "-" && request.junit != "-" && request.html != "-" &&
-             request.markdown != "-") {
+  } else if (!writesToStdout(request)) {
     std::string line = diffLine(json);
     if (const std::string text = notFollowedText(json); !text.empty())
       line += "; not followed: " + text;
