@@ -235,7 +235,8 @@ class Viewer:
 # Centres of widgets in the tab Shading of a model with one material, scale 1.
 PANEL_LEFT = 1000
 TWO_SIDED = (PANEL_LEFT + 174, 238)
-ROW = {"ambient": 340, "diffuse": 365, "specular": 390, "exponent": 415, "metalness": 440, "preset": 541}
+ROW = {"ambient": 340, "diffuse": 365, "specular": 390, "exponent": 415, "metalness": 440, "ior": 465,
+       "transmission": 490, "preset": 541}
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 

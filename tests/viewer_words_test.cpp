@@ -64,6 +64,9 @@ TEST(Theme, EveryTextHasContrast) {
   EXPECT_GE(themePairs().size(), 20u);
   for (const ThemePair& pair : themePairs())
     EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << pair.where;
+  // What is no text needs 3 (WCAG 2.1, 1.4.11): boxes that are not ticked.
+  EXPECT_GE(contrast(theme::edge, theme::window), 3);
+  EXPECT_GE(contrast(theme::edge, theme::popup), 3);
 }
 
 // What is said to be without effect does not change what the picture is made of; what the program

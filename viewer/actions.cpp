@@ -165,11 +165,13 @@ const ActionInfo& infoOf(Action command) {
 std::span<const MenuInfo> menus() {
   static constexpr std::string_view file[] = {"Files"}, edit[] = {"Edit"},
                                     material[] = {"Material", "Shading"}, light[] = {"Lights"},
-                                    view[] = {"Camera", "Animation", "Picture", "Overlays"},
-                                    compare[] = {"Compare"}, panel[] = {"Panel"}, help[] = {"Help"};
-  static constexpr MenuInfo table[] = {{"File", file},   {"Edit", edit}, {"Material", material},
-                                       {"Light", light}, {"View", view}, {"Compare", compare},
-                                       {"Panel", panel}, {"Help", help}};
+                                    camera[] = {"Camera", "Animation"},
+                                    view[] = {"Picture", "Overlays"}, compare[] = {"Compare"},
+                                    panel[] = {"Panel"}, help[] = {"Help"};
+  static constexpr MenuInfo table[] = {
+      {"File", file},       {"Edit", edit},     {"Material", material},
+      {"Light", light},     {"Camera", camera}, {"View", view},
+      {"Compare", compare}, {"Panel", panel},   {"Help", help}};
   return table;
 }
 

@@ -145,9 +145,12 @@ void App::helpWindow() {
   std::string_view section;
   for (const ActionInfo& info : actions()) {
     if (info.section != section) {
-      if (info.section == (wide ? "Edit" : "Shading") || (wide && info.section == "Camera"))
+      const bool column =
+          info.section == (wide ? "Edit" : "Shading") || (wide && info.section == "Camera");
+      if (column)
         ImGui::NextColumn();
-      ImGui::Spacing();
+      else
+        ImGui::Spacing();
       section = info.section;
       ImGui::TextDisabled("%s", std::string(section).c_str());
     }

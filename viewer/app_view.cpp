@@ -218,7 +218,7 @@ std::string App::comparisonText() const {
   }
   if (comparesLooks(document) && a && shownResult_.b) {
     std::snprintf(text, sizeof text,
-                  "|A - B|: at most %d of 255 levels, at %d, %d; mean %.4g, %zu pixels",
+                  "|A - B|: at most %d of 255 levels, at %d, %d; mean %.4g; %zu pixels",
                   difference_.largest, difference_.where.x, difference_.where.y, difference_.mean,
                   difference_.pixels);
     return text;
@@ -233,13 +233,16 @@ void App::drawOverPicture() {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 white = IM_COL32(255, 255, 255, 255);
   const float top = menuHeight_;
-  const auto write = [&](float x, float y, const std::string& text) {
-    y += top;
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  // In lines as long as the picture is wide; the last one stands at y if `upwards`.
+  const auto write = [&](float x, float y, const std::string& text, bool upwards = false) {
+    const float room = std::max(size.x - x - 10 * s, 1.0f);
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+    y += top - (upwards ? extent.y - ImGui::GetTextLineHeight() : 0);
     draw->AddRectFilled(ImVec2(x - 4 * s, y - 2 * s),
                         ImVec2(x + extent.x + 4 * s, y + extent.y + 2 * s), IM_COL32(0, 0, 0, 190),
                         3 * s);
-    draw->AddText(ImVec2(x, y), white, text.c_str());
+    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImVec2(x, y), white, text.c_str(),
+                  nullptr, room);
   };
   const bool exact = comparesExact(document), compares = exact || comparesLooks(document);
   if (compares && document.compare == CompareMode::split) {
@@ -275,7 +278,7 @@ void App::drawOverPicture() {
       std::snprintf(times, sizeof times, ", shown x %.3g", document.amplification);
       text += times;
     }
-    write(10 * s, size.y - ImGui::GetTextLineHeight() - 8 * s, text);
+    write(10 * s, size.y - ImGui::GetTextLineHeight() - 8 * s, text, true);
   }
   if (exact && document.compare == CompareMode::difference && shownResult_.a) {
     const float left = 10 * s, width = 180 * s, above = top + 8 * s, height = 10 * s;

@@ -119,12 +119,14 @@ std::vector<Difference> differences(const Look& a, const Look& b) {
   return all;
 }
 
+std::string valueText(const std::string& value) { return value == "-" ? "not set" : value; }
+
 std::string sideText(const std::vector<Difference>& all, bool a, std::size_t most) {
   if (all.empty()) return "the same look";
   std::string text;
   for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
     const std::string& value = a ? all[i].a : all[i].b;
-    text += (i > 0 ? ", " : "") + all[i].what + " " + (value == "-" ? "as it was" : value);
+    text += (i > 0 ? ", " : "") + all[i].what + " " + valueText(value);
   }
   if (all.size() > most)
     text += (most > 0 ? ", and " : "") + std::to_string(all.size() - most) +

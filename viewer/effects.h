@@ -22,6 +22,9 @@ struct Difference {
 /// of the picture is left out.
 std::vector<Difference> differences(const Look& a, const Look& b);
 
+/// A value of a Difference for people: "not set" in place of "-".
+std::string valueText(const std::string& value);
+
 /// What one of two looks is, beside the other: the first `most` differences, for one line.
 std::string sideText(const std::vector<Difference>&, bool a, std::size_t most = 2);
 

@@ -45,6 +45,7 @@ void chooseColors() {
   s.TabRounding = 3;
   s.PopupRounding = 4;
   s.WindowBorderSize = 0;
+  s.FrameBorderSize = 1;
   s.FramePadding = ImVec2(6, 3);
   s.ItemSpacing = ImVec2(6, 5);
   s.WindowPadding = ImVec2(10, 8);
@@ -57,6 +58,7 @@ void chooseColors() {
   set(ImGuiCol_WindowBg, theme::window);
   set(ImGuiCol_PopupBg, theme::popup);
   set(ImGuiCol_MenuBarBg, theme::menu);
+  set(ImGuiCol_Border, theme::edge);
   set(ImGuiCol_FrameBg, theme::frame);
   set(ImGuiCol_FrameBgHovered, theme::frameHovered);
   set(ImGuiCol_FrameBgActive, theme::frameActive);

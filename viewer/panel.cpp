@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "camera_control.h"
@@ -108,14 +109,21 @@ void drawCameraTab(PanelContext& context) {
   for (const Parameter& p : lookParameters()) {
     if (p.section != "Camera") continue;
     std::optional<glm::dvec3> shown;
+    // What rounding has left of a zero.
+    const auto tidy = [](glm::dvec3 v) {
+      const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(v[c]) < 1e-12 * most) v[c] = 0;
+      return v;
+    };
     if (pose) {
-      if (p.name == "camera-position") shown = pose->position;
-      if (p.name == "camera-focal-point") shown = pose->focalPoint;
-      if (p.name == "camera-view-up") shown = pose->up;
+      if (p.name == "camera-position") shown = tidy(pose->position);
+      if (p.name == "camera-focal-point") shown = tidy(pose->focalPoint);
+      if (p.name == "camera-view-up") shown = tidy(pose->up);
       if (p.name == "camera-direction") {
         const glm::dvec3 ahead = pose->focalPoint - pose->position;
         const double length = glm::length(ahead);
-        if (length > 0) shown = ahead / length;
+        if (length > 0) shown = tidy(ahead / length);
       }
     }
     try {

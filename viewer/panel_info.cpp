@@ -16,6 +16,12 @@
 namespace glint::viewer {
 namespace {
 
+// One part of a text in each line.
+std::string inLines(std::string text) {
+  for (std::size_t at; (at = text.find("; ")) != std::string::npos;) text.replace(at, 2, "\n");
+  return text;
+}
+
 using widgets::style;
 
 void row(const char* name, const char* format, ...) IM_FMTARGS(2);
@@ -182,7 +188,7 @@ void drawCompareTab(PanelContext& context) {
     widgets::tooltip("the difference of the 8-bit values is multiplied by this");
   }
   if (!context.comparison.empty() && document.compare != CompareMode::off)
-    ImGui::TextWrapped("%s", context.comparison.c_str());
+    ImGui::TextWrapped("%s", inLines(context.comparison).c_str());
   if (document.exact || !document.b) return;
   ImGui::Separator();
   ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
@@ -199,7 +205,8 @@ void drawCompareTab(PanelContext& context) {
   ImGui::TextDisabled("What differs");
   const std::vector<Difference> all = differences(document.a, *document.b);
   for (const Difference& each : all)
-    ImGui::TextWrapped("%s: A %s, B %s", each.what.c_str(), each.a.c_str(), each.b.c_str());
+    ImGui::TextWrapped("%s: A %s, B %s", each.what.c_str(), valueText(each.a).c_str(),
+                       valueText(each.b).c_str());
   if (all.empty()) ImGui::TextUnformatted("nothing: A and B are the same look");
 }
 

@@ -68,14 +68,18 @@ LobeSurface lobeSurface(const LobeInput& input, double incidence) {
   surface.columns = columns + 1;
   for (int i = 0; i <= rows; ++i)
     for (int j = 0; j <= columns; ++j) {
-      const double away = reach * i / rows, around = 360 * radians * j / columns;
-      const glm::dvec3 V =
-          R * std::cos(away) + (side * std::cos(around) + up * std::sin(around)) * std::sin(away);
+      const double around = 360 * radians * j / columns;
+      const glm::dvec3 to = side * std::cos(around) + up * std::sin(around);
+      const double horizon = std::atan2(R.z, -to.z);  // where R cos + to sin has z = 0
+      const double away = std::min(reach, horizon) * i / rows;
+      glm::dvec3 V = R * std::cos(away) + to * std::sin(away);
+      V.z = std::max(V.z, 0.0);
       const double lambda = input.blinn ? blinnLambda(N, L, V) : phongLambda(N, L, V);
-      const double value =
-          V.z < 0 ? 0 : lobe(input.highlight.form, input.highlight.gamma, lambda, alpha);
-      surface.points.push_back(V * value);
+      surface.points.push_back(V *
+                               lobe(input.highlight.form, input.highlight.gamma, lambda, alpha));
     }
+  // Closed where it ends.
+  surface.points.insert(surface.points.end(), columns + 1, glm::dvec3(0.0));
   return surface;
 }
 

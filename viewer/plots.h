@@ -37,9 +37,10 @@ LobePlot lobePlot(const LobeInput&, double incidenceDegrees);
 /// The lobe as a surface around the point that is lit: the way to the viewer times the lobe there,
 /// in the form chosen. N is z, the light lies in the plane y = 0 at x < 0.
 struct LobeSurface {
-  std::size_t columns = 0;         ///< of a row; the last one is the first one again
-  std::vector<glm::dvec3> points;  ///< rows around the mirror direction, from there outwards, to
-                                   ///< where the exact lobe is 1 % or the horizon ends it
+  std::size_t columns = 0;  ///< of a row; the last one is the first one again
+  /// Rows around the mirror direction, from there outwards to where the exact lobe is 1 % or the
+  /// horizon ends it; in the last one all are 0.
+  std::vector<glm::dvec3> points;
 };
 
 LobeSurface lobeSurface(const LobeInput&, double incidenceDegrees);

@@ -13,9 +13,10 @@ inline constexpr glm::dvec3 text{1, 1, 1}, dim{0.68, 0.68, 0.70}, edited{1, 0.8,
 inline constexpr glm::dvec3 window{0.13, 0.13, 0.135}, popup{0.16, 0.16, 0.166},
     frame{0.20, 0.20, 0.208}, frameHovered{0.26, 0.26, 0.27}, frameActive{0.30, 0.30, 0.312},
     wrongFrame{0.42, 0.07, 0.07}, button{0.25, 0.25, 0.26}, buttonHovered{0.33, 0.33, 0.343},
-    accent{0.20, 0.40, 0.70}, bright{0.24, 0.46, 0.78}, header{0.24, 0.24, 0.25},
-    headerHovered{0.31, 0.31, 0.322}, menu{0.17, 0.17, 0.177};
-/// Of grabs and ticks, on which nothing is written.
+    edge{0.46, 0.46, 0.475}, accent{0.20, 0.40, 0.70}, bright{0.24, 0.46, 0.78},
+    header{0.24, 0.24, 0.25}, headerHovered{0.31, 0.31, 0.322}, menu{0.17, 0.17, 0.177};
+/// Of grabs and ticks, on which nothing is written. `edge` is around fields, boxes and rounds that
+/// are not ticked, too.
 inline constexpr glm::dvec3 mark{0.34, 0.58, 0.92};
 }  // namespace theme
 

@@ -1,0 +1,67 @@
+"""A window on a model that is made for it, with what a person does again and again."""
+
+import os
+import shutil
+import tempfile
+
+from viewer_driver import ROW, SLIDER, Viewer, wait_for
+
+LINE = 19  # pixels at scale 1, of a list
+
+
+class Job(Viewer):
+    def __init__(self, make, *options, materials=1, **others):
+        folder = tempfile.mkdtemp(prefix="glint-job-")
+        try:
+            path = make(os.path.join(folder, "model.glb")) if callable(make) else make
+            super().__init__(path, *options, **others)
+        finally:
+            shutil.rmtree(folder)
+        # The list of materials has a line for all, and one for each up to five.
+        self.below = LINE * (min(materials + 1, 6) - 2)
+
+    def say(self, *words):
+        """Has the palette do something."""
+        for each in words:
+            self.key("ctrl+p")
+            self.settled()
+            self.xdotool("type", "--delay", "15", each)
+            self.settled()
+            self.key("Return")
+            self.settled()
+
+    def select(self, material):
+        self.key("ctrl+f")
+        self.settled()
+        self.xdotool("type", "--delay", "15", material)
+        self.key("Return")
+        self.settled()
+
+    def set(self, row, text):
+        """Types a value of the selected material."""
+        self.move(SLIDER[0] + 60, ROW[row] + self.below)
+        self.xdotool("keydown", "ctrl", "click", "1", "keyup", "ctrl")
+        self.settled()
+        self.xdotool("type", "--delay", "15", text)
+        self.key("Return")
+        self.move(20, 20)
+        self.settled()
+
+    def answer(self, text=None):
+        """Enter in a dialog, with a name if one is given."""
+        self.settled()
+        if text is not None:
+            self.key("ctrl+a")
+            self.xdotool("type", "--delay", "15", text)
+            self.settled()
+        self.key("Return")
+        self.settled()
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def bytes_of(self, name):
+        wait_for(name, lambda: os.path.exists(self.path(name)))
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
