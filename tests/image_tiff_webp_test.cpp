@@ -212,12 +212,12 @@ class Bits {
 // "WebP lossless bitstream specification": 2 x 2 pixels, no transforms; red, blue and alpha have
 // one value, green has two, of which a bit chooses for each pixel.
 TEST(WebpFile, LosslessCodesAndAlpha) {
-  Bits bits;
-  bits.add(0x2f, 8).add(1, 14).add(1, 14).add(1, 1).add(0, 3);  // size less one, alpha, version
-  bits.add(0, 1).add(0, 1).add(0, 1);                           // no transform, cache, groups
-  bits.code({20, 210}).code({77}).code({5}).code({128}).code({0});
-  bits.add(0, 1).add(1, 1).add(1, 1).add(0, 1);
-  string data = bits.text;
+  Bits stream;
+  stream.add(0x2f, 8).add(1, 14).add(1, 14).add(1, 1).add(0, 3);  // size less one, alpha, version
+  stream.add(0, 1).add(0, 1).add(0, 1);                           // no transform, cache, groups
+  stream.code({20, 210}).code({77}).code({5}).code({128}).code({0});
+  stream.add(0, 1).add(1, 1).add(1, 1).add(0, 1);
+  string data = stream.text;
   const auto size = [](std::size_t n) { return string{char(n & 255), char(n >> 8), 0, 0}; };
   string chunk = "VP8L" + size(data.size()) + data;
   if (chunk.size() % 2 == 1) chunk += '\0';
