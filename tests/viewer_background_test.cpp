@@ -244,5 +244,32 @@ TEST(Pace, DoesNotMakeSmallerWhatThatDoesNotMakeFaster) {
   EXPECT_EQ(pace.division(), 1);
 }
 
+TEST(Pace, GrowsAgainWhereMostOfTheTimeIsNotThePixels) {
+  Pace pace;
+  const Look look = scenes::plainLook(1000, 800);
+  pace.drewWhole(2000, false);
+  EXPECT_NEAR(pace.rest(), 0.6, 1e-12);
+  const auto drag = [&](double each, double pixel) {
+    for (int i = 0; i < 20; ++i) {
+      const glm::dvec2 size(pace.faster(look).resolution);
+      pace.drewFaster(each + pixel * size.x * size.y);
+    }
+  };
+  drag(20, 400e-6);
+  EXPECT_GT(pace.division(), 3);
+  pace.learnAnew();  // the coarse scene is there
+  drag(16, 12e-6);
+  EXPECT_EQ(pace.division(), 1);
+  drag(16, 40e-6);  // too slow by one division less: tried once, not again and again
+  const int found = pace.division();
+  EXPECT_GT(found, 1);
+  for (int i = 0; i < 10; ++i) {
+    pace.drewFaster(0.69 * slowFrame);
+    EXPECT_EQ(pace.division(), found);
+  }
+  pace.drewWhole(20, false);
+  EXPECT_EQ(pace.rest(), restAfter);
+}
+
 }  // namespace viewer_background_test
 }  // namespace glint::viewer

@@ -223,6 +223,47 @@ def test_presets_and_plots_have_keys():
         assert viewer.picture()[0] == first
 
 
+def test_the_lobe_in_space_is_turned_and_its_light_moved():
+    with Viewer(TEAPOT) as viewer:
+        first, _ = viewer.picture()
+        viewer.key("F8", "F8")
+        viewer.move(20, 20)
+        viewer.settled()
+        plot = (PANEL_LEFT + 10, 590, 340, 150)
+        seen = [viewer.x.capture(*plot)]
+        blue = [seen[0][i:i + 3] for i in range(0, len(seen[0]), 3)
+                if seen[0][i + 2] > 2 * seen[0][i] and seen[0][i + 2] > 120]
+        assert len(blue) > 500, "there is no surface"
+        for act in (lambda: viewer.drag(PANEL_LEFT + 180, 700, PANEL_LEFT + 240, 670),
+                    lambda: viewer.drag(PANEL_LEFT + 126, 573, PANEL_LEFT + 250, 573),
+                    lambda: viewer.drag(PANEL_LEFT + 206, 759, PANEL_LEFT + 40, 759)):
+            act()
+            viewer.move(20, 20)
+            viewer.settled()
+            now = viewer.x.capture(*plot)
+            assert now not in seen
+            seen.append(now)
+        again, look = viewer.picture()
+        assert again == first and "material" not in look and "light" not in look
+
+
+def test_the_list_of_materials_shows_balls():
+    with Viewer(TEAPOT) as viewer:
+        viewer.picture()
+        ball = (PANEL_LEFT + 18, 281, 12, 12)
+
+        def mean():
+            shown = viewer.x.capture(*ball)
+            return [sum(shown[c::3]) / len(shown) * 3 for c in range(3)]
+        red, green, blue = mean()
+        assert green > 1.5 * red and blue > 1.5 * red, (red, green, blue)  # the teapot's turquoise
+        viewer.key("m")  # gold
+        viewer.move(20, 20)
+        viewer.settled()
+        red, green, blue = mean()
+        assert red > green > 2 * blue, (red, green, blue)
+
+
 def test_pictures_of_other_sizes_without_background():
     with Viewer(TEAPOT, "--no-background") as viewer:
         _, path = viewer.save_look()

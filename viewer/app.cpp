@@ -126,7 +126,7 @@ bool App::somethingDue() {
   }
   if (session_.playing) due = true;
   if (tooltipDue_ && now >= *tooltipDue_) due = true;
-  if (shownResult_.request.preview && seconds(now - lastChange_) >= restAfter) due = true;
+  if (shownResult_.request.preview && seconds(now - lastChange_) >= pace_.rest()) due = true;
   if (recovery_.waiting())
     recovery_.keep(session_.document.a, session_.unsaved(),
                    session_.model ? session_.model->path : std::filesystem::path());
@@ -161,7 +161,7 @@ void App::run() {
   };
   while (!quitting_) {
     double patience = session_.playing               ? 0.01
-                      : shownResult_.request.preview ? restAfter
+                      : shownResult_.request.preview ? pace_.rest()
                       : recovery_.waiting()          ? 0.2
                                                      : 0.5;
     const double tip = widgets::tooltipDue();

@@ -26,9 +26,6 @@
 
 namespace glint::viewer {
 
-/// Seconds without input after which the picture is drawn in full.
-inline constexpr double restAfter = 0.12;
-
 inline double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }

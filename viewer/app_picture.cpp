@@ -47,9 +47,9 @@ PaintRequest App::wanted(bool& moving) {
     lastFull_ = want.a;
     lastChange_ = now;
   }
-  moving =
-      (ImGui::IsAnyMouseDown() || seconds(now - std::max(lastScroll_, lastPlayed_)) < restAfter) &&
-      seconds(now - lastChange_) < restAfter;
+  moving = (ImGui::IsAnyMouseDown() ||
+            seconds(now - std::max(lastScroll_, lastPlayed_)) < pace_.rest()) &&
+           seconds(now - lastChange_) < pace_.rest();
   const bool isWhole =
       shownResult_.a && !shownResult_.request.preview && shownResult_.request.a == want.a;
   if (moving && !isWhole && pace_.tooSlow()) {
@@ -107,6 +107,9 @@ void App::receive(PaintResult result) {
   if (failed_ && session_.statusIsError) session_.say("drawn again");
   failed_.reset();
   if (result.a != shownResult_.a) {
+    if (request.preview && shownResult_.request.preview &&
+        result.a->coarse != shownResult_.a->coarse)
+      pace_.learnAnew();
     if (request.preview)
       pace_.drewFaster(result.a->milliseconds, result.a->times.compile > compiling);
     else

@@ -218,7 +218,7 @@ std::string App::comparisonText() const {
   }
   if (comparesLooks(document) && a && shownResult_.b) {
     std::snprintf(text, sizeof text,
-                  "|A - B|: at most %d of 255 levels, at %d, %d; mean %.4g; %zu pixels",
+                  "|A - B|: at most %d of 255 levels, at %d, %d; mean %.4g; %zu pixels differ",
                   difference_.largest, difference_.where.x, difference_.where.y, difference_.mean,
                   difference_.pixels);
     return text;

@@ -11,14 +11,24 @@ Look Pace::faster(const Look& look) const {
   return fast;
 }
 
+double Pace::rest() const { return std::clamp(whole_ / 2000, restAfter, 0.6); }
+
 void Pace::drewWhole(double ms, bool cold) {
   if (!cold || whole_ == 0) whole_ = ms;
+  learnAnew();
+}
+
+void Pace::learnAnew() {
+  useful_ = most;
+  larger_ = 0;
+  slow_ = {};
 }
 
 void Pace::drewFaster(double ms, bool cold) {
   if (cold) return;
   const double d = division_;
   if (ms > slowFrame) {
+    slow_[std::size_t(division_)] = true;
     if (larger_ > 0 && ms > 0.85 * larger_) {
       useful_ = std::max(1, division_ - 1);
       division_ = useful_;
@@ -27,7 +37,10 @@ void Pace::drewFaster(double ms, bool cold) {
       larger_ = ms;
       ++division_;
     }
-  } else if (division_ > 1 && ms * d * d < 0.6 * slowFrame * (d - 1) * (d - 1)) {
+  } else if (division_ > 1 && ((ms < 0.7 * slowFrame && !slow_[std::size_t(division_ - 1)]) ||
+                               ms * d * d < 0.6 * slowFrame * (d - 1) * (d - 1))) {
+    // It is tried once, as no one knows what of the time is the pixels'; and again where all of it
+    // may be.
     --division_;
     larger_ = 0;
   } else {

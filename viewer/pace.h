@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
+
 #include "glint/scene/look.h"
 
 namespace glint::viewer {
 
 /// How long a picture may take that follows a hand, ms.
 inline constexpr double slowFrame = 1000.0 / 30;
+
+/// Seconds without a change after which the picture is drawn in full.
+inline constexpr double restAfter = 0.12;
 
 /// How small a picture has to be to follow a hand: learnt from the times that pictures took.
 class Pace {
@@ -16,7 +21,15 @@ class Pace {
   /// number.
   Look faster(const Look&) const;
 
-  /// A whole picture took so long. `cold`: shaders were compiled for it, the next ones are faster.
+  /// As restAfter, but longer where a whole picture takes long: once begun it holds up the next
+  /// change.
+  double rest() const;
+
+  /// What is drawn while something moves is of another kind now: times tell nothing any more.
+  void learnAnew();
+
+  /// A whole picture took so long; at rest sizes are learnt anew. `cold`: shaders were compiled for
+  /// it, the next ones are faster.
   void drewWhole(double ms, bool cold);
   /// A picture by faster() took so long; `cold` as above. Where smaller ones are hardly faster
   /// (vertices take the time, not pixels) they are not made smaller still.
@@ -28,8 +41,9 @@ class Pace {
   static constexpr int most = 6;
   double whole_ = 0;
   int division_ = 1;
-  int useful_ = most;  ///< smaller pictures were no faster
-  double larger_ = 0;  ///< ms by one division less
+  int useful_ = most;                  ///< smaller pictures were no faster
+  double larger_ = 0;                  ///< ms by one division less
+  std::array<bool, most + 1> slow_{};  ///< divisions that were too slow since the last rest
 };
 
 }  // namespace glint::viewer

@@ -169,15 +169,17 @@ void Painter::paint(const PaintRequest& request, const std::atomic<bool>& stop, 
     GpuScene* const coarse = request.preview ? o.coarse.inPose(its) : nullptr;
     Look definite = withChoice(look, *choice);
     if (request.preview) definite = withFewerLights(its.scene, its.bounds, definite);
-    const bool isCoarse = coarse || (request.preview && definite.light != look.light);
+    const bool fewerLights = request.preview && definite.light != look.light;
     const auto fits = [&] {
-      return kept && kept->asked == look && kept->choice == choice && kept->coarse == isCoarse;
+      return kept && kept->asked == look && kept->choice == choice &&
+             kept->coarse == (coarse != nullptr) && kept->fewerLights == fewerLights;
     };
     if (!fits()) {
       auto picture =
           drawPicture(*o.renderer, coarse ? *coarse : *posed.scene, its.bounds, definite, stop);
       if (picture) {
-        picture->coarse = isCoarse;
+        picture->coarse = coarse != nullptr;
+        picture->fewerLights = fewerLights;
         picture->asked = look;
         picture->look = withChoice(look, *choice);
         picture->choice = choice;

@@ -21,7 +21,7 @@ struct DrawnPicture {
   Image linear;                     ///< before exposure
   std::vector<std::uint8_t> codes;  ///< RGBA, rows from the top: the bytes of glint render's PNG
   DrawList list;
-  bool coarse = false;  ///< of a coarse scene, or with fewer lights
+  bool coarse = false, fewerLights = false;  ///< of a coarse scene; with fewer lights than asked
   int samples = 1;
   RenderTimes times;
   double milliseconds = 0;  ///< all together, with encoding
