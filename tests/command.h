@@ -50,6 +50,7 @@ struct CommandOptions {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< an empty value unsets
   int timeoutSeconds = 60;
   std::string folder{};    ///< to run in
+  std::string input{};     ///< a file that its stdin is; else there is nothing to be read
   bool closedOut = false;  ///< stdout is a pipe that nobody reads
   bool fullOut = false;    ///< stdout is a full disk
   long fileLimit = 0;      ///< bytes that it may write into one file; 0: no limit
@@ -69,7 +70,7 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
   const pid_t child = fork();
   if (child == 0) {
     setpgid(0, 0);
-    const int in = open("/dev/null", O_RDONLY);
+    const int in = open(options.input.empty() ? "/dev/null" : options.input.c_str(), O_RDONLY);
     const int out =
         options.closedOut ? closed[1] : open(outFile, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int err = open(errPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);

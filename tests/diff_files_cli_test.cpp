@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "command.h"
 #include "glint/image/exr_writer.h"
@@ -89,6 +90,18 @@ TEST(DiffLayers, EveryChannelCounts) {
   ran = files.diff({"a.exr", "moved.exr", "--metric", "flip", "--threshold", "0.1"});
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, HasSubstr("which no condition judges"));
+  // Where nothing is judged, nothing is the same.
+  for (const std::vector<std::string>& condition :
+       {std::vector<std::string>{"--max-pixels", "100%"},
+        {"--metric", "flip", "--threshold", "1"}}) {
+    std::vector<std::string> arguments{"xyz.exr", "xyz2.exr"};
+    arguments.insert(arguments.end(), condition.begin(), condition.end());
+    ran = files.diff(arguments);
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.out, HasSubstr("it differs in 1 pixel (max 0.5), which no condition judges"));
+    arguments[1] = "xyz.exr";
+    EXPECT_EQ(files.diff(arguments).status, 0);
+  }
 }
 
 TEST(DiffLayers, EqualInfinitiesAreEqual) {
@@ -133,6 +146,19 @@ TEST(DiffConditions, AllMustHold) {
   // In the worst window of 2 x 2 there are two.
   EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "2"}).status, 0);
   EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "1"}).status, 1);
+  // A share is one of the window: two of four.
+  EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "50%"}).status, 0);
+  EXPECT_THAT(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "49%"}).out,
+              HasSubstr("2 pixels are over the tolerance of 0.1, allowed are 1.96"));
+  // What is of no use without a count is not passed over.
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--window", "2"}, {"--shift", "1"}, {"--ignore-anti-aliasing"}}) {
+    std::vector<std::string> arguments{"a.png", "b.png"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_THAT(files.diff(arguments).err, HasSubstr(option[0] + ": it is of --max-pixels"));
+    arguments.insert(arguments.end(), {"--metric", "pixels", "--threshold", "4"});
+    EXPECT_EQ(files.diff(arguments).status, 0);
+  }
 }
 
 TEST(DiffConditions, WhatMovedByAPixel) {
@@ -182,6 +208,49 @@ TEST(DiffConditions, OfPairsByAFile) {
   EXPECT_EQ(files.diff({"x", "y"}).status, 0);
 }
 
+TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
+  const Files files("masks");
+  Image b = grey, mask = filled(8, 6, {1, 1, 1, 1});
+  b.values[0] = 1;
+  for (int c = 0; c < 3; ++c) mask.values[std::size_t(c)] = 0;
+  for (const char* name : {"one.png", "[o]ne.png"}) {
+    write(files / ("x/" + std::string(name)), grey);
+    write(files / ("y/" + std::string(name)), b);
+  }
+  write(files / "x/masks/clock.png", mask);
+  // The mask in A is neither missing nor pruned; a name stands for itself before it is a pattern.
+  writeFile(files / "x/glint-diff.txt",
+            "[o]ne.png --mask masks/clock.png\none.png --max-pixels 1\nnone.png --max-pixels 3\n");
+  Ran ran = files.diff({"x", "y", "--prune"});
+  EXPECT_EQ(ran.status, 0) << ran.out;
+  EXPECT_THAT(ran.out, HasSubstr("2 pairs: 2 same"));
+  EXPECT_EQ(ran.err, "glint: x/glint-diff.txt:3: none.png: names no pair: check the pattern\n");
+  EXPECT_EQ(contents(files / "x/masks/clock.png").substr(1, 3), "PNG");
+  writeFile(files / "none.txt", "");
+  EXPECT_EQ(
+      files.diff({"x", "y", "--mask", "x/masks/clock.png", "--conditions", "none.txt"}).status, 0);
+  // So it is with --update.
+  std::filesystem::remove(files / "x/glint-diff.txt");
+  std::filesystem::remove_all(files / "x/masks");
+  EXPECT_EQ(files.diff({"x", "y", "--update", "[o]ne.png"}).err,
+            "glint: replaced the baseline x/[o]ne.png\n");
+  write(files / "x/-one.png", grey);
+  write(files / "y/-one.png", b);
+  EXPECT_EQ(files.diff({"x", "y", "--update", "./-one.png"}).err,
+            "glint: replaced the baseline x/-one.png\n");
+  EXPECT_EQ(files.diff({"x", "y", "--update", "[o]ne*"}).err,
+            "glint: replaced the baseline x/one.png\n");
+  write(files / "x/gone.png", grey);
+  EXPECT_THAT(files.diff({"x", "y", "--prune"}).out, HasSubstr("; 1 baseline removed\n"));
+  // Of single pictures there is nothing that these could mean.
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--prune"}, {"--conditions", "none.txt"}}) {
+    std::vector<std::string> arguments{"x/one.png", "y/one.png"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_THAT(files.diff(arguments).err, HasSubstr(option[0]));
+  }
+}
+
 TEST(DiffBaselines, TheNearestCounts) {
   const Files files("nearest");
   Image b = grey;
@@ -218,17 +287,115 @@ TEST(DiffSizes, LongSidesAndOtherSizes) {
   EXPECT_GT(difference.row(3)[4 * 9], 0.05f);
 }
 
+// Pages larger than 64 MiB are read by rows: less is held than one of the two would take (83 MB).
+TEST(DiffSizes, LargePagesAreNotHeld) {
+  const Files files("pages");
+  constexpr int width = 1200, height = 23046;
+  for (const char* name : {"a.png", "b.png", "longer.png"}) {
+    const int rows = height + 4 * (name[0] == 'l');
+    const auto writer = glint::openPictureWriter(files / name, width, rows);
+    Image row = filled(width, 1, {0.25f, 0.5f, 0.75f, 1});
+    for (int y = 0; y < rows; ++y) {
+      row.values[std::size_t(4 * (y % width))] = 0.9f;
+      float& one = row.values[4 * 7 + 1];
+      const float green = std::exchange(one, name[0] == 'b' && y == 20000 ? 0 : one);
+      writer->write(row);
+      one = green;
+    }
+    writer->finish();
+  }
+  const auto expectSmall = [](const Ran& ran) { EXPECT_LT(ran.peakKib, 60 << 10) << ran.out; };
+  Ran ran = files.diff({"a.png", "b.png"});
+  EXPECT_THAT(ran.out,
+              HasSubstr("1 of 27655200 pixels differ (1 pixel differs); worst at 7,20000"));
+  expectSmall(ran);
+  ran = files.diff({"a.png", "b.png", "--max-pixels", "1", "-o", "d.png"});
+  EXPECT_EQ(ran.status, 0) << ran.out;
+  expectSmall(ran);
+  ran = files.diff({"a.png", "longer.png"});
+  EXPECT_THAT(ran.out, HasSubstr("4800 of 27660000 pixels differ"));
+  expectSmall(ran);
+  // What is damaged becomes no baseline, wherever the damage is met.
+  const std::string whole = contents(files / "b.png");
+  writeFile(files / "cut.png", whole.substr(0, whole.size() - 20));
+  EXPECT_EQ(files.diff({"a.png", "cut.png", "--update"}).status, 2);
+  EXPECT_EQ(files.diff({"cut.png", "cut.png", "--update"}).status, 2);
+  ran = files.diff({"new.png", "cut.png", "--update"});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("cut.png: the PNG is damaged"));
+  EXPECT_THAT(files.names(), Not(testing::Contains("new.png")));
+  EXPECT_NE(contents(files / "a.png"), contents(files / "cut.png"));
+}
+
+TEST(DiffInput, FromStdin) {
+  const Files files("stdin");
+  Image b = grey;
+  b.values[0] = 1;
+  write(files / "a.png", grey);
+  write(files / "b.png", b);
+  write(files / "a.exr", grey);
+  const auto piped = [&](const std::string& input, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "diff");
+    return runGlint(arguments, {.environment = {}, .folder = files.path(), .input = files / input});
+  };
+  EXPECT_THAT(piped("a.png", {"a.png", "-"}).out, HasSubstr("stdin: same, equal in every pixel"));
+  EXPECT_EQ(piped("a.png", {"-", "a.png"}).status, 0);
+  EXPECT_EQ(piped("a.exr", {"a.exr", "-"}).status, 0);
+  const Ran ran = piped("b.png", {"a.png", "-", "--json", "-", "--html", "r.html"});
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_EQ(Json::parse(ran.out)["differing"], 1);
+  EXPECT_THAT(contents(files / "r.html"), HasSubstr("id=\"b0\""));
+  EXPECT_EQ(piped("b.png", {"-", "a.png", "-o", "d.png", "--max-pixels", "1"}).status, 0);
+  // Each of several baselines is tried.
+  write(files / "a_1.png", b);
+  EXPECT_THAT(piped("b.png", {"a.png", "-"}).out, HasSubstr("compared with a_1.png"));
+  EXPECT_THAT(piped("b.png", {"-", "-"}).err, HasSubstr("one of the two may come from stdin"));
+  EXPECT_EQ(piped("b.png", {"a.png", "-", "--update"}).status, 2);
+  EXPECT_EQ(piped("b.png", {"-", "a.png", "--update"}).status, 2);
+  EXPECT_THAT(piped("/dev/null", {"a.png", "-"}).err, HasSubstr("stdin: "));
+  EXPECT_EQ(files.diff({"a.png", "-"}).status, 2);
+  EXPECT_THAT(files.names(), Not(testing::Contains("-")));
+}
+
 TEST(DiffReports, MarkdownOfAMergeRequest) {
   const Files files("markdown");
   Image b = grey;
   b.values[0] = 1;
-  write(files / "x/one|two_<b>.png", grey);
-  write(files / "y/one|two_<b>.png", b);
+  write(files / "x/one|two_<b>&$.png", grey);
+  write(files / "y/one|two_<b>&$.png", b);
   const Ran ran = files.diff({"x", "y", "--markdown", "-"});
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("### Pictures: 1 differs\n"));
-  EXPECT_THAT(ran.out, HasSubstr("| one\\|two\\_\\<b>.png | differs |"));
+  EXPECT_THAT(ran.out, HasSubstr("| one\\|two\\_\\<b>\\&\\$.png | differs |"));
   EXPECT_THAT(ran.out, HasSubstr("`glint diff x y --update`"));
+}
+
+TEST(DiffPicture, OnStdoutAndBesideThePage) {
+  const Files files("stdout");
+  Image b = grey;
+  b.values[0] = 1;
+  write(files / "a.png", grey);
+  write(files / "b.png", b);
+  // Nothing but the picture is written there.
+  for (const char* kind : {"flip", "absolute"}) {
+    ASSERT_EQ(files.diff({"a.png", "b.png", "-o", "d.png", "--difference", kind}).status, 1);
+    const Ran ran = files.diff({"a.png", "b.png", "-o", "-", "--difference", kind});
+    EXPECT_EQ(ran.status, 1) << ran.err;
+    EXPECT_EQ(ran.out, contents(files / "d.png"));
+  }
+  // The page has its own map, since JPEG would change its colours, and |a - b| is another picture.
+  const auto mapOf = [&](const std::string& output) {
+    const std::string kind = output == "a.jpg" ? "absolute" : "flip";
+    EXPECT_EQ(files.diff({"a.png", "b.png", "-o", output, "--html", "r.html", "--difference", kind})
+                  .status,
+              1);
+    const std::string page = contents(files / "r.html"), begin = "id=\"m0\">";
+    const auto at = page.find(begin);
+    return page.substr(at, page.find('<', at) - at);
+  };
+  EXPECT_THAT(mapOf("d.png"), HasSubstr("iVBOR"));
+  for (const char* output : {"d.jpg", "a.jpg", "d.exr", "-"})
+    EXPECT_EQ(mapOf(output), mapOf("d.png"));
 }
 
 TEST(DiffReports, PicturesBesideThePage) {

@@ -282,16 +282,24 @@ def test_thousand_pairs(browser):
     for n in range(1, 1000):
         os.link(first, first.with_name("%04d.png" % n))
         os.link(other if n % 10 == 0 else first, other.with_name("%04d.png" % n))
+    # The worst is not the first.
+    other.with_name("0730.png").unlink()
+    write_png(other.with_name("0730.png"), 24, 16, lambda x, y: (255 - 4 * x, 0, 0))
     page = report("thousand", 1)
     begin = time.monotonic()
     opened(browser, page)
-    assert len(names(browser)) == 1000
     print("1000 pairs open in %.1f s" % (time.monotonic() - begin))
+    browser.wait_for("rows.children.length === 1000")
+    assert sorted(names(browser)) == ["%04d.png" % n for n in range(1000)]
+    # The pictures that are seen first are the first in the file.
+    text = page.read_text()
+    assert text.index('id="a730"') < text.index('id="a0"') < text.index('id="a999"')
+    assert text.count('id="a730"') == 1 and text.count('id="b730"') == 1
     # Only what is looked at is decoded.
     assert browser.evaluate("document.querySelectorAll('canvas').length") <= 4
     for n in range(5):
         browser.key("j")
-    browser.wait_for("document.querySelector('#detail h2').textContent === '0050.png: differs'")
+    browser.wait_for("document.querySelector('#detail h2').textContent === '0040.png: differs'")
     browser.key("/")
     browser.type("77")
     assert len(names(browser)) == 19

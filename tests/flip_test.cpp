@@ -143,6 +143,104 @@ TEST(Flip, PixelsPerDegree) {
   EXPECT_THROW(glint::flip(a.rows(), a.rows(), options), glint::InputError);
 }
 
+/// The largest FLIP over `count` exposures from `start` to `stop`, by the paper's formulas.
+std::vector<double> hdrByThePaper(const Picture& a, const Picture& b, double start, double stop,
+                                  int count, const std::function<Rgb(Rgb)>& tone) {
+  std::vector<double> largest(std::size_t(a.width) * a.height);
+  for (int i = 0; i < count; ++i) {
+    const double exposure = count > 1 ? start + i * (stop - start) / (count - 1) : start;
+    std::vector<Rgb> mapped[2] = {a.doubles(), b.doubles()};
+    for (auto& pixels : mapped)
+      for (Rgb& p : pixels) {
+        for (double& v : p) v *= std::exp2(exposure);
+        p = tone(p);
+      }
+    const auto errors =
+        glint::test::flipByThePaper(a.width, a.height, mapped[0], mapped[1], 67.0206432765823);
+    for (std::size_t k = 0; k < errors.size(); ++k) largest[k] = std::max(largest[k], errors[k]);
+  }
+  return largest;
+}
+
+/// The value below which errors of that share of the sum of all lie.
+double weightedQuantile(std::vector<double> errors, double share) {
+  std::sort(errors.begin(), errors.end());
+  double all = 0, below = 0;
+  for (const double error : errors) all += error;
+  for (const double error : errors)
+    if ((below += error) >= share * all) return error;
+  return 0;
+}
+
+// The tone mappers as their authors write them, and exposures that are given.
+TEST(HdrFlip, ExposuresAndToneMappersAsGiven) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-5, 3);
+  const auto noise = [&](int, int) {
+    return Rgb{std::exp2(any(random)), std::exp2(any(random)), std::exp2(any(random))};
+  };
+  const Picture a(27, 19, noise), b(27, 19, noise);
+  // Hable, "Filmic tonemapping operators" (2010): exposure bias 2, white at 11.2.
+  const auto hable = [](Rgb p) {
+    const auto curve = [](double x) {
+      return (x * (0.15 * x + 0.10 * 0.50) + 0.20 * 0.02) / (x * (0.15 * x + 0.50) + 0.20 * 0.30) -
+             0.02 / 0.30;
+    };
+    for (double& v : p) v = curve(2 * v) / curve(11.2);
+    return p;
+  };
+  // Reinhard, Stark, Shirley, Ferwerda (2002), of the luminance.
+  const auto reinhard = [](Rgb p) {
+    const double luminance = 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+    for (double& v : p) v /= 1 + luminance;
+    return p;
+  };
+  // Narkowicz, "ACES filmic tone mapping curve" (2015), and the paper's 0.6.
+  const auto aces = [](Rgb p) {
+    for (double& v : p) {
+      v *= 0.6;
+      v = v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
+    }
+    return p;
+  };
+  struct Case {
+    glint::ToneMapper mapper;
+    std::function<Rgb(Rgb)> tone;
+    double start, stop;
+    int count;
+  };
+  const Case cases[] = {{glint::ToneMapper::hable, hable, -2, 3, 4},
+                        {glint::ToneMapper::reinhard, reinhard, -3.5, 1, 3},
+                        {glint::ToneMapper::aces, aces, 0.5, 2.5, 2},
+                        {glint::ToneMapper::aces, aces, -1, -1, 1}};
+  for (const Case& c : cases) {
+    FlipOptions options;
+    options.toneMapper = c.mapper;
+    options.startExposure = c.start;
+    options.stopExposure = c.stop;
+    options.exposures = c.count;
+    const FlipResult result = glint::hdrFlip(a.rows(), b.rows(), options);
+    EXPECT_EQ(result.startExposure, c.start);
+    EXPECT_EQ(result.stopExposure, c.stop);
+    EXPECT_EQ(result.exposures, c.count);
+    const auto errors = hdrByThePaper(a, b, c.start, c.stop, c.count, c.tone);
+    double mean = 0;
+    for (const double error : errors) mean += error / double(errors.size());
+    EXPECT_NEAR(result.mean, mean, 2e-5);
+    // The median and the quartiles weighted by the errors themselves, to half a step of 1/65536.
+    EXPECT_NEAR(result.median, weightedQuantile(errors, 0.5), 5e-4);
+    EXPECT_NEAR(result.firstQuartile, weightedQuantile(errors, 0.25), 5e-4);
+    EXPECT_NEAR(result.thirdQuartile, weightedQuantile(errors, 0.75), 5e-4);
+  }
+  // One a stop between what is given.
+  FlipOptions options;
+  options.startExposure = -1;
+  options.stopExposure = 3.5;
+  EXPECT_EQ(glint::hdrFlip(a.rows(), b.rows(), options).exposures, 5);
+  options.startExposure = 4;
+  EXPECT_THROW(glint::hdrFlip(a.rows(), b.rows(), options), glint::InputError);
+}
+
 TEST(HdrFlip, IsTheLargestOverExposures) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-6, 4);
@@ -165,18 +263,11 @@ TEST(HdrFlip, IsTheLargestOverExposures) {
               1e-6);
   EXPECT_EQ(result.exposures,
             std::max(2, int(std::ceil(result.stopExposure - result.startExposure))));
-  std::vector<double> largest(21 * 15);
-  for (int i = 0; i < result.exposures; ++i) {
-    const double exposure =
-        result.startExposure +
-        i * (result.stopExposure - result.startExposure) / (result.exposures - 1);
-    std::vector<Rgb> mapped[2] = {a.doubles(), b.doubles()};
-    for (auto& pixels : mapped)
-      for (Rgb& p : pixels)
-        for (double& v : p) v = curve(v * std::exp2(exposure));
-    const auto errors = glint::test::flipByThePaper(21, 15, mapped[0], mapped[1], 67.0206432765823);
-    for (std::size_t k = 0; k < errors.size(); ++k) largest[k] = std::max(largest[k], errors[k]);
-  }
+  const auto largest =
+      hdrByThePaper(a, b, result.startExposure, result.stopExposure, result.exposures, [&](Rgb p) {
+        for (double& v : p) v = curve(v);
+        return p;
+      });
   double mean = 0;
   for (const double error : largest) mean += error / double(largest.size());
   EXPECT_NEAR(result.mean, mean, 2e-6);

@@ -17,21 +17,30 @@ namespace fs = std::filesystem;
 
 bool isPictureName(const std::string& path) { return pictureFormatOf(path) != nullptr; }
 
-void checkNames(const std::vector<std::string>& named, const std::vector<DiffEntry>& entries) {
-  for (const std::string& name : named) {
-    const auto is = [&](const DiffEntry& entry) {
-      return entry.name == name || isNamedBy(name, entry.name);
-    };
-    if (std::none_of(entries.begin(), entries.end(), is))
-      throw InputError("--update " + printablePath(name) + ": no such pair: check the name");
+std::set<std::string> namesMeant(const std::vector<std::string>& named,
+                                 const std::vector<DiffEntry>& entries) {
+  std::set<std::string> all, meant;
+  for (const DiffEntry& entry : entries) all.insert(entry.name);
+  for (const std::string& given : named) {
+    const std::string name = given.starts_with("./") ? given.substr(2) : given;
+    if (all.count(name) > 0) {
+      meant.insert(name);
+      continue;
+    }
+    bool found = false;
+    for (const std::string& one : all)
+      if (isNamedBy(name, one)) {
+        meant.insert(one);
+        found = true;
+      }
+    if (!found)
+      throw InputError("--update " + printablePath(given) + ": no such pair: check the name");
   }
+  return named.empty() ? all : meant;
 }
 
-void update(const std::vector<std::string>& named, DiffEntry& entry, const std::string& target) {
-  const auto means = [&](const std::string& name) {
-    return name == entry.name || isNamedBy(name, entry.name);
-  };
-  if (!named.empty() && std::none_of(named.begin(), named.end(), means)) return;
+void update(const std::set<std::string>& meant, DiffEntry& entry, const std::string& target) {
+  if (meant.count(entry.name) == 0) return;
   if (entry.status == done || !entry.readableB) return;
   if (pictureFormatOf(target) != pictureFormatOf(entry.b))
     throw InputError("--update: " + printablePath(entry.b) + " is not of the format of " +
@@ -58,7 +67,7 @@ void prune(DiffEntry& entry) {
   std::cerr << "glint: removed the baseline " << printablePath(entry.a) << "\n";
   entry.status = done;
   entry.error.clear();
-  entry.updated = true;
+  entry.removed = true;
   entry.notes = {"baseline removed"};
 }
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <utility>
 
+#include "diff_report.h"
 #include "glint/image/error.h"
 #include "glint/image/flip.h"
 #include "glint/image/report_page.h"
@@ -18,6 +21,24 @@ extern const ReportPage diffPage;  // diff_page.html
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The pair that the page shows first: of those that differ the one of the largest error, or else
+/// one of the kind that comes next in its list.
+std::size_t firstShown(const nlohmann::ordered_json& pairs) {
+  const auto rank = [](const nlohmann::ordered_json& pair) {
+    constexpr std::string_view kinds[] = {"differs", "error", "missing", "no baseline", "same"};
+    const auto place = std::find(std::begin(kinds), std::end(kinds), kindOf(pair));
+    double error = 0;
+    for (const char* name : {"max", "hdr-flip", "flip"})
+      if (pair.contains("metrics") && pair["metrics"].contains(name) &&
+          pair["metrics"][name]["value"].is_number())
+        error = pair["metrics"][name]["value"].get<double>();
+    return std::pair(place - std::begin(kinds), -error);
+  };
+  const auto first = std::min_element(
+      pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  return std::size_t(first - pairs.begin());
+}
 
 /// The colours of FLIP's map, "rrggbb" for each of 256 errors: a colour tells its error.
 std::string magmaText() {
@@ -58,6 +79,7 @@ void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bo
   constexpr std::size_t longPage = 48u << 20;
   const bool same = !differs && !pictures.a.empty() && pictures.b.empty();
   if (same && written_ > longPage) return;
+  const std::size_t begin = written_;
   for (const auto& [kind, bytes] :
        {std::pair{'a', &pictures.a}, std::pair{'b', &pictures.b}, std::pair{'m', &pictures.map},
         std::pair{'v', &pictures.valuesA}, std::pair{'w', &pictures.valuesB}}) {
@@ -74,6 +96,20 @@ void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bo
     file.write(std::as_bytes(std::span(text)));
     file.commit();
   }
+  places_[index] = {begin, written_};
+}
+
+void DiffHtml::copyKept(std::size_t begin, std::size_t end) {
+  if (std::fseek(kept_.get(), long(begin), SEEK_SET) != 0)
+    throw InputError("the temporary file of the report cannot be read: set TMPDIR");
+  std::vector<char> piece(1 << 20);
+  while (begin < end) {
+    const std::size_t count =
+        std::fread(piece.data(), 1, std::min(piece.size(), end - begin), kept_.get());
+    if (count == 0) throw InputError("the temporary file of the report cannot be read: set TMPDIR");
+    file_.write(std::as_bytes(std::span(piece.data(), count)));
+    begin += count;
+  }
 }
 
 void DiffHtml::finish(const nlohmann::ordered_json& json) {
@@ -88,10 +124,11 @@ void DiffHtml::finish(const nlohmann::ordered_json& json) {
   write(jsonElement("data",
                     whole.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
   write(diffPage.end);
-  std::rewind(kept_.get());
-  std::vector<char> piece(1 << 20);
-  while (const std::size_t count = std::fread(piece.data(), 1, piece.size(), kept_.get()))
-    write({piece.data(), count});
+  // The pair that is seen first stands first: the others may be 100 MB.
+  const auto [begin, end] = places_[firstShown(whole["pairs"])];
+  copyKept(begin, end);
+  copyKept(0, begin);
+  copyKept(end, written_);
   file_.commit();
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glint/image/file.h"
@@ -37,6 +38,7 @@ class DiffHtml {
  private:
   void keep(const std::string& text);
   void writePictures(std::size_t index, const PairPictures& pictures, bool differs);
+  void copyKept(std::size_t begin, std::size_t end);
 
   struct Waiting {
     bool differs;
@@ -49,6 +51,7 @@ class DiffHtml {
   std::size_t next_ = 0;                                  ///< pair
   std::map<std::size_t, Waiting> later_;                  ///< pairs whose turn has not come
   std::map<std::size_t, std::vector<std::byte>> thumbnails_;
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> places_;  ///< in what waits
   std::map<std::size_t, std::string> kinds_;  ///< of the pictures that a pair has: "abm"
 };
 

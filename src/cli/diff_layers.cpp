@@ -100,7 +100,8 @@ LayerPairs matchLayers(const PictureLayers& a, const PictureLayers& b, DiffEntry
   return pairs;
 }
 
-void addLayer(const LayerPair& pair, const CompareOptions& given, bool first, DiffEntry& entry) {
+void addLayer(const LayerPair& pair, const CompareOptions& given, bool first, bool besideColours,
+              DiffEntry& entry) {
   CompareOptions options = given;
   bool judged = true;
   if (!pair.a->colour) {
@@ -115,15 +116,19 @@ void addLayer(const LayerPair& pair, const CompareOptions& given, bool first, Di
   }
   Comparison result = compare(pair.a->image, pair.b->image, options);
   if (!judged && !result.sizesDiffer) {
-    if (result.differing > 0) {
-      char text[64];
-      std::snprintf(text, sizeof text, " (max %.5g)", result.values["max"]);
-      entry.notes.push_back(layerName(pair.a->name) + " differs in " +
-                            std::to_string(result.differing) + " pixels" + text +
-                            ", which no condition judges");
-    }
     result.failures.clear();
-    result.same = true;
+    if (result.differing > 0) {
+      char text[128];
+      std::snprintf(text, sizeof text, " %zu %s (max %.5g), which no condition judges",
+                    result.differing, result.differing == 1 ? "pixel" : "pixels",
+                    result.values["max"]);
+      if (besideColours)
+        entry.notes.push_back(layerName(pair.a->name) + " differs in" + text);
+      else
+        result.failures.push_back(std::string("it differs in") + text +
+                                  ": give one of values (--metric max --threshold T)");
+    }
+    result.same = result.failures.empty();
   }
   if (first) {
     entry.result = std::move(result);

@@ -223,9 +223,14 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
   options.flip.exposures = given.exposures;
   options.shift = given.shift;
   options.window = given.window;
-  if (options.maxPixels.empty() && given.shift > 0)
-    throw InputError("--shift " + std::to_string(given.shift) +
-                     ": it is of --max-pixels: give that, too (--max-pixels 0)");
+  const bool counts = !options.maxPixels.empty() ||
+                      std::count(given.metricNames.begin(), given.metricNames.end(), "pixels") > 0;
+  for (const auto& [name, used] : {std::pair{"--shift", given.shift > 0},
+                                   {"--window", given.window > 0},
+                                   {"--ignore-anti-aliasing", given.ignoreAntiAliasing}})
+    if (used && !counts)
+      throw InputError(std::string(name) +
+                       ": it is of --max-pixels: give that, too (--max-pixels 0)");
   for (const std::string& box : given.ignored) options.ignored.push_back(boxOf(box));
   options.tolerance = given.tolerance;
   options.ignoreAntiAliasing = given.ignoreAntiAliasing;
@@ -237,8 +242,8 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
   settings.layer = given.layer;
   if (!given.mask.empty()) {
     const bool inFolder = !folder.empty() && given.mask[0] != '/';
-    settings.mask = std::make_shared<const StoredImage>(
-        readStoredImage(inFolder ? folder + "/" + given.mask : given.mask));
+    settings.maskPath = inFolder ? folder + "/" + given.mask : given.mask;
+    settings.mask = std::make_shared<const StoredImage>(readStoredImage(settings.maskPath));
     options.mask = settings.mask.get();
   }
   return settings;
@@ -264,7 +269,7 @@ std::vector<PairConditions> readConditions(const std::string& path) {
       // The parser takes the words from the end.
       app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
       conditions.push_back(
-          {words[0], comparisonSettings(app, given, folder.empty() ? "." : folder)});
+          {words[0], comparisonSettings(app, given, folder.empty() ? "." : folder), where});
     } catch (const CLI::Error& error) {
       throw InputError(where + error.what() +
                        ": give a pattern of names and options of glint diff");
@@ -277,7 +282,8 @@ std::vector<PairConditions> readConditions(const std::string& path) {
 
 bool isNamedBy(const std::string& pattern, const std::string& name) {
   const std::string folder = pattern.ends_with('/') ? pattern : pattern + "/";
-  return name.starts_with(folder) || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  return pattern == name || name.starts_with(folder) ||
+         ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
 }  // namespace glint

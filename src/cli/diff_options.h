@@ -37,14 +37,15 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
 struct PairConditions {
   std::string pattern;  ///< of names, with * and ?
   DiffSettings settings;
+  std::string where;  ///< "FILE:LINE: "
 };
 
 /// Reads a file of lines "PATTERN OPTION...", the options as on the command line; # begins a
 /// comment. Throws InputError that names the line.
 std::vector<PairConditions> readConditions(const std::string& path);
 
-/// Whether a name is meant by a pattern: * and ? stand for letters, / too; or the name lies in the
-/// folder that it names.
+/// Whether a name is meant by a pattern: it is the name; or * and ? stand for letters, / too; or
+/// the name lies in the folder that it names.
 bool isNamedBy(const std::string& pattern, const std::string& name);
 
 }  // namespace glint

@@ -1,5 +1,6 @@
 'use strict';
 // The list of pairs, what is said of one, and the keys.
+const counted = (n, what) => n + ' ' + what + (n === 1 ? '' : 's');
 const kinds = ['differs', 'error', 'missing', 'no baseline', 'same'];
 const kindOf = p => p.status === 0 ? 'same' : p.status === 1 ? 'differs' : p.status === 4 ? 'no baseline'
   : p.b ? 'error' : 'missing';
@@ -9,7 +10,7 @@ const error = p => value(p, 'flip') ?? value(p, 'hdr-flip') ?? value(p, 'max') ?
 const columns = [['name', p => p.name], ['status', p => kinds.indexOf(p.kind)],
   ...['flip', 'hdr-flip', 'ssim', 'max', 'rmse', 'pixels'].filter(n => pairs.some(p => value(p, n) !== undefined))
     .map(n => [n, p => value(p, n)])];
-let sortBy = 1, descending = false, current = -1, listed = [], loading = 0;
+let sortBy = 1, descending = false, current = -1, listed = [], loading = 0, drawing = 0;
 
 function drawHead() {
   $('head').replaceChildren(...columns.map(([name], i) => {
@@ -56,9 +57,19 @@ function drawList() {
     if (a !== b) return (a < b ? -1 : 1) * (descending ? -1 : 1);
     return error(q) - error(p) || p.index - q.index;
   });
-  $('rows').replaceChildren(...listed.map(rowOf));
+  // What fits the screen at once, the others when there is time.
+  const rows = $('rows'), turn = ++drawing, at = listed.findIndex(p => p.index === current);
+  const add = count => rows.append(...listed.slice(rows.children.length, rows.children.length + count).map(rowOf));
+  const more = () => {
+    if (turn !== drawing || rows.children.length >= listed.length) return;
+    add(200);
+    setTimeout(more);
+  };
+  rows.replaceChildren();
+  add(Math.max(60, at + 30));
+  setTimeout(more);
   const counts = kinds.map(k => [k, pairs.filter(p => p.kind === k).length]).filter(([, n]) => n > 0);
-  $('summary').textContent = `${pairs.length} pairs: ${counts.map(([k, n]) => n + ' ' + k).join(', ')}; ${listed.length} shown`;
+  $('summary').textContent = `${counted(pairs.length, 'pair')}: ${counts.map(([k, n]) => n + ' ' + k).join(', ')}; ${listed.length} shown`;
 }
 
 async function select(index) {
@@ -110,8 +121,14 @@ function commandOf(label, command) {
   line.append(code, button);
   return line;
 }
-/// A word as a shell reads it.
-const quoted = word => /^[\w./+=:%-]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
+/// A word as a shell reads it; one that begins as an option would is a name in this folder.
+function quoted(word) {
+  if (word.startsWith('-')) word = './' + word;
+  if (/^[\w./+=:%-]+$/.test(word)) return word;
+  if (!/[\x00-\x1f\x7f]/.test(word)) return "'" + word.replaceAll("'", "'\\''") + "'";
+  return "$'" + word.replace(/['\\]/g, '\\$&')
+    .replace(/[\x00-\x1f\x7f]/g, c => '\\x' + c.charCodeAt(0).toString(16).padStart(2, '0')) + "'";
+}
 
 function drawDetail() {
   const p = pair, main = $('detail'), top = main.scrollTop;
@@ -160,7 +177,7 @@ function columnsOf(p) {
   if (p.regions && p.regions.length) {
     const more = p.regionCount > p.regions.length ? `, the worst ${p.regions.length} of them` : '';
     const list = tableOf('regions', `regions that differ: ${p.regionCount}${more}`, p.regions.map((r, i) =>
-      [i + 1, `${r.left}, ${r.top} – ${r.right}, ${r.bottom}`, `${r.pixels} pixels`, r.difference === null ? 'not finite' : format(r.difference)]));
+      [i + 1, `${r.left}, ${r.top} – ${r.right}, ${r.bottom}`, counted(r.pixels, 'pixel'), r.difference === null ? 'not finite' : format(r.difference)]));
     const rows = list.firstChild.rows;
     [...rows].forEach((tr, i) => { tr.title = 'show it'; tr.className = i === region ? 'on' : ''; tr.onclick = () => showRegion(i); });
     below.append(list);
@@ -175,7 +192,7 @@ function columnsOf(p) {
   if (p.conditions && p.conditions.length) below.append(tableOf('conditions', 'conditions', [[p.conditions.join(' ')]]));
   if (p.layers && p.layers.length)
     below.append(tableOf('layers', 'other layers', p.layers.map(l => [l.name, l.same ? 'same' : 'differs',
-      l.differing + ' pixels differ', l.name === p.shown ? 'shown' : ''])));
+      counted(l.differing, 'pixel') + (l.differing === 1 ? ' differs' : ' differ'), l.name === p.shown ? 'shown' : ''])));
   if (p.worst && p.worst.length) {
     const show = v => v.map(x => x === null ? 'not finite' : String(+x.toPrecision(4))).join(' ');
     const list = tableOf('worst', `worst pixels (${p.values === 'linear' ? 'linear light' : 'sRGB, 0 to 1'})`,
@@ -235,6 +252,7 @@ function named() {
 }
 addEventListener('hashchange', () => { const p = named(); if (p && p.index !== current) select(p.index); });
 if (report.updateCommand && pairs.length > 1) $('accept').append(commandOf('To accept all:', report.updateCommand));
+if (named()) current = named().index;
 drawList();
 const first = named() || listed[0];
 if (first) select(first.index);

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <future>
 #include <iostream>
@@ -19,6 +20,8 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_layers.h"
+#include "glint/image/read_image.h"
+#include "glint/image/row_window.h"
 #include "glint/image/task.h"
 #include "report_pictures.h"
 
@@ -52,9 +55,27 @@ struct TemporaryPng {
   }
 };
 
+/// Larger pictures are read by rows.
+constexpr std::size_t heldBytes = std::size_t(64) << 20;
+
 PictureLayers layersOf(const std::vector<std::byte>& bytes, const std::string& path,
                        const std::string& wanted) {
-  return decodePictureLayers(bytes, path == "-" ? "stdin" : path, wanted);
+  return decodePictureLayers(bytes, path == "-" ? "stdin" : path, wanted, heldBytes);
+}
+
+/// Throws InputError if a picture that was perhaps not read to its end is damaged: that must not
+/// become a baseline.
+void readToEnd(const PictureLayers& read) {
+  if (const auto& window = read.layers[0].image.window) window->readToEnd();
+}
+
+bool isWhole(const PictureLayers& read) {
+  try {
+    readToEnd(read);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 /// Both pictures of a pair. The same bytes are decoded once.
@@ -65,7 +86,9 @@ struct BothPictures {
   void read(const DiffSettings& settings, DiffEntry& entry) {
     bytesB = pictureBytes(entry.b);
     bytesA = pictureBytes(entry.a);
-    const bool same = bytesA == bytesB;
+    // The comparison of vectors goes byte by byte.
+    const bool same = bytesA.size() == bytesB.size() &&
+                      std::memcmp(bytesA.data(), bytesB.data(), bytesA.size()) == 0;
     std::future<PictureLayers> reading;
     // A thread costs as much as a small picture.
     const auto readA = [&] { return layersOf(bytesA, entry.a, settings.layer); };
@@ -78,7 +101,12 @@ struct BothPictures {
     } catch (const InputError& error) {
       errorB = error.what();
     }
-    a = same && errorB.empty() ? b : reading.valid() ? reading.get() : readA();
+    try {
+      a = same && errorB.empty() ? b : reading.valid() ? reading.get() : readA();
+    } catch (const InputError&) {
+      entry.readableB = errorB.empty() && isWhole(b);
+      throw;
+    }
     if (!errorB.empty()) throw InputError(errorB);
     // Other formats than OpenEXR have one picture, which is compared with the main one.
     if (a.named != b.named && settings.layer == "all") {
@@ -121,25 +149,37 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   }
   // What is looked at: the main picture, or where that is equal the first that is not.
   const LayerPair& shown = pairs.matched[pairs.shown];
-  const bool flipWanted =
-      shown.a->colour && settings.difference == DifferenceKind::flip &&
+  const bool flipPossible =
+      shown.a->colour &&
       std::uint64_t(shown.width()) * std::uint64_t(shown.height()) <= std::uint64_t(1) << 28;
-  const bool flipOutput = !settings.output.empty() && flipWanted;
+  const bool flipOutput =
+      flipPossible && !settings.output.empty() && settings.difference == DifferenceKind::flip;
+  const bool flipOfPage = flipPossible && pictures;
+  const bool besideColours = std::any_of(pairs.matched.begin(), pairs.matched.end(),
+                                         [](const LayerPair& pair) { return pair.a->colour; });
   std::optional<TemporaryPng> map;
-  std::optional<FlipPicture> output;
+  // The page's own, whose colours tell errors, whatever format the other has.
+  std::optional<FlipPicture> forPage, forFile;
   try {
     for (std::size_t i = 0; i < pairs.matched.size(); ++i) {
       const LayerPair& pair = pairs.matched[i];
       CompareOptions options = optionsFor(settings, pair.a->image, pair.b->image);
-      if (i == pairs.shown && flipWanted && (pictures || flipOutput)) {
-        if (!flipOutput) map.emplace();
-        output.emplace(flipOutput ? settings.output : map->path, shown.width(), shown.height());
+      if (i == pairs.shown && (flipOfPage || flipOutput)) {
+        if (flipOfPage) forPage.emplace(map.emplace().path, shown.width(), shown.height());
+        if (flipOutput) forFile.emplace(settings.output, shown.width(), shown.height());
         if (!asksFor(options, "hdr-flip")) options.metrics.push_back("flip");
-        options.flipMap = [&](int, const float* errors) { output->add(errors); };
+        options.flipMap = [&](int, const float* errors) {
+          if (forPage) forPage->add(errors);
+          if (forFile) forFile->add(errors);
+        };
       }
-      addLayer(pair, options, i == 0, entry);
+      addLayer(pair, options, i == 0, besideColours, entry);
     }
+    readToEnd(both.a);
+    readToEnd(both.b);
   } catch (const InputError& error) {
+    entry.readableB = isWhole(both.b);
+    if (!entry.readableB || !isWhole(both.a)) throw;
     throw InputError(printablePath(entry.a) + " and " + printablePath(entry.b) + ": " +
                      error.what());
   }
@@ -147,7 +187,8 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
                                pairs.missing.end());
   entry.result.same = entry.result.same && pairs.missing.empty();
   entry.shown = shown.a->name;
-  if (output) output->finish();
+  if (forPage) forPage->finish();
+  if (forFile) forFile->finish();
   const bool anyDifference =
       pairs.shown > 0 || entry.result.differing > 0 || entry.result.sizesDiffer;
   if (!settings.output.empty() && !flipOutput)
@@ -158,7 +199,7 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
     pictures->a = browserPicture(both.bytesA, *shown.a, shown.range());
     if (anyDifference) {
       pictures->b = browserPicture(both.bytesB, *shown.b, shown.range());
-      if (flipWanted) pictures->map = readFile(flipOutput ? settings.output : map->path, Noted::no);
+      if (map) pictures->map = readFile(map->path, Noted::no);
       pictures->valuesA = trueValues(*shown.a);
       pictures->valuesB = trueValues(*shown.b);
     }
@@ -198,11 +239,24 @@ void chooseBaseline(const DiffSettings& settings, DiffEntry& entry) {
                         ", the nearest of " + std::to_string(candidates.size()) + " baselines");
 }
 
+std::vector<std::byte> readStdin() {
+  std::vector<std::byte> bytes;
+  char piece[1 << 16];
+  while (std::cin.read(piece, sizeof piece), std::cin.gcount() > 0) {
+    const auto* const begin = reinterpret_cast<const std::byte*>(piece);
+    bytes.insert(bytes.end(), begin, begin + std::cin.gcount());
+    if (bytes.size() > std::size_t(4) << 30)
+      throw InputError("stdin: more than 4 GiB: give a smaller picture");
+  }
+  return bytes;
+}
+
 /// What a picture without a partner looks like.
 void showAlone(const DiffSettings& settings, const std::string& path, bool isA, DiffEntry& entry,
                PairPictures* pictures) {
   const std::vector<std::byte> bytes = pictureBytes(path);
   const PictureLayers read = layersOf(bytes, path, settings.layer);
+  readToEnd(read);
   (isA ? entry.textA : entry.textB) = read.layers[0].image.text;
   if (!isA) entry.readableB = true;
   if (!pictures) return;
@@ -215,14 +269,7 @@ void showAlone(const DiffSettings& settings, const std::string& path, bool isA, 
 
 std::vector<std::byte> pictureBytes(const std::string& path) {
   if (path != "-") return readFile(path);
-  std::vector<std::byte> bytes;
-  char piece[1 << 16];
-  while (std::cin.read(piece, sizeof piece), std::cin.gcount() > 0) {
-    const auto* const begin = reinterpret_cast<const std::byte*>(piece);
-    bytes.insert(bytes.end(), begin, begin + std::cin.gcount());
-    if (bytes.size() > std::size_t(4) << 30)
-      throw InputError("stdin: more than 4 GiB: give a smaller picture");
-  }
+  static const std::vector<std::byte> bytes = readStdin();  // several baselines may be tried
   return bytes;
 }
 
@@ -284,7 +331,7 @@ std::string driverBaseline(const std::string& folder, const DiffEntry& entry) {
 void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
   if (entry.b.empty()) return;
   try {
-    entry.textB = readPictureLayers(entry.b, "all").layers[0].image.text;
+    entry.textB = pictureTextIn(pictureBytes(entry.b), entry.b);
   } catch (const InputError&) {
     return;  // said when it is compared
   }

@@ -12,8 +12,9 @@ namespace glint {
 struct DiffSettings {
   CompareOptions compare;
   std::shared_ptr<const StoredImage> mask;  ///< what compare.mask points to
-  bool allMetrics = false;                  ///< not only those of the conditions
-  std::string output;                       ///< of the difference picture; empty: none
+  std::string maskPath;
+  bool allMetrics = false;  ///< not only those of the conditions
+  std::string output;       ///< of the difference picture; empty: none
   DifferenceKind difference = DifferenceKind::flip;
   double scale = 1;
   std::string layer = "all";

@@ -205,6 +205,7 @@ Json diffJson(const DiffEntry& entry, const CompareOptions& options) {
   if (!notes.empty()) json["notes"] = notes;
   if (!entry.unfollowed.empty()) json["notFollowed"] = entry.unfollowed;
   if (entry.updated) json["updated"] = true;
+  if (entry.removed) json["removed"] = true;
   if (entry.acrossDrivers) json["acrossDrivers"] = true;
   json["ms"] = entry.milliseconds;
   if (r.values.empty()) return json;  // nothing to compare
@@ -244,7 +245,7 @@ std::string diffLine(const Json& pair) {
   std::size_t layers = 0;
   if (const auto found = pair.find("layers"); found != pair.end())
     for (const Json& layer : *found) layers += countOf(layer, "differing") > 0;
-  if (pair.value("updated", false)) {
+  if (pair.value("updated", false) || pair.value("removed", false)) {
     line += joined(pair, "notes");
     return line;
   }
@@ -322,13 +323,15 @@ std::string junitXml(const Json& pairs) {
 std::string markdownText(const Json& report) {
   const auto cell = [](const std::string& text) {
     std::string safe;
-    for (const char letter : utf8(text)) {
-      if (letter == '|' || letter == '`' || letter == '*' || letter == '_' || letter == '[' ||
-          letter == '<' || letter == '\\')
-        safe += '\\';
+    const std::string whole = utf8(text);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const char letter = whole[i];
+      // Cut between letters.
+      if (i > 250 && (static_cast<unsigned char>(letter) & 0xc0) != 0x80) return safe + "...";
+      if (std::string_view("|`*_[<\\&~$#").find(letter) != std::string_view::npos) safe += '\\';
       safe += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
     }
-    return safe.substr(0, 300);
+    return safe;
   };
   const Json& pairs = report["pairs"];
   std::map<std::string, std::size_t> counts;
@@ -343,7 +346,8 @@ std::string markdownText(const Json& report) {
   constexpr std::size_t most = 50;
   std::size_t told = 0;
   for (const Json& pair : pairs) {
-    if (pair["status"] == 0 && !pair.value("updated", false)) continue;
+    if (pair["status"] == 0 && !pair.value("updated", false) && !pair.value("removed", false))
+      continue;
     if (told++ == most) break;
     if (told == 1)
       text += "\n| picture | result | flip | max | pixels | why |\n|---|---|---|---|---|---|\n";

@@ -25,7 +25,7 @@ struct DiffEntry {
   std::vector<std::string> notes;                 ///< what else is to be said
   std::vector<std::string> notCompared;           ///< what the files hold besides, in words
   std::map<std::string, std::string> unfollowed;  ///< what the files say and is not followed
-  bool readableB = false, updated = false, acrossDrivers = false;
+  bool readableB = false, updated = false, removed = false, acrossDrivers = false;
   Comparison result;                ///< of the main picture; its failures are those of all layers
   std::string mainName;             ///< of that layer
   std::vector<LayerResult> layers;  ///< the others

@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "diff_baselines.h"
+#include "diff_folders.h"
 #include "diff_html.h"
 #include "diff_options.h"
 #include "diff_test_run.h"
@@ -34,82 +35,11 @@ bool isThere(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
-/// The pictures in a folder and its folders, by their paths in it. Driver folders of baselines
-/// begin with "driver-".
-std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end;
-       i.increment(error)) {
-    const fs::path relative = i->path().lexically_relative(folder);
-    if (baselines && relative.begin()->string().starts_with("driver-")) continue;
-    std::error_code ignored;
-    if (!i->is_regular_file(ignored)) continue;
-    if (isPictureName(i->path().string())) names.push_back(relative.generic_string());
-  }
-  if (error)
-    throw InputError(printablePath(folder) + ": " + error.message() + ": check the folder");
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::vector<DiffEntry> pairsOf(const DiffRequest& request) {
-  const auto inA = isThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
-  const auto inB = picturesIn(request.b, false);
-  std::vector<std::string> all;
-  std::set_union(inA.begin(), inA.end(), inB.begin(), inB.end(), std::back_inserter(all));
-  if (all.empty())
-    throw InputError(
-        printablePath(request.a) + " and " + printablePath(request.b) +
-        ": no pictures in them: give folders of PNG, EXR, PFM, HDR, JPEG, WebP, TIFF, PPM, BMP "
-        "or TGA files");
-  // NAME_1.png is one more baseline of NAME.png, unless it has a picture of its own.
-  std::set<std::string> alternatives;
-  for (const std::string& name : inA)
-    for (const std::string& other : otherBaselines(request.a + "/" + name))
-      if (const std::string inside = other.substr(request.a.size() + 1);
-          !std::binary_search(inB.begin(), inB.end(), inside))
-        alternatives.insert(inside);
-  std::vector<DiffEntry> entries;
-  for (const std::string& name : all) {
-    if (alternatives.count(name) > 0) continue;
-    DiffEntry entry;
-    entry.name = name;
-    if (std::binary_search(inA.begin(), inA.end(), name))
-      for (const std::string& other : otherBaselines(request.a + "/" + name))
-        if (alternatives.count(other.substr(request.a.size() + 1)) > 0)
-          entry.others.push_back(other);
-    if (std::binary_search(inA.begin(), inA.end(), name)) entry.a = request.a + "/" + name;
-    if (std::binary_search(inB.begin(), inB.end(), name)) entry.b = request.b + "/" + name;
-    entries.push_back(std::move(entry));
-  }
-  return entries;
-}
-
-/// The settings of a pair: those of the last line of the conditions that names it, with what the
-/// command line says of reports.
-DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairConditions>& conditions,
-                         const std::string& name) {
-  const auto found = std::find_if(conditions.rbegin(), conditions.rend(),
-                                  [&](const auto& one) { return isNamedBy(one.pattern, name); });
-  if (found == conditions.rend()) return given;
-  DiffSettings settings = found->settings;
-  settings.allMetrics = given.allMetrics;
-  settings.compare.regions = given.compare.regions;
-  settings.compare.flip.threads = given.compare.flip.threads;
-  settings.difference = given.difference;
-  settings.scale = given.scale;
-  return settings;
-}
-
 /// Compares, and gives the JSON of the pairs.
-Json comparePairs(const DiffRequest& request, DiffSettings settings, DiffHtml* page,
-                  std::vector<DiffEntry>& entries) {
-  std::string conditionsPath = request.conditions;
-  if (conditionsPath.empty() && isThere(request.a + "/glint-diff.txt"))
-    conditionsPath = request.a + "/glint-diff.txt";
-  std::vector<PairConditions> conditions;
-  if (!conditionsPath.empty()) conditions = readConditions(conditionsPath);
+Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>& conditions,
+                  DiffHtml* page, std::vector<DiffEntry>& entries) {
+  DiffSettings settings = request.settings;
+  tellUnused(conditions, entries);
   std::vector<Json> pairs(entries.size());
   const int jobs = std::min(threadsFor(request.jobs), 64);
   if (jobs > 1 && entries.size() > 1) settings.compare.flip.threads = 1;
@@ -138,7 +68,8 @@ int statusOf(const Json& pairs) {
 }
 
 struct Summary {
-  std::size_t same = 0, differ = 0, missing = 0, extra = 0, errors = 0, updated = 0, drivers = 0;
+  std::size_t same = 0, differ = 0, missing = 0, extra = 0, errors = 0, updated = 0, removed = 0,
+              drivers = 0;
   std::map<std::string, std::size_t> notFollowed;
 
   explicit Summary(const Json& pairs) {
@@ -150,6 +81,7 @@ struct Summary {
       extra += kind == "no baseline";
       errors += kind == "error";
       updated += pair.value("updated", false);
+      removed += pair.value("removed", false);
       drivers += pair.value("acrossDrivers", false);
       if (const auto found = pair.find("notFollowed"); found != pair.end())
         for (const auto& [what, value] : found->items()) ++notFollowed[what];
@@ -166,7 +98,12 @@ struct Summary {
                        std::to_string(same) + " same, " + std::to_string(differ) + " differ, " +
                        std::to_string(missing) + " missing, " + std::to_string(extra) +
                        " without baseline, " + std::to_string(errors) + " unreadable";
-    if (updated > 0) text += "; " + std::to_string(updated) + " baselines updated";
+    const auto baselines = [&](std::size_t count, const char* what) {
+      if (count > 0)
+        text += "; " + std::to_string(count) + (count == 1 ? " baseline " : " baselines ") + what;
+    };
+    baselines(updated, "updated");
+    baselines(removed, "removed");
     if (drivers > 0) text += "; " + std::to_string(drivers) + " compared across drivers";
     std::string ignored;
     for (const auto& [what, count] : notFollowed)
@@ -176,7 +113,9 @@ struct Summary {
   }
 };
 
+/// A word as a shell reads it; one that begins as an option would is a name in this folder.
 std::string quoted(const std::string& word) {
+  if (word.starts_with('-') && word != "-") return quoted("./" + word);
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
            std::string_view("._-/+=:%").find(c) != std::string_view::npos;
@@ -185,6 +124,14 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
+}
+
+/// Whether stdout is a file's, so that no line may stand in it.
+bool writesToStdout(const DiffRequest& request) {
+  const std::string* const files[] = {&request.json, &request.junit, &request.html,
+                                      &request.markdown, &request.settings.output};
+  return std::any_of(std::begin(files), std::end(files),
+                     [](const std::string* path) { return *path == "-"; });
 }
 
 /// Writes all reports of several pairs; the exit status.
@@ -207,9 +154,7 @@ int report(const DiffRequest& request, Json pairs, DiffHtml* page,
   if (!request.junit.empty()) writeText(request.junit, junitXml(json["pairs"]));
   if (!request.markdown.empty()) writeText(request.markdown, markdownText(json));
   if (page) page->finish(json);
-  const bool toStdout =
-      request.json == "-" || request.junit == "-" || request.html == "-" || request.markdown == "-";
-  if (toStdout) return status;
+  if (writesToStdout(request)) return status;
   for (const Json& pair : json["pairs"])
     if (pair["status"] != done || pair.contains("notCompared")) std::cout << diffLine(pair) << "\n";
   for (const std::string& path : unused)
@@ -226,31 +171,42 @@ std::unique_ptr<DiffHtml> openedPage(const DiffRequest& request) {
 int diffFolders(const DiffRequest& request) {
   if (!request.settings.output.empty())
     throw InputError("--output with folders: use --html for the pictures of differences");
-  std::vector<DiffEntry> entries = pairsOf(request);
-  checkNames(request.named, entries);
+  const std::vector<PairConditions> conditions = conditionsOf(request);
+  std::vector<DiffEntry> entries = pairsOf(request, conditions);
+  const std::set<std::string> meant = namesMeant(request.named, entries);
   const std::unique_ptr<DiffHtml> page = openedPage(request);
-  Json pairs = comparePairs(request, request.settings, page.get(), entries);
+  Json pairs = comparePairs(request, conditions, page.get(), entries);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     DiffEntry& entry = entries[i];
     if (request.updating)
-      update(request.named, entry,
+      update(meant, entry,
              request.perDriver ? driverBaseline(request.a, entry) : request.a + "/" + entry.name);
     if (request.pruning && entry.b.empty()) prune(entry);
-    if (entry.updated) pairs[i] = diffJson(entry, request.settings.compare);
+    if (entry.updated || entry.removed) pairs[i] = diffJson(entry, request.settings.compare);
   }
   return report(request, std::move(pairs), page.get(), {});
 }
 
+/// Throws InputError for options that mean nothing without two folders.
+void refuseOfFolders(const DiffRequest& request, bool ofPictures) {
+  if (!request.conditions.empty())
+    throw InputError("--conditions " + printablePath(request.conditions) +
+                     ": it is of two folders: give its options themselves");
+  if (ofPictures && request.pruning)
+    throw InputError("--prune: it is of folders: remove the file yourself");
+}
+
 /// What the tests of a build have left.
 int diffTestRun(const DiffRequest& request) {
+  refuseOfFolders(request, false);
   TestRun run = readTestRun(request.testRun);
-  checkNames(request.named, run.entries);
+  const std::set<std::string> meant = namesMeant(request.named, run.entries);
   const std::unique_ptr<DiffHtml> page = openedPage(request);
   for (std::size_t i = 0; i < run.entries.size(); ++i) {
     DiffEntry& entry = run.entries[i];
     if (page) page->add(i, entry.status != done, picturesOf(run.records[i], entry, run.pairs[i]));
     if (!request.updating) continue;
-    update(request.named, entry, run.records[i].baseline);
+    update(meant, entry, run.records[i].baseline);
     if (!entry.updated) continue;
     Json& pair = run.pairs[i];
     pair.erase("error");
@@ -271,6 +227,7 @@ int diffTestRun(const DiffRequest& request) {
 }
 
 int diffPictures(const DiffRequest& request) {
+  refuseOfFolders(request, true);
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
   if (request.a == "-" && request.b == "-")
@@ -279,11 +236,9 @@ int diffPictures(const DiffRequest& request) {
   if (request.a == "-" || isThere(request.a)) entry.a = request.a;
   if (request.b == "-" || isThere(request.b)) entry.b = request.b;
   if (!entry.a.empty() && entry.a != "-") entry.others = otherBaselines(entry.a);
-  if (request.b == "-" && (request.updating || !entry.others.empty())) {
-    if (request.updating) throw InputError("--update with stdin: give the picture as a file");
-    entry.others.clear();
-  }
-  checkNames(request.named, entries);
+  if (request.updating && (request.a == "-" || request.b == "-"))
+    throw InputError("--update with stdin: give both pictures as files");
+  const std::set<std::string> meant = namesMeant(request.named, entries);
   std::string baseline = request.a;
   if (request.perDriver) {
     const fs::path a = request.a;
@@ -303,7 +258,7 @@ int diffPictures(const DiffRequest& request) {
     entry.error = printablePath(request.a) + ": no baseline: look at " + printablePath(request.b) +
                   " and accept it with --update";
   }
-  if (request.updating) update(request.named, entry, baseline);
+  if (request.updating) update(meant, entry, baseline);
   Json json = diffJson(entry, request.settings.compare);
   json["glint"] = GLINT_VERSION;
   if (!request.json.empty()) writeText(request.json, jsonText(json));
@@ -320,8 +275,7 @@ int diffPictures(const DiffRequest& request) {
   }
   if (!entry.error.empty()) {
     std::cerr << "glint: " << entry.error << "\n";
-  } else if (request.json != "-" && request.junit != "-" && request.html != "-" &&
-             request.markdown != "-") {
+  } else if (!writesToStdout(request)) {
     std::string line = diffLine(json);
     if (const std::string text = notFollowedText(json); !text.empty())
       line += "; not followed: " + text;

@@ -56,7 +56,8 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
   if (stage == "compared" || stage == "updated") {
     const std::string text = textIn(folder + "/result/" + file + ".json", std::size_t(1) << 30);
     pair = Json::parse(text, nullptr, false);
-    if (!pair.is_object() || !pair.contains("status")) pair = Json::object();
+    if (!pair.is_object() || !pair.contains("status") || !pair["status"].is_number_integer())
+      pair = Json::object();
   }
   std::string error;
   if (stage.empty()) {
@@ -64,8 +65,9 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
   } else if (stage == "started") {
     error = "the test did not end: it was killed, or took too long";
   } else if (stage == "command") {
-    error = number > 128 ? "the program crashed (signal " + std::to_string(number - 128) + ")"
-                         : "the program ended with status " + std::to_string(number);
+    error = number > 128 && number < 256
+                ? "the program crashed (signal " + std::to_string(number - 128) + ")"
+                : "the program ended with status " + std::to_string(number);
   } else if (stage == "nothing") {
     error = "the program has not written its picture";
   } else if (pair.empty()) {
@@ -82,9 +84,21 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
   return pair;
 }
 
-/// Pictures in the folders of the tests' baselines that belong to none of them. Folders that hold
-/// something else than baselines would list it: only those count that hold nothing but pictures.
-std::vector<std::string> unusedBaselines(const std::vector<TestRecord>& records) {
+/// The file names of the masks among options.
+void addMasks(const std::vector<std::string>& options, std::set<std::string>& names) {
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (options[i].starts_with("--mask="))
+      names.insert(fs::path(options[i].substr(7)).filename().string());
+    if (options[i] == "--mask" && i + 1 < options.size())
+      names.insert(fs::path(options[i + 1]).filename().string());
+  }
+}
+
+/// Pictures in the folders of the tests' baselines that belong to none of them. A folder that holds
+/// anything but pictures and folders is not one of baselines alone, and nothing in it is listed:
+/// what is listed may be pruned.
+std::vector<std::string> unusedBaselines(const std::vector<TestRecord>& records,
+                                         const std::set<std::string>& masks) {
   std::set<std::string> used, folders;
   for (const TestRecord& record : records) {
     used.insert(fs::path(record.baseline).lexically_normal().string());
@@ -94,12 +108,20 @@ std::vector<std::string> unusedBaselines(const std::vector<TestRecord>& records)
   }
   std::vector<std::string> unused;
   std::error_code ignored;
-  for (const std::string& folder : folders)
+  for (const std::string& folder : folders) {
+    std::vector<std::string> found;
+    bool pictures = true;
     for (const auto& file : fs::directory_iterator(folder, ignored)) {
-      const std::string path = file.path().lexically_normal().string();
-      if (file.is_regular_file(ignored) && isPictureName(path) && used.count(path) == 0)
-        unused.push_back(path);
+      const fs::path path = file.path().lexically_normal();
+      const std::string name = path.filename().string();
+      if (file.is_directory(ignored) || name.starts_with('.')) continue;
+      if (!isPictureName(path.string()))
+        pictures = false;
+      else if (used.count(path.string()) == 0 && masks.count(name) == 0)
+        found.push_back(path.string());
     }
+    if (pictures) unused.insert(unused.end(), found.begin(), found.end());
+  }
   std::sort(unused.begin(), unused.end());
   return unused;
 }
@@ -117,6 +139,7 @@ TestRun readTestRun(const std::string& folder) {
   std::sort(files.begin(), files.end());
   TestRun run;
   run.pairs = Json::array();
+  std::set<std::string> masks;
   for (const std::string& file : files) {
     const std::vector<std::string> lines = linesIn(folder + "/tests/" + file + ".txt");
     if (lines.size() < 3)
@@ -129,7 +152,9 @@ TestRun readTestRun(const std::string& folder) {
     record.actual = ifThere(folder + "/actual/" + file + lines[2]);
     record.kept = ifThere(folder + "/baseline/" + file + lines[2]);
     record.difference = ifThere(folder + "/difference/" + file + ".png");
-    Json pair = pairOf(folder, file, record, {lines.begin() + 3, lines.end()});
+    const std::vector<std::string> options(lines.begin() + 3, lines.end());
+    addMasks(options, masks);
+    Json pair = pairOf(folder, file, record, options);
     DiffEntry entry;
     entry.name = record.name;
     entry.a = pair["a"].get<std::string>();
@@ -141,7 +166,7 @@ TestRun readTestRun(const std::string& folder) {
     run.entries.push_back(entry);
     run.pairs.push_back(std::move(pair));
   }
-  run.unused = unusedBaselines(run.records);
+  run.unused = unusedBaselines(run.records, masks);
   return run;
 }
 

@@ -106,6 +106,16 @@ void picture(Bytes bytes) {
     for (const PictureLayer& layer : all.layers)
       mustHold(std::visit([](const auto& values) { return values.size(); }, layer.image.values) ==
                std::size_t(layer.image.channels) * layer.image.width * layer.image.height);
+    // Read by rows, it has the same numbers.
+    const StoredImage rows = decodePictureLayers(bytes, "a", "main", 0).layers[0].image;
+    const StoredImage& held = all.layers[0].image;
+    if (!rows.window || std::uint64_t(held.width) * std::uint64_t(held.height) > 1 << 20) return;
+    std::vector<float> expected(std::size_t(4) * held.width), found(expected.size());
+    for (int y = held.height; y-- > 0;) {
+      held.storedRows(y, 1, expected.data());
+      rows.storedRows(y, 1, found.data());
+      mustHold(expected == found);
+    }
   });
 }
 

@@ -11,6 +11,7 @@
 #include "glint/image/error.h"
 #include "glint/image/metrics.h"
 #include "glint/image/regions.h"
+#include "glint/image/row_window.h"
 
 namespace glint {
 namespace {
@@ -60,7 +61,7 @@ class Sums {
   /// A row of 8-bit codes: only the pixels that differ become floats.
   void addCodes(int y, const std::vector<unsigned char>& counts, Row& row) {
     const int width = rows_.width();
-    const std::uint8_t *a = rows_.codesA(y), *b = rows_.codesB(y);
+    const std::uint8_t *a = rows_.codesA(y, codesA_), *b = rows_.codesB(y, codesB_);
     const std::size_t step = std::size_t(rows_.codeChannels());
     const auto channels = std::size_t(rows_.channels());
     std::size_t same = 0, counted = 0;
@@ -177,6 +178,7 @@ class Sums {
   Comparison& result_;
   detail::ValueSums sums_;
   double overBlack_ = 0, overWhite_ = 0;
+  std::vector<std::uint8_t> codesA_, codesB_;  ///< of rows that are not held
 };
 
 std::string number(double value) {
@@ -185,10 +187,16 @@ std::string number(double value) {
   return text;
 }
 
+/// "1 pixel differs", "3 pixels differ".
+std::string pixels(std::size_t count, const char* one, const char* several) {
+  return std::to_string(count) + (count == 1 ? " pixel " : " pixels ") +
+         (count == 1 ? one : several);
+}
+
 void judge(const CompareOptions& options, Comparison& result) {
   const bool equality = options.conditions.empty() && options.maxPixels.empty();
   if (equality && result.differing > 0)
-    result.failures.push_back(std::to_string(result.differing) + " pixels differ");
+    result.failures.push_back(pixels(result.differing, "differs", "differ"));
   for (const auto& [name, threshold] : options.conditions) {
     const double value = result.values.at(name);
     // Written so that a NaN fails.
@@ -199,20 +207,22 @@ void judge(const CompareOptions& options, Comparison& result) {
   }
   for (const PixelLimit& limit : options.maxPixels) {
     const double over = result.values.at("pixels");
-    const double allowed = limit.isShare ? limit.most * double(result.pixels) : limit.most;
+    const double side = std::min({options.window, result.width, result.height});
+    const double all = options.window > 0 ? side * side : double(result.pixels);
+    const double allowed = limit.isShare ? limit.most * all : limit.most;
     if (over <= allowed) continue;
-    std::string failure = number(over) + " pixels are over the tolerance of " +
+    std::string failure = pixels(std::size_t(over), "is", "are") + " over the tolerance of " +
                           number(options.tolerance) + ", allowed are " + number(allowed);
     if (options.window > 0) failure += " in a window of " + std::to_string(options.window);
     result.failures.push_back(failure);
   }
-  const auto refuse = [&](std::size_t count, const char* what) {
-    if (!equality && count > 0)
-      result.failures.push_back(std::to_string(count) + " pixels " + what);
+  const auto refuse = [&](std::size_t count, const char* one, const char* several) {
+    if (!equality && count > 0) result.failures.push_back(pixels(count, one, several));
   };
-  refuse(result.nanA, "of the baseline are not numbers");
-  refuse(result.nanB, "are not numbers");
-  refuse(result.infinityDiffering, "are infinite in one of the two");
+  refuse(result.nanA, "of the baseline is not a number", "of the baseline are not numbers");
+  refuse(result.nanB, "is not a number", "are not numbers");
+  refuse(result.infinityDiffering, "is infinite in one of the two",
+         "are infinite in one of the two");
   if (result.pixels == 0) result.failures.push_back("no pixel is left to compare");
   result.same = result.failures.empty();
 }
@@ -249,21 +259,42 @@ Comparison comparePadded(const StoredImage& a, const StoredImage& b,
 
 }  // namespace
 
+namespace {
+
+/// A row of `from`, RGBA, and transparent pixels behind it.
+template <class Value>
+void padRow(const StoredImage& from, int y, int width, Value* out) {
+  std::fill_n(out, std::size_t(4) * width, Value(0));
+  if (y >= from.height) return;
+  std::vector<Value> copy;
+  const Value* in = from.heldRows(y, 1, copy);
+  const Value opaque = std::is_same_v<Value, float> ? Value(1) : static_cast<Value>(-1);
+  for (int x = 0; x < from.width; ++x, in += from.channels, out += 4) {
+    for (int c = 0; c < 3; ++c) out[c] = in[from.channels == 1 ? 0 : c];
+    out[3] = from.channels == 4 ? in[3] : opaque;
+  }
+}
+
+}  // namespace
+
 StoredImage padded(const StoredImage& image, int width, int height) {
   StoredImage wide{width, height, 4, {}, image.text, image.unfollowed};
   std::visit(
       [&](const auto& from) {
         using Value = typename std::decay_t<decltype(from)>::value_type;
-        const Value opaque = std::is_same_v<Value, float> ? Value(1) : static_cast<Value>(-1);
-        auto& to = wide.values.emplace<std::vector<Value>>(std::size_t(4) * width * height);
-        for (int y = 0; y < image.height; ++y) {
-          const Value* in = from.data() + std::size_t(image.channels) * image.width * y;
-          Value* out = to.data() + std::size_t(4) * width * y;
-          for (int x = 0; x < image.width; ++x, in += image.channels, out += 4) {
-            for (int c = 0; c < 3; ++c) out[c] = in[image.channels == 1 ? 0 : c];
-            out[3] = image.channels == 4 ? in[3] : opaque;
-          }
+        auto& to = wide.values.emplace<std::vector<Value>>();
+        const std::size_t row = std::size_t(4) * width;
+        if (image.window) {
+          const auto start = [image, width]() -> detail::RowWindow::Next {
+            return [image, width, y = 0](std::byte* out) mutable {
+              padRow(image, y++, width, reinterpret_cast<Value*>(out));
+            };
+          };
+          wide.window = std::make_shared<detail::RowWindow>(row * sizeof(Value), height, start);
+          return;
         }
+        to.resize(row * height);
+        for (int y = 0; y < height; ++y) padRow(image, y, width, to.data() + row * y);
       },
       image.values);
   return wide;

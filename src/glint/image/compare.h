@@ -38,7 +38,7 @@ struct Condition {
   double threshold = 0;
 };
 
-/// At most so many pixels: a number, or a share of all.
+/// At most so many pixels: a number, or a share of all (of the window that is counted in).
 struct PixelLimit {
   double most = 0;
   bool isShare = false;

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "glint/image/error.h"
+#include "glint/image/row_window.h"
 
 namespace glint::detail {
 
@@ -56,8 +57,9 @@ bool ComparedRows::codesAreEqual(int y) const {
   const std::size_t size = std::size_t(a_.channels) * a_.width;
   return std::visit(
       [&](const auto& a) {
-        const auto& b = std::get<std::decay_t<decltype(a)>>(b_.values);
-        return std::memcmp(&a[size * y], &b[size * y], size * sizeof a[0]) == 0;
+        std::decay_t<decltype(a)> copyA, copyB;
+        return std::memcmp(a_.heldRows(y, 1, copyA), b_.heldRows(y, 1, copyB),
+                           size * sizeof a[0]) == 0;
       },
       a_.values);
 }
@@ -164,17 +166,28 @@ void ComparedRows::counted(int y, unsigned char* row) const {
   }
 }
 
+int ComparedRows::reach() const {
+  int least = 0;
+  for (const StoredImage* image : {&a_, &b_})
+    if (image->window)
+      least = least == 0 ? image->window->reach() : std::min(least, image->window->reach());
+  return least;
+}
+
 PixelRows ComparedRows::linearA() const {
   const AlphaUse alpha = options_.alpha == AlphaUse::ignored ? AlphaUse::ignored : AlphaUse::over;
-  return {a_.width, a_.height, [this, alpha](int first, int count, float* rgba) {
+  return {a_.width, a_.height,
+          [this, alpha](int first, int count, float* rgba) {
             for (int y = first; y < first + count; ++y, rgba += std::size_t(4) * a_.width)
               rowOf(a_, y, ValueSpace::linear, alpha, rgba);
-          }};
+          },
+          reach()};
 }
 
 PixelRows ComparedRows::linearB() const {
   const AlphaUse alpha = options_.alpha == AlphaUse::ignored ? AlphaUse::ignored : AlphaUse::over;
-  return {a_.width, a_.height, [this, alpha](int first, int count, float* rgba) {
+  return {a_.width, a_.height,
+          [this, alpha](int first, int count, float* rgba) {
             std::vector<float> other(ignoresSome_ ? std::size_t(4) * a_.width : 0);
             for (int y = first; y < first + count; ++y, rgba += std::size_t(4) * a_.width) {
               if (ignoresSome_) {
@@ -183,7 +196,8 @@ PixelRows ComparedRows::linearB() const {
                 rowOf(b_, y, ValueSpace::linear, alpha, rgba);
               }
             }
-          }};
+          },
+          reach()};
 }
 
 namespace {

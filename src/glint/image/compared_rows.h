@@ -28,8 +28,13 @@ class ComparedRows {
   /// Whether what is compared are the 8-bit codes of both, of as many channels, as they stand.
   bool comparesCodes() const { return comparesCodes_; }
   int codeChannels() const { return a_.channels; }
-  const std::uint8_t* codesA(int y) const { return codesOf(a_, y); }
-  const std::uint8_t* codesB(int y) const { return codesOf(b_, y); }
+  /// Row y of each; `copy` takes that of a picture that is not held.
+  const std::uint8_t* codesA(int y, std::vector<std::uint8_t>& copy) const {
+    return a_.heldRows(y, 1, copy);
+  }
+  const std::uint8_t* codesB(int y, std::vector<std::uint8_t>& copy) const {
+    return b_.heldRows(y, 1, copy);
+  }
   /// The values compared of one pixel's codes.
   void valuesOf(const std::uint8_t* codes, float* values) const;
   /// Whether all codes of a row are the same in both (of 16 bits too).
@@ -51,9 +56,7 @@ class ComparedRows {
   PixelRows linearB() const;
 
  private:
-  static const std::uint8_t* codesOf(const StoredImage& image, int y) {
-    return std::get<0>(image.values).data() + std::size_t(image.channels) * image.width * y;
-  }
+  int reach() const;  ///< see PixelRows
   void rowOf(const StoredImage& image, int y, ValueSpace space, AlphaUse alpha, float* rgba) const;
   void pair(int y, ValueSpace space, AlphaUse alpha, float* a, float* b) const;
 

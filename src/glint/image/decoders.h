@@ -49,11 +49,13 @@ StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer);
 PictureLayers decodeExrLayers(std::span<const std::byte> bytes, const std::string& name,
                               const std::string& wanted);
-/// PPM, PGM, BMP and TGA.
-StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name);
-/// The first page; `skipped` takes what else the file holds, in words.
+/// PPM, PGM, BMP and TGA. The first two are read by rows if they would take more than `heldBytes`.
+StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name,
+                         std::size_t heldBytes);
+/// The first page; `skipped` takes what else the file holds, in words. Strips are read by rows if
+/// they would take more than `heldBytes`.
 StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name,
-                       std::vector<std::string>& skipped);
+                       std::vector<std::string>& skipped, std::size_t heldBytes);
 
 /// What a PNG, JPEG or WebP says of colours and orientation beside the pixels; see
 /// StoredImage::unfollowed.
@@ -82,6 +84,9 @@ class PngReader {
   void decode(std::vector<std::uint16_t>& rgba);
   /// The same of 8 bits row by row; the whole is held only where the file is interlaced.
   void decodeRows(const std::function<void(const std::uint8_t* rgba)>& take);
+  /// The same one by one, of a file that is not interlaced: RGBA of 8 or of 16 bits, or RGB of 8.
+  void beginRows(int channels, int depth);
+  void nextRow(std::byte* row);
   /// RGB of 8 bits, for a file without alpha: 3 * width * height values.
   void decodeOpaque(std::vector<std::uint8_t>& rgb);
   /// The text chunks, in UTF-8: all of them once the picture has been decoded, before that those
@@ -100,6 +105,8 @@ class PngReader {
   int bitDepth_ = 0;
   int colourType_ = 0;
   bool isInterlaced_ = false;
+  std::size_t rowSize_ = 0;  ///< bytes of nextRow()
+  int rowsLeft_ = 0;
   bool isPlain_ = false;  ///< 8 bits, rows in order
 };
 

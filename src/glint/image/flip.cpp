@@ -154,10 +154,13 @@ void forErrors(const PixelRows& reference, const PixelRows& test, const FlipOpti
   check(reference, test, options);
   const detail::FlipFilters filters(options.pixelsPerDegree);
   const int width = reference.width, height = reference.height;
-  const int threads = std::min(threadsFor(options.threads), height);
   // Pieces of rows for the threads: long, since the rows around a piece are filtered twice, and in
   // rounds, since the map of a giant must not be kept whole.
-  const int rounds = std::max(1, (height + 288 * threads - 1) / (288 * threads));
+  constexpr int longest = 288;
+  int threads = std::min(threadsFor(options.threads), height);
+  if (const int reach = std::max(reference.reach, test.reach); reach > 0)
+    threads = std::clamp((reach - 4 * filters.radius) / longest, 1, threads);
+  const int rounds = std::max(1, (height + longest * threads - 1) / (longest * threads));
   const int piece = std::max(1, (height + rounds * threads - 1) / (rounds * threads));
   std::vector<float> errors(std::size_t(width) * std::size_t(piece) * std::size_t(threads));
   for (int first = 0; first < height; first += piece * threads) {

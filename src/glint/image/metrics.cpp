@@ -11,7 +11,7 @@ double rootOfMean(double sum, std::size_t count) { return std::sqrt(sum / double
 
 double peakSignalToNoise(const ValueSums& s) {
   const double rmse = rootOfMean(s.square, s.count);
-  return rmse == 0 ? std::numeric_limits<double>::infinity() : -20 * std::log10(rmse);
+  return rmse == 0 ? std::numeric_limits<double>::infinity() : 0 - 20 * std::log10(rmse);
 }
 
 constexpr std::array<MetricRow, 9> metrics{{

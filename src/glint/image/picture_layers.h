@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +30,10 @@ struct PictureLayers {
 /// "normal" (normal.X, normal.Y, normal.Z), "Z", a part, a part and a layer ("right.diffuse").
 /// Throws InputError as readStoredImage(), and for a name that is not there.
 PictureLayers readPictureLayers(const std::string& path, const std::string& wanted);
+/// The same from memory; `name` stands in the messages. A picture of more than `heldBytes` is read
+/// by rows where its format allows (PNG that is not interlaced, PPM, PGM, TIFF in strips): then
+/// `bytes` must live as long as it does.
 PictureLayers decodePictureLayers(std::span<const std::byte> bytes, const std::string& name,
-                                  const std::string& wanted);
+                                  const std::string& wanted, std::size_t heldBytes = SIZE_MAX);
 
 }  // namespace glint

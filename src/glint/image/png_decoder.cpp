@@ -118,14 +118,25 @@ void PngReader::decodeRows(const std::function<void(const std::uint8_t* rgba)>& 
     return;
   }
   std::vector<std::uint8_t> row(rowBytes);
-  check(spng_decode_image(png_.get(), nullptr, 0, SPNG_FMT_RGBA8,
-                          SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE));
+  beginRows(4, 8);
   for (int y = 0; y < height_; ++y) {
-    const int status = spng_decode_row(png_.get(), row.data(), row.size());
-    if (status != SPNG_EOI) check(status);
+    nextRow(reinterpret_cast<std::byte*>(row.data()));
     take(row.data());
   }
-  check(spng_decode_chunks(png_.get()));
+}
+
+void PngReader::beginRows(int channels, int depth) {
+  const int format = depth == 16 ? SPNG_FMT_RGBA16 : channels == 4 ? SPNG_FMT_RGBA8 : SPNG_FMT_RGB8;
+  rowSize_ = std::size_t(channels) * width_ * (depth / 8);
+  rowsLeft_ = height_;
+  check(spng_decode_image(png_.get(), nullptr, 0, format,
+                          SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE));
+}
+
+void PngReader::nextRow(std::byte* row) {
+  const int status = spng_decode_row(png_.get(), row, rowSize_);
+  if (status != SPNG_EOI) check(status);
+  if (--rowsLeft_ == 0) check(spng_decode_chunks(png_.get()));
 }
 
 void PngReader::decodeTo(void* out, std::size_t size, int format) {

@@ -6,6 +6,7 @@
 
 #include "glint/image/decoders.h"
 #include "glint/image/picture_layers.h"
+#include "glint/image/row_window.h"
 #include "glint/image/stored_image.h"
 
 namespace glint {
@@ -15,19 +16,30 @@ constexpr std::size_t maxPixels = std::size_t(1) << 27;  // 2 GiB of floats
 
 thread_local const PictureLimit* standingLimit = nullptr;
 
-StoredImage decodePng(std::span<const std::byte> bytes, const std::string& name) {
+StoredImage decodePng(std::span<const std::byte> bytes, const std::string& name,
+                      std::size_t heldBytes) {
   detail::PngReader reader(bytes, name);
   detail::checkSize(name, reader.width(), reader.height());
   StoredImage image;
   image.width = reader.width();
   image.height = reader.height();
-  if (reader.bitDepth() == 16) {
-    reader.decode(image.values.emplace<1>());
-  } else if (reader.hasAlpha()) {
-    reader.decode(image.values.emplace<0>());
+  const int depth = reader.bitDepth() == 16 ? 16 : 8;
+  if (depth == 8 && !reader.hasAlpha()) image.channels = 3;
+  if (depth == 16) image.values.emplace<1>();
+  const std::size_t row = std::size_t(image.channels) * image.width * (depth / 8);
+  if (!reader.isInterlaced() && row * image.height > heldBytes) {
+    const auto start = [=, channels = image.channels]() -> detail::RowWindow::Next {
+      const auto again = std::make_shared<detail::PngReader>(bytes, name);
+      again->beginRows(channels, depth);
+      return [again](std::byte* out) { again->nextRow(out); };
+    };
+    image.window = std::make_shared<detail::RowWindow>(row, image.height, start);
+  } else if (depth == 16) {
+    reader.decode(std::get<1>(image.values));
+  } else if (image.channels == 4) {
+    reader.decode(std::get<0>(image.values));
   } else {
-    image.channels = 3;
-    reader.decodeOpaque(image.values.emplace<0>());
+    reader.decodeOpaque(std::get<0>(image.values));
   }
   image.text = reader.text();
   return image;
@@ -39,15 +51,15 @@ StoredImage stored(ByteImage image) {
 
 /// A picture of a format that has one.
 StoredImage decodeOne(std::span<const std::byte> bytes, const std::string& name,
-                      std::vector<std::string>& skipped) {
-  if (detail::isPng(bytes)) return decodePng(bytes, name);
+                      std::vector<std::string>& skipped, std::size_t heldBytes = SIZE_MAX) {
+  if (detail::isPng(bytes)) return decodePng(bytes, name, heldBytes);
   if (detail::isJpeg(bytes)) return stored(detail::decodeJpeg(bytes, name));
   if (detail::isWebp(bytes)) return stored(detail::decodeWebp(bytes, name));
   if (detail::isPfm(bytes)) return detail::decodePfm(bytes, name);
   if (detail::isHdr(bytes)) return detail::decodeHdr(bytes, name);
-  if (detail::isTiff(bytes)) return detail::decodeTiff(bytes, name, skipped);
+  if (detail::isTiff(bytes)) return detail::decodeTiff(bytes, name, skipped, heldBytes);
   if (detail::isPnm(bytes) || detail::isBmp(bytes) || detail::isTga(bytes))
-    return detail::decodeSimple(bytes, name);
+    return detail::decodeSimple(bytes, name, heldBytes);
   throw InputError(
       printablePath(name) +
       ": neither PNG, JPEG, WebP, EXR, HDR, PFM, TIFF, PPM, BMP nor TGA: convert it to "
@@ -102,13 +114,13 @@ StoredImage decodeStoredImage(std::span<const std::byte> bytes, const std::strin
 }
 
 PictureLayers decodePictureLayers(std::span<const std::byte> bytes, const std::string& name,
-                                  const std::string& wanted) {
+                                  const std::string& wanted, std::size_t heldBytes) {
   try {
     if (detail::isExr(bytes)) return detail::decodeExrLayers(bytes, name, wanted);
     if (wanted != "all" && wanted != "main") refuseLayer(name, wanted);
     PictureLayers read;
     PictureLayer& layer = read.layers.emplace_back();
-    layer.image = decodeOne(bytes, name, read.skipped);
+    layer.image = decodeOne(bytes, name, read.skipped, heldBytes);
     layer.image.unfollowed.merge(detail::unfollowedIn(bytes));
     return read;
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "glint/image/decoders.h"
+#include "glint/image/row_window.h"
 
 // BMP and TGA are read by stb_image, of which nothing else is compiled. PPM and PGM are not: it
 // knows neither the largest value of theirs nor the byte order of 16 bits.
@@ -58,7 +59,7 @@ class PnmReader {
   PnmReader(std::span<const std::byte> bytes, const std::string& name)
       : bytes_(bytes), name_(name) {}
 
-  StoredImage read() {
+  StoredImage read(std::size_t heldBytes) {
     if (at(bytes_, 1) != '5' && at(bytes_, 1) != '6') {
       throw InputError(printablePath(name_) +
                        ": a PNM of this kind is not read: save it as binary PPM (P6) or PGM (P5)");
@@ -75,9 +76,9 @@ class PnmReader {
     StoredImage image{int(width), int(height), 3, {}};
     if (size == 2) {
       checkSize(name_, width, height);
-      read(samples, values, largest, image.values.emplace<1>());
+      read<std::uint16_t>(samples, largest, heldBytes, image);
     } else {
-      read(samples, values, largest, image.values.emplace<0>());
+      read<std::uint8_t>(samples, largest, heldBytes, image);
     }
     return image;
   }
@@ -99,16 +100,30 @@ class PnmReader {
   }
 
   template <class Code>
-  void read(int samples, std::uint64_t values, std::uint32_t largest, std::vector<Code>& codes) {
-    constexpr std::uint32_t most = static_cast<Code>(-1);
-    codes.reserve(values * std::uint64_t(3 / samples));
-    for (std::uint64_t i = 0; i < values; ++i) {
-      std::uint32_t value = 0;
-      for (std::size_t k = 0; k < sizeof(Code); ++k) value = value << 8 | at(bytes_, at_++);
-      value = std::min(value, largest);
-      const auto code = static_cast<Code>((value * most + largest / 2) / largest);
-      codes.insert(codes.end(), std::size_t(3 / samples), code);
+  void read(int samples, std::uint32_t largest, std::size_t heldBytes, StoredImage& image) const {
+    const auto pixels = bytes_.subspan(at_);
+    const std::size_t row = std::size_t(3) * image.width;
+    const auto rowOf = [=, width = image.width](int y, Code* out) {
+      constexpr std::uint32_t most = static_cast<Code>(-1);
+      std::size_t from = std::size_t(y) * width * std::size_t(samples) * sizeof(Code);
+      for (std::size_t i = 0; i < row; i += std::size_t(3 / samples)) {
+        std::uint32_t value = 0;
+        for (std::size_t k = 0; k < sizeof(Code); ++k) value = value << 8 | at(pixels, from++);
+        value = std::min(value, largest);
+        const auto code = static_cast<Code>((value * most + largest / 2) / largest);
+        std::fill_n(out + i, 3 / samples, code);
+      }
+    };
+    auto& codes = image.values.emplace<std::vector<Code>>();
+    if (row * image.height * sizeof(Code) > heldBytes) {
+      const auto start = [rowOf]() -> RowWindow::Next {
+        return [rowOf, y = 0](std::byte* out) mutable { rowOf(y++, reinterpret_cast<Code*>(out)); };
+      };
+      image.window = std::make_shared<RowWindow>(row * sizeof(Code), image.height, start);
+      return;
     }
+    codes.resize(row * image.height);
+    for (int y = 0; y < image.height; ++y) rowOf(y, codes.data() + row * y);
   }
 
   [[noreturn]] void fail() const { throw damaged(name_, "the PPM's header is damaged"); }
@@ -157,8 +172,9 @@ std::uint64_t leastBytes(std::span<const std::byte> bytes, std::uint64_t width,
 
 }  // namespace
 
-StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name) {
-  if (isPnm(bytes)) return PnmReader(bytes, name).read();
+StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name,
+                         std::size_t heldBytes) {
+  if (isPnm(bytes)) return PnmReader(bytes, name).read(heldBytes);
   const char* const format = isBmp(bytes) ? "BMP" : "TGA";
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   if (bytes.size() > INT_MAX)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "glint/image/row_window.h"
 #include "glint/image/srgb.h"
 
 namespace glint {
@@ -58,15 +59,21 @@ float decodedValue(float encoded) {
   return static_cast<float>(std::copysign(y, encoded));
 }
 
+void StoredImage::readWindow(int first, int count, void* out) const {
+  window->read(first, count, static_cast<std::byte*>(out));
+}
+
 void StoredImage::linearRows(int first, int count, float* rgba) const {
-  const std::size_t begin = std::size_t(channels) * width * first;
   const std::size_t pixels = std::size_t(width) * count;
-  if (const auto* bytes = std::get_if<0>(&values)) {
-    codesToLinear(bytes->data() + begin, channels, pixels, rgba);
-  } else if (const auto* words = std::get_if<1>(&values)) {
-    codesToLinear(words->data() + begin, channels, pixels, rgba);
+  if (values.index() == 0) {
+    std::vector<std::uint8_t> copy;
+    codesToLinear(heldRows(first, count, copy), channels, pixels, rgba);
+  } else if (values.index() == 1) {
+    std::vector<std::uint16_t> copy;
+    codesToLinear(heldRows(first, count, copy), channels, pixels, rgba);
   } else {
-    const float* in = std::get<2>(values).data() + begin;
+    std::vector<float> copy;
+    const float* in = heldRows(first, count, copy);
     for (std::size_t i = 0; i < pixels; ++i, in += channels, rgba += 4) {
       for (int c = 0; c < 3; ++c) rgba[c] = in[channels == 1 ? 0 : c];
       rgba[3] = channels == 4 ? in[3] : 1;
@@ -75,32 +82,36 @@ void StoredImage::linearRows(int first, int count, float* rgba) const {
 }
 
 void StoredImage::storedRows(int first, int count, float* rgba) const {
-  const std::size_t begin = std::size_t(channels) * width * first;
-  const std::size_t pixels = std::size_t(width) * count;
-  if (const auto* bytes = std::get_if<0>(&values)) {
-    codesToValues(bytes->data() + begin, channels, pixels, true, rgba);
-  } else if (const auto* words = std::get_if<1>(&values)) {
-    codesToValues(words->data() + begin, channels, pixels, true, rgba);
+  if (isEncoded()) {
+    codeRows(first, count, true, rgba);
   } else {
     linearRows(first, count, rgba);
   }
 }
 
-void StoredImage::encodedRows(int first, int count, float* rgba) const {
-  const std::size_t begin = std::size_t(channels) * width * first;
+void StoredImage::codeRows(int first, int count, bool stored, float* rgba) const {
   const std::size_t pixels = std::size_t(width) * count;
-  if (const auto* bytes = std::get_if<0>(&values)) {
-    codesToValues(bytes->data() + begin, channels, pixels, false, rgba);
-  } else if (const auto* words = std::get_if<1>(&values)) {
-    codesToValues(words->data() + begin, channels, pixels, false, rgba);
+  if (values.index() == 0) {
+    std::vector<std::uint8_t> copy;
+    codesToValues(heldRows(first, count, copy), channels, pixels, stored, rgba);
   } else {
-    linearRows(first, count, rgba);
-    for (std::size_t i = 0; i < pixels; ++i, rgba += 4) {
-      const float alpha = rgba[3];
-      for (int c = 0; c < 3; ++c) {
-        const float straight = alpha > 0 && alpha < 1 ? rgba[c] / alpha : rgba[c];
-        rgba[c] = alpha <= 0 && !std::isnan(straight) ? 0 : encodedValue(straight);
-      }
+    std::vector<std::uint16_t> copy;
+    codesToValues(heldRows(first, count, copy), channels, pixels, stored, rgba);
+  }
+}
+
+void StoredImage::encodedRows(int first, int count, float* rgba) const {
+  const std::size_t pixels = std::size_t(width) * count;
+  if (isEncoded()) {
+    codeRows(first, count, false, rgba);
+    return;
+  }
+  linearRows(first, count, rgba);
+  for (std::size_t i = 0; i < pixels; ++i, rgba += 4) {
+    const float alpha = rgba[3];
+    for (int c = 0; c < 3; ++c) {
+      const float straight = alpha > 0 && alpha < 1 ? rgba[c] / alpha : rgba[c];
+      rgba[c] = alpha <= 0 && !std::isnan(straight) ? 0 : encodedValue(straight);
     }
   }
 }

@@ -3,12 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace glint {
+
+namespace detail {
+class RowWindow;
+}
 
 /// A picture as its file holds it, so that a large pair of 8-bit pictures needs no floats.
 ///
@@ -23,6 +28,9 @@ struct StoredImage {
   /// What the file says of its colours or its orientation, by name, and is not followed: colours
   /// are taken as sRGB's, rows as they are stored. What says just that is not here.
   std::map<std::string, std::string> unfollowed = {};
+  /// Of a large picture that is read by rows, `values` being empty; see decodePictureLayers(). The
+  /// functions below may then find that the file is damaged and throw InputError.
+  std::shared_ptr<detail::RowWindow> window = {};
 
   bool isEncoded() const { return values.index() < 2; }  ///< sRGB codes, not linear light
   bool hasAlpha() const { return channels == 4; }
@@ -39,6 +47,21 @@ struct StoredImage {
   /// The same rows as numbers of the file, sRGB or linear light: colours as they are stored,
   /// whatever alpha is (straight with codes, premultiplied with floats).
   void storedRows(int first, int count, float* rgba) const;
+
+  /// Rows as they are held: codes or floats, `channels` for a pixel. Of a picture that is read by
+  /// rows they are copied to `copy` first.
+  template <class Value>
+  const Value* heldRows(int first, int count, std::vector<Value>& copy) const {
+    const std::size_t row = std::size_t(channels) * width;
+    if (!window) return std::get<std::vector<Value>>(values).data() + row * first;
+    copy.resize(row * count);
+    readWindow(first, count, copy.data());
+    return copy.data();
+  }
+
+ private:
+  void readWindow(int first, int count, void* out) const;
+  void codeRows(int first, int count, bool stored, float* rgba) const;
 };
 
 /// The sRGB curve, continued beyond [0, 1] by its own formula, odd about 0.

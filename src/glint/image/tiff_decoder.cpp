@@ -5,8 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <string_view>
+#include <type_traits>
 
 #include "glint/image/decoders.h"
+#include "glint/image/row_window.h"
 
 #if GLINT_TIFF
 #include <tiffio.h>
@@ -78,7 +80,7 @@ class TiffReader {
     if (!file_) fail();
   }
 
-  StoredImage read(std::vector<std::string>& skipped) {
+  StoredImage read(std::vector<std::string>& skipped, std::size_t heldBytes) {
     std::uint32_t width = 0, height = 0;
     if (!TIFFGetField(file_.get(), TIFFTAG_IMAGEWIDTH, &width) ||
         !TIFFGetField(file_.get(), TIFFTAG_IMAGELENGTH, &height) || width == 0 || height == 0)
@@ -92,26 +94,23 @@ class TiffReader {
     const int format = field(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     const int photometric = field(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     const bool plain = field(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_CONTIG &&
-                       !TIFFIsTiled(file_.get()) &&
                        (photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_RGB) &&
                        samples <= 4;
     image_ = {int(width), int(height), samples == 2 || samples == 4 ? 4 : 3, {}};
     if (plain && bits == 32 && format == SAMPLEFORMAT_IEEEFP) {
       checkSize(name_, width, height);
-      readRows<float>(samples, image_.values.emplace<2>());
+      readRows<float>(samples, heldBytes);
     } else if (plain && bits == 16 && format == SAMPLEFORMAT_UINT) {
       checkSize(name_, width, height);
-      readRows<std::uint16_t>(samples, image_.values.emplace<1>());
-      makeStraight(std::get<1>(image_.values));
+      readRows<std::uint16_t>(samples, heldBytes);
     } else if (plain && bits == 8 && format == SAMPLEFORMAT_UINT) {
-      readRows<std::uint8_t>(samples, image_.values.emplace<0>());
-      makeStraight(std::get<0>(image_.values));
+      readRows<std::uint8_t>(samples, heldBytes);
     } else if (bits <= 8) {
       readAsRgba();
     } else {
       throw InputError(printablePath(name_) + ": a TIFF of " + std::to_string(bits) +
                        " bits in this layout is not read: save it as 8 or 16 bits or 32-bit float, "
-                       "RGB or grey, in strips");
+                       "RGB or grey, not in planes");
     }
     if (const int way = field(TIFFTAG_ORIENTATION, 1); way != 1)
       image_.unfollowed["EXIF orientation"] = std::to_string(way);
@@ -125,40 +124,97 @@ class TiffReader {
     return std::move(image_);
   }
 
- private:
+  /// Row y of strips, which are read in their order.
   template <class Value>
-  void readRows(int samples, std::vector<Value>& values) {
-    const std::size_t rowBytes = std::size_t(samples) * image_.width * sizeof(Value);
-    if (std::size_t(TIFFScanlineSize(file_.get())) != rowBytes) fail();
-    std::vector<Value> row(std::size_t(samples) * image_.width);
-    // Grown as rows arrive: a small file that claims to be a giant touches little memory.
-    for (int y = 0; y < image_.height; ++y) {
-      if (TIFFReadScanline(file_.get(), row.data(), std::uint32_t(y), 0) != 1) fail();
-      const Value* in = row.data();
-      for (int x = 0; x < image_.width; ++x, in += samples) {
-        for (int c = 0; c < 3; ++c) values.push_back(in[samples < 3 ? 0 : c]);
-        if (image_.channels == 4) values.push_back(in[samples - 1]);
+  void readRow(int y, int samples, int width, int channels, Value* out) {
+    row_.resize(std::size_t(samples) * width * sizeof(Value));
+    if (TIFFReadScanline(file_.get(), row_.data(), std::uint32_t(y), 0) != 1) fail();
+    unpack(row_.data(), width, samples, channels, out);
+  }
+
+ private:
+  /// Pixels as they lie in the file to 3 or 4 channels.
+  template <class Value>
+  void unpack(const std::byte* bytes, int pixels, int samples, int channels, Value* out) {
+    const Value* in = reinterpret_cast<const Value*>(bytes);
+    Value* const begin = out;
+    for (int x = 0; x < pixels; ++x, in += samples) {
+      for (int c = 0; c < 3; ++c) *out++ = in[samples < 3 ? 0 : c];
+      if (channels == 4) *out++ = in[samples - 1];
+    }
+    if constexpr (!std::is_same_v<Value, float>)
+      if (channels == 4 && isAssociated()) divideByAlpha(begin, std::size_t(pixels));
+  }
+
+  template <class Value>
+  void readTiles(int samples) {
+    std::uint32_t across = 0, down = 0;
+    if (!TIFFGetField(file_.get(), TIFFTAG_TILEWIDTH, &across) ||
+        !TIFFGetField(file_.get(), TIFFTAG_TILELENGTH, &down) || across == 0 || down == 0)
+      fail();
+    checkSize(name_, across, down);
+    const std::size_t tileRow = std::size_t(samples) * across * sizeof(Value);
+    if (std::size_t(TIFFTileSize(file_.get())) != tileRow * down) fail();
+    std::vector<std::byte> tile(tileRow * down);
+    auto& values = image_.values.emplace<std::vector<Value>>();
+    const auto width = std::uint32_t(image_.width), height = std::uint32_t(image_.height);
+    const std::size_t channels = std::size_t(image_.channels), row = channels * width;
+    for (std::uint32_t top = 0; top < height; top += down) {
+      const std::uint32_t rows = std::min(down, height - top);
+      values.resize(row * (top + rows));
+      for (std::uint32_t left = 0; left < width; left += across) {
+        if (TIFFReadTile(file_.get(), tile.data(), left, top, 0, 0) < 0) fail();
+        for (std::uint32_t y = 0; y < rows; ++y)
+          unpack(&tile[tileRow * y], int(std::min(across, width - left)), samples, int(channels),
+                 &values[row * (top + y) + channels * left]);
       }
     }
   }
 
-  /// Codes are straight everywhere else.
-  template <class Code>
-  void makeStraight(std::vector<Code>& codes) {
+  template <class Value>
+  void readRows(int samples, std::size_t heldBytes) {
+    if (TIFFIsTiled(file_.get())) return readTiles<Value>(samples);
+    auto& values = image_.values.emplace<std::vector<Value>>();
+    const int width = image_.width, channels = image_.channels;
+    if (std::size_t(TIFFScanlineSize(file_.get())) != std::size_t(samples) * width * sizeof(Value))
+      fail();
+    const std::size_t size = std::size_t(channels) * width;
+    if (!std::is_same_v<Value, float> && size * image_.height * sizeof(Value) > heldBytes) {
+      const auto start = [=, bytes = memory_.bytes, name = name_]() -> RowWindow::Next {
+        const auto again = std::make_shared<TiffReader>(bytes, name);
+        return [=, y = 0](std::byte* out) mutable {
+          again->readRow(y++, samples, width, channels, reinterpret_cast<Value*>(out));
+        };
+      };
+      image_.window = std::make_shared<RowWindow>(size * sizeof(Value), image_.height, start);
+      return;
+    }
+    // Grown as rows arrive: a small file that claims to be a giant touches little memory.
+    for (int y = 0; y < image_.height; ++y) {
+      values.resize(values.size() + size);
+      readRow(y, samples, width, channels, values.data() + size * y);
+    }
+  }
+
+  bool isAssociated() const {
     std::uint16_t count = 0;
     const std::uint16_t* kinds = nullptr;
-    if (image_.channels != 4 || !TIFFGetField(file_.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds) ||
-        count == 0 || kinds[0] != EXTRASAMPLE_ASSOCALPHA)
-      return;
+    return TIFFGetField(file_.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0 &&
+           kinds[0] == EXTRASAMPLE_ASSOCALPHA;
+  }
+
+  /// Codes are straight everywhere else.
+  template <class Code>
+  static void divideByAlpha(Code* codes, std::size_t pixels) {
     constexpr std::uint32_t most = static_cast<Code>(-1);
-    for (std::size_t i = 0; i < codes.size(); i += 4) {
+    for (std::size_t i = 0; i < 4 * pixels; i += 4) {
       const std::uint32_t alpha = codes[i + 3];
       for (std::size_t c = 0; c < 3 && alpha > 0; ++c)
         codes[i + c] = static_cast<Code>(std::min(most, (codes[i + c] * most + alpha / 2) / alpha));
     }
   }
 
-  /// Palettes, YCbCr, tiles, planes: as the library's own conversion has them.
+  /// Palettes, YCbCr, planes: as the library's own conversion has them, which associates alpha.
   void readAsRgba() {
     std::vector<std::uint32_t> pixels(std::size_t(image_.width) * image_.height);
     if (TIFFReadRGBAImageOriented(file_.get(), std::uint32_t(image_.width),
@@ -170,7 +226,7 @@ class TiffReader {
     codes.reserve(pixels.size() * 4);
     for (const std::uint32_t pixel : pixels)
       for (const int shift : {0, 8, 16, 24}) codes.push_back(std::uint8_t(pixel >> shift));
-    makeStraight(codes);
+    divideByAlpha(codes.data(), pixels.size());
   }
 
   [[noreturn]] void fail() const {
@@ -181,7 +237,8 @@ class TiffReader {
   }
 
   Memory memory_;
-  const std::string& name_;
+  const std::string name_;
+  std::vector<std::byte> row_;
   std::unique_ptr<TIFF, void (*)(TIFF*)> file_;
   StoredImage image_;
 };
@@ -189,12 +246,12 @@ class TiffReader {
 }  // namespace
 
 StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name,
-                       std::vector<std::string>& skipped) {
-  return TiffReader(bytes, name).read(skipped);
+                       std::vector<std::string>& skipped, std::size_t heldBytes) {
+  return TiffReader(bytes, name).read(skipped, heldBytes);
 }
 #else
 StoredImage decodeTiff(std::span<const std::byte>, const std::string& name,
-                       std::vector<std::string>&) {
+                       std::vector<std::string>&, std::size_t) {
   throw InputError(printablePath(name) +
                    ": TIFF, which this build does not read: convert it to PNG or EXR");
 }

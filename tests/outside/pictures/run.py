@@ -95,6 +95,11 @@ said = run(glint, "diff", "--run", folder, "--prune", status=2)
 check("removed the baseline %s/baselines/unused.png" % outside in said, said)
 check(not (outside / "baselines/unused.png").exists(), "it is gone")
 check((outside / "baselines/several_1.png").exists(), "the others are there")
+# Where there is anything but pictures, what belongs to no test may be somebody's.
+write("baselines/drawing.png")
+(outside / "baselines/notes.txt").write_text("not a folder of baselines alone")
+said = run(glint, "diff", "--run", folder, "--prune", status=2)
+check("removed" not in said and (outside / "baselines/drawing.png").exists(), said)
 
 # A test that was killed, and one that has been taken out of the project.
 (folder / "status/same.txt").write_text("started\n")
