@@ -244,6 +244,18 @@ TEST(Pace, DoesNotMakeSmallerWhatThatDoesNotMakeFaster) {
   EXPECT_EQ(pace.division(), 1);
 }
 
+TEST(Pace, IsNotMisledByOnePictureThatWasHeldUp) {
+  Pace pace;
+  pace.drewWhole(400, false);
+  pace.drewFaster(200);
+  EXPECT_EQ(pace.division(), 2);
+  pace.drewFaster(220);  // 50, but for another process
+  pace.drewFaster(50);
+  EXPECT_EQ(pace.division(), 3);
+  pace.drewFaster(24);
+  EXPECT_EQ(pace.division(), 3);
+}
+
 TEST(Pace, GrowsAgainWhereMostOfTheTimeIsNotThePixels) {
   Pace pace;
   const Look look = scenes::plainLook(1000, 800);

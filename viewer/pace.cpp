@@ -21,6 +21,7 @@ void Pace::drewWhole(double ms, bool cold) {
 void Pace::learnAnew() {
   useful_ = most;
   larger_ = 0;
+  tries_ = 0;
   slow_ = {};
 }
 
@@ -29,7 +30,9 @@ void Pace::drewFaster(double ms, bool cold) {
   const double d = division_;
   if (ms > slowFrame) {
     slow_[std::size_t(division_)] = true;
-    if (larger_ > 0 && ms > 0.85 * larger_) {
+    least_ = tries_++ > 0 ? std::min(least_, ms) : ms;
+    if (larger_ > 0 && least_ > 0.85 * larger_) {
+      if (tries_ < 3) return;  // others may have held it up
       useful_ = std::max(1, division_ - 1);
       division_ = useful_;
       larger_ = 0;
@@ -37,12 +40,14 @@ void Pace::drewFaster(double ms, bool cold) {
       larger_ = ms;
       ++division_;
     }
+    tries_ = 0;
   } else if (division_ > 1 && ((ms < 0.7 * slowFrame && !slow_[std::size_t(division_ - 1)]) ||
                                ms * d * d < 0.6 * slowFrame * (d - 1) * (d - 1))) {
     // It is tried once, as no one knows what of the time is the pixels'; and again where all of it
     // may be.
     --division_;
     larger_ = 0;
+    tries_ = 0;
   } else {
     larger_ = 0;
   }

@@ -41,8 +41,10 @@ class Pace {
   static constexpr int most = 6;
   double whole_ = 0;
   int division_ = 1;
-  int useful_ = most;                  ///< smaller pictures were no faster
-  double larger_ = 0;                  ///< ms by one division less
+  int useful_ = most;  ///< smaller pictures were no faster
+  double larger_ = 0;  ///< ms by one division less
+  double least_ = 0;   ///< ms by this one, of `tries_` that were too slow
+  int tries_ = 0;
   std::array<bool, most + 1> slow_{};  ///< divisions that were too slow since the last rest
 };
 
