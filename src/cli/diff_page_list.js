@@ -57,17 +57,18 @@ function drawList() {
     if (a !== b) return (a < b ? -1 : 1) * (descending ? -1 : 1);
     return error(q) - error(p) || p.index - q.index;
   });
-  // What fits the screen at once, the others when there is time.
+  // What fits the screen at once, the others when there is time: the first picture goes before them.
+  const later = f => window.requestIdleCallback ? requestIdleCallback(f, {timeout: 200}) : setTimeout(f);
   const rows = $('rows'), turn = ++drawing, at = listed.findIndex(p => p.index === current);
   const add = count => rows.append(...listed.slice(rows.children.length, rows.children.length + count).map(rowOf));
   const more = () => {
     if (turn !== drawing || rows.children.length >= listed.length) return;
     add(200);
-    setTimeout(more);
+    later(more);
   };
   rows.replaceChildren();
   add(Math.max(60, at + 30));
-  setTimeout(more);
+  later(more);
   const counts = kinds.map(k => [k, pairs.filter(p => p.kind === k).length]).filter(([, n]) => n > 0);
   $('summary').textContent = `${counted(pairs.length, 'pair')}: ${counts.map(([k, n]) => n + ' ' + k).join(', ')}; ${listed.length} shown`;
 }
