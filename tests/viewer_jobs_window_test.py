@@ -272,7 +272,8 @@ def test_job_everything_is_taken_back_and_done_again():
         for act in acts:
             act()
             job.move(20, 20)
-            seen.append(job.crop(job.settled(), (900, 700)))
+            # The whole picture comes up to 0.6 s after the hand rests.
+            seen.append(job.crop(job.settled(quiet=0.8), (900, 700)))
         last, look = job.picture()
         for _ in acts:
             job.key("ctrl+z")
