@@ -77,7 +77,7 @@ void App::offerRecovered() {
   if (std::exchange(offered_, true)) return;
   const auto left = recovery_.left(options_.model);
   if (left.empty()) return;
-  const Recovered found = left.front();
+  const Recovered& found = left.front();
   const auto since = std::chrono::file_clock::to_sys(found.time);
   const std::time_t time = std::chrono::system_clock::to_time_t(
       std::chrono::time_point_cast<std::chrono::system_clock::duration>(since));

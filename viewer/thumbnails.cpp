@@ -52,7 +52,7 @@ glm::dvec3 Thumbnails::meanOf(int image) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 3 < small.rgba.size(); i += 4)
       for (int c = 0; c < 3; ++c) sum[c] += double(srgbDecoded[small.rgba[i + std::size_t(c)]]);
-    if (!small.rgba.empty()) mean = sum / double(small.rgba.size() / 4);
+    if (!small.rgba.empty()) mean = sum / (double(small.rgba.size()) / 4);
   }
   return means_.emplace(image, mean).first->second;
 }
