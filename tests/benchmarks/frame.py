@@ -4,8 +4,8 @@
   tests/benchmarks/frame.py BUILD MODEL... [--rounds N] [--size PIXELS]
 
 Each round runs one process of each program, with 1 and with 4 samples a pixel; of a process's frames the
-first two do not count. glint's are `draw` and `read` of `render --json`, of float pixels; VTK's (its default
-actor with Phong interpolation, by its glTF reader) are Render() and a read-back of 8-bit RGB. VTK needs
+first two do not count. glint's are `draw` and `read` of `render --json`, of float pixels; VTK's (its glTF
+importer, each actor with Phong shading and its colour texture) are Render() and a read-back of 8-bit RGB. VTK needs
 Debian's python3-vtk9 and an X server (DISPLAY); without them only glint is timed.
 """
 import argparse
@@ -21,24 +21,24 @@ FRAMES = 10
 VTK = r"""
 import sys, time, vtk
 model, size, samples, frames = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
-reader = vtk.vtkGLTFReader()
-reader.SetFileName(model)
-parts = vtk.vtkCompositeDataGeometryFilter()
-parts.SetInputConnection(reader.GetOutputPort())
-mapper = vtk.vtkPolyDataMapper()
-mapper.SetInputConnection(parts.GetOutputPort())
-actor = vtk.vtkActor()
-actor.SetMapper(mapper)
-actor.GetProperty().SetInterpolationToPhong()
-actor.GetProperty().SetSpecular(0.5)
-actor.GetProperty().SetSpecularPower(30)
 renderer = vtk.vtkRenderer()
-renderer.AddActor(actor)
 window = vtk.vtkRenderWindow()
 window.SetMultiSamples(samples if samples > 1 else 0)
 window.SetOffScreenRendering(1)
 window.SetSize(size, size)
 window.AddRenderer(renderer)
+importer = vtk.vtkGLTFImporter()
+importer.SetFileName(model)
+importer.SetRenderWindow(window)
+importer.Update()
+for actor in renderer.GetActors():
+    surface = actor.GetProperty()
+    color = surface.GetTexture("albedoTex")
+    surface.RemoveAllTextures()
+    surface.SetInterpolationToPhong()
+    surface.SetSpecular(0.5)
+    surface.SetSpecularPower(30)
+    actor.SetTexture(color)
 renderer.ResetCamera()
 pixels = vtk.vtkUnsignedCharArray()
 for _ in range(frames):
