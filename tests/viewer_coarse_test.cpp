@@ -128,6 +128,26 @@ TEST(FewerLights, BringAsMuchLightFromAsManyWays) {
   EXPECT_EQ(fewer.shading, look.shading);
 }
 
+// Equal ways, whose cosine rounds to above 1, and intensities that make that much.
+TEST(FewerLights, MayAllShineFromOnePlace) {
+  const Scene scene = balls();
+  for (int i = 0; i < 100; ++i) {
+    Look look;
+    look.light.emplace();
+    for (int k = 0; k < 20; ++k)
+      look.light->push_back(shining({0.1 + i, 0.7, 0.3 * i}, glm::dvec3(1e25)));
+    const Look fewer = withFewerLights(scene, boundsOf(scene), look, 8);
+    ASSERT_EQ(fewer.light->size(), 8u);
+    double after = 0;
+    for (const Light& light : *fewer.light) {
+      EXPECT_EQ(light.direction, look.light->front().direction);
+      EXPECT_GE(light.intensity.r, 1e25);
+      after += light.intensity.r;
+    }
+    EXPECT_NEAR(after, 20e25, 1e12);
+  }
+}
+
 TEST(FewerLights, CountWhatArrives) {
   const Scene scene = balls();
   const Bounds bounds = boundsOf(scene);

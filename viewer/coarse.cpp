@@ -190,12 +190,12 @@ Look withFewerLights(const Scene& scene, const Bounds& bounds, const Look& look,
   std::vector<double> cosine(lights.size(), -1);  // 1 of those taken
   std::vector<std::size_t> taken;
   while (taken.size() < most) {
-    std::size_t next = lights.size();
-    double best = -1;
+    std::size_t next = lights.size();  // one that is not taken; there are more than `most`
+    double best = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::dvec3& l = arriving[i].light;
       const double gain = std::max({l.r, l.g, l.b}) * (1 - cosine[i]);
-      if (cosine[i] < 2 && gain > best) {
+      if (cosine[i] < 2 && (next == lights.size() || gain > best)) {
         best = gain;
         next = i;
       }
