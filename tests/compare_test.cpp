@@ -1,6 +1,7 @@
 // The metrics of comparing pictures, against closed cases and other programs.
 
 #include "glint/image/compare.h"
+#include "code_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,27 +22,14 @@ using glint::Comparison;
 using glint::Image;
 using glint::StoredImage;
 using glint::ValueSpace;
+using glint::test::codes;
+using glint::test::plain;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// A picture of codes.
-StoredImage codes(int width, int height, int channels,
-                  const std::function<std::vector<int>(int x, int y)>& colour) {
-  StoredImage image{width, height, channels, std::vector<std::uint8_t>{}};
-  auto& values = std::get<0>(image.values);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (const int code : colour(x, y)) values.push_back(static_cast<std::uint8_t>(code));
-  return image;
-}
-
-StoredImage plain(int width, int height, const std::vector<int>& colour) {
-  return codes(width, height, int(colour.size()), [&](int, int) { return colour; });
-}
 
 StoredImage noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "code_pictures.h"
 #include "glint/image/compare.h"
 
 namespace pixel_count_test {
@@ -14,21 +15,9 @@ using glint::CompareOptions;
 using glint::Comparison;
 using glint::PixelDistance;
 using glint::StoredImage;
+using glint::test::codes;
+using glint::test::plain;
 using testing::ElementsAre;
-
-StoredImage codes(int width, int height, int channels,
-                  const std::function<std::vector<int>(int x, int y)>& colour) {
-  StoredImage image{width, height, channels, std::vector<std::uint8_t>{}};
-  auto& values = std::get<0>(image.values);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (const int code : colour(x, y)) values.push_back(static_cast<std::uint8_t>(code));
-  return image;
-}
-
-StoredImage plain(int width, int height, const std::vector<int>& colour) {
-  return codes(width, height, int(colour.size()), [&](int, int) { return colour; });
-}
 
 /// A disc with anti-aliased edges, by 4 x 4 samples; centre and radius in eighths of a pixel.
 /// `grain` of seven pixels are somewhat brighter.
