@@ -1,6 +1,23 @@
 // Specular anti-aliasing: the highlight as wide as the normals of the pixel are apart, and dimmed to
 // the same light. src/glint/shading/specular_filter.h has the same in double, and the sources.
 
+#if TOKSVIG
+// `variance` is that of the normals that the texel stands for.
+Parameters filteredParameters(Parameters p, float variance) {
+  float filtered = p.exponent / (1.0 + EXPONENTS_PER_BLINN * p.exponent * variance);
+  p.specular *= (1.0 + filtered) / (1.0 + p.exponent);
+  p.exponent = filtered;
+  return p;
+}
+
+#if !VERTEX_STAGE
+// A scale of the normals' x and y scales how far they are apart.
+Parameters pixelParameters() {
+  float width = draw.normalScale * (1.0 - inputsAtPlace().texel.a);
+  return filteredParameters(parametersHere(), width * width);
+}
+#endif
+#else
 // `turn` is |dN/dx|^2 + |dN/dy|^2 of the unit normal from pixel to pixel.
 Parameters filteredParameters(Parameters p, float turn) {
   float inverse = 0.5 * EXPONENTS_PER_BLINN * p.exponent + 1.0;  // 1 / a^2
@@ -24,4 +41,5 @@ float normalTurn() {
 }
 
 Parameters pixelParameters() { return filteredParameters(parametersHere(), normalTurn()); }
+#endif
 #endif

@@ -35,9 +35,16 @@ double worstOfLobe(Highlight form, int gamma, double alpha) {
     attempt(2.0 * i / count);
     attempt(scale * i / count);
   }
+  if (row(form).hasTable)  // in the middles of the first steps and of the last ones
+    for (int step = 0; step < 3; ++step)
+      for (int i = 1; i < 64; ++i) {
+        attempt(1 - (step + i / 64.0) / gamma);
+        attempt((step + i / 64.0) / gamma);
+      }
   for (double end : {1.0, gamma / alpha, 2 * gamma / (gamma + alpha), 1 / tunedSlope(alpha, gamma)})
     for (double off : {0.0, 1e-15, 1e-9}) attempt(end * (1 - off)), attempt(end * (1 + off));
-  for (double step = scale / count; step > 1e-9 * scale; step *= 0.5) {
+  const double around = row(form).hasTable ? 1.0 / gamma : scale / count;
+  for (double step = around; step > 1e-9 * around; step *= 0.5) {
     const double middle = at;
     for (int i = -2; i <= 2; ++i) attempt(middle + step * i);
   }
@@ -48,11 +55,11 @@ TEST(Bounds, OfLobesAreTheWorstThereIs) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
   constexpr Highlight forms[] = {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross,
-                                 Highlight::pade, Highlight::gaussian};
+                                 Highlight::pade, Highlight::gaussian,  Highlight::table};
   double loosest = 0;
   for (int i = 0; i < draws(4000); ++i) {
-    const Highlight form = forms[i % 5];
-    const int gamma = 1 << int(7 * unit(random));
+    const Highlight form = forms[i % std::size(forms)];
+    const int gamma = std::max(row(form).leastGamma, 1) << int(7 * unit(random));
     // From 0.2 on: below, doubles next to lambda = 1 no longer reach what the lobe falls by there.
     double alpha = 0.2 * std::pow(5e6, unit(random));
     if (i % 7 == 0) alpha = gamma * (1 + 0.02 * (unit(random) - 0.5));
@@ -68,8 +75,9 @@ TEST(Bounds, OfLobesAreTheWorstThereIs) {
 
 TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
   for (Highlight form : {Highlight::lyon, Highlight::lyonTuned, Highlight::lyonCross,
-                         Highlight::pade, Highlight::gaussian})
-    for (int gamma = 1; gamma <= 64; gamma *= 2) {
+                         Highlight::pade, Highlight::gaussian, Highlight::table})
+    for (int k = 0; k < 7; ++k) {
+      const int gamma = std::max(row(form).leastGamma, 1) << k;
       EXPECT_EQ(lobeFormulaBound(form, gamma, 0), 0.0);
       for (double alpha : {1e-6, 1e-3, 1.0, 2.0, 1e6}) {
         const double bound = lobeFormulaBound(form, gamma, alpha);
@@ -86,6 +94,24 @@ TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
   EXPECT_NEAR(lobeFormulaBound(Highlight::lyon, 8, 1000), 0.0350, 6e-5);
   EXPECT_NEAR(lobeFormulaBound(Highlight::lyonTuned, 8, 1000), 0.0164, 6e-5);
   EXPECT_NEAR(lobeFormulaBound(Highlight::gaussian, 1, 1e4), 0.1337e-4, 1e-8);
+}
+
+// The chord of x^2 over a step h is off by h^2 / 4 in its middle, that of the root by h^(1/2) / 4
+// in the first step; of larger exponents by a (a - 1) h^2 / 8 at most, and hardly less where that
+// is small.
+TEST(Bounds, OfATableAreThoseOfItsChords) {
+  for (const int steps : {16, 64, 1024}) {
+    const double h = 1.0 / steps;
+    EXPECT_NEAR(tableBound(2, steps), h * h / 4, 1e-15);
+    EXPECT_NEAR(tableBound(0.5, steps), std::sqrt(h) / 4, 1e-15);
+    EXPECT_EQ(tableBound(1, steps), 0);
+    EXPECT_NEAR(tableBound(1 + 1e-9, steps), 0, 1e-9);
+    EXPECT_NEAR(tableBound(2 - 1e-9, steps), tableBound(2, steps), 1e-9);
+    for (const double alpha : {3.0, 5.0, 20.0, 1000.0, 1e6})
+      EXPECT_LE(tableBound(alpha, steps), alpha * (alpha - 1) * h * h / 8) << alpha;
+  }
+  EXPECT_NEAR(tableBound(20, 1024) / (20 * 19 / 8.0 / (1024 * 1024)), 1, 0.02);
+  EXPECT_GT(tableBound(1e6, 1024), 0.9);  // one step spans the whole lobe
 }
 
 TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {

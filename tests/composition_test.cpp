@@ -184,10 +184,11 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
     EXPECT_EQ(holds("for ("), lights > 0) << program.name;
     EXPECT_EQ(holds("discard"), v.alphaMask) << program.name;
     EXPECT_EQ(holds("vertexColor"), v.vertexColors) << program.name;
-    constexpr const char* lobes[] = {
-        "return lobeExact(", "return lobePow(",      "return lobeInteger(",
-        "return lobeLyon(",  "return lobeLyon(",     "return lobeLyonCross(",
-        "return lobePade(",  "return lobeGaussian(", "none"};
+    constexpr const char* lobes[] = {"return lobeExact(",   "return lobePow(",
+                                     "return lobeInteger(", "return lobeLyon(",
+                                     "return lobeLyon(",    "return lobeLyonCross(",
+                                     "return lobePade(",    "return lobeGaussian(",
+                                     "return lobeTable(",   "none"};
     std::set<std::string_view> forms;  // a form without lights of its own is not there
     if (v.specular) forms.insert(lobes[int(v.highlight.form)]);
     for (const Variant::Dimmer& each : v.dimmer) forms.insert(lobes[int(each.form.form)]);
@@ -214,6 +215,9 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
     EXPECT_EQ(holds("dFdx"), v.vanishingNormal || textures || image || v.specularAntialiasing)
         << program.name;
     EXPECT_EQ(holds("filteredParameters"), v.specularAntialiasing) << program.name;
+    EXPECT_EQ(holds("normalTurn"), v.specularAntialiasing && !v.toksvig) << program.name;
+    EXPECT_EQ(holds("texel.a"), v.toksvig) << program.name;
+    EXPECT_EQ(holds("LobeTableBlock"), lobeTableRows(v) > 0) << program.name;
     EXPECT_EQ(holds("Normalization"), v.normalized) << program.name;
     EXPECT_EQ(holds("gl_FrontFacing"), v.twoSided || v.vanishingNormal) << program.name;
   }

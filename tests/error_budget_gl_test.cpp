@@ -92,7 +92,7 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     }
     if (r.below(3) == 0)
       look.normalization = r.coin() ? Normalization::simple : Normalization::exact;
-    look.specularAntialiasing = r.below(4) == 0;
+    look.specularAntialiasing = SpecularAntialiasing(std::max(r.below(5) - 2, 0));
     look.viewer = r.coin() ? Viewer::infinite : Viewer::local;
     look.environment = Environment(r.below(3));
     if (within) look.cameraPosition = 0.7 * r.direction();
@@ -126,7 +126,9 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
         a.position = at(positions, x, y);
         a.normal = at(normals, x, y);
         // Filtered by the normals of the triangle, which next to an edge may be the next one's.
-        if (look.specularAntialiasing && a.edgeDistance < 1.0 / 128) continue;
+        if (look.specularAntialiasing == SpecularAntialiasing::kaplanyan &&
+            a.edgeDistance < 1.0 / 128)
+          continue;
         // Where N.L rounds to either side of 0 the model itself jumps.
         const glm::dvec3 n = glm::normalize(a.normal);
         bool jumps = false;

@@ -77,7 +77,7 @@ TEST(HalfForms, SquaringFromLambdaHoldsForEveryExponent) {
 // The form's own error is what its bound says, at the halves that are tried.
 TEST(HalfForms, FormulasAreWithinTheirBounds) {
   for (const HighlightRow& form : highlightRows()) {
-    const int gamma = form.hasGamma ? 8 : 1;
+    const int gamma = form.hasGamma() ? 8 * form.leastGamma : 1;
     for (const double alpha : {5.0, 40.0, 1000.0}) {
       if (form.wholePowers && !isIntegerPower(alpha)) continue;
       const double bound = lobeFormulaBound(form.form, gamma, alpha);

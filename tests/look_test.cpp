@@ -20,6 +20,7 @@ void PrintTo(const Look& look, std::ostream* out) { *out << saveLook(look); }
 using glint::AntiAliasing;
 using glint::Light;
 using glint::Look;
+using glint::SpecularAntialiasing;
 using glint::Parameter;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -123,7 +124,8 @@ const std::vector<Good>& goodTexts() {
       {"fresnel", "textbook", [](Look& l) { l.fresnel = Fresnel::textbook; }},
       {"fresnel", "schlick", [](Look& l) { l.fresnel = Fresnel::schlick; }},
       {"normalization", "exact", [](Look& l) { l.normalization = glint::Normalization::exact; }},
-      {"specular-antialiasing", "true", [](Look& l) { l.specularAntialiasing = true; }},
+      {"specular-antialiasing", "toksvig",
+       [](Look& l) { l.specularAntialiasing = SpecularAntialiasing::toksvig; }},
       {"blinn-factor", "3.5", [](Look& l) { l.blinnFactor = 3.5; }},
       {"blinn-factor", "0", [](Look& l) { l.blinnFactor = 0; }},
       {"schlick-exponent", "4", [](Look& l) { l.schlickExponent = 4; }},
@@ -313,7 +315,7 @@ const std::map<std::string, std::vector<std::string>>& badTexts() {
       {"max-error",
        {"", "x", "-1", "-1e-9", "nan", "inf", "1e7", "0.1 ", "code", "1codes", "1 code"}},
       {"normalization", {"", "x", "Exact", "2"}},
-      {"specular-antialiasing", {"", "yes", "1", "True"}},
+      {"specular-antialiasing", {"", "yes", "true", "Toksvig"}},
       {"blinn-factor", {"", "x", "-1", "1001", "nan", "inf", "4 ", "4,", "0x10"}},
       {"schlick-exponent", {"", "-0.1", "1e9", "nan"}},
       {"material",
@@ -447,7 +449,7 @@ class RandomLooks {
     l.environmentBackground = coin();
     l.twoSided = coin();
     l.normalization = glint::Normalization(index(3));
-    l.specularAntialiasing = coin();
+    l.specularAntialiasing = SpecularAntialiasing(index(3));
     if (coin()) l.cameraPosition = vector(-1e30, 1e30);
     if (coin()) l.cameraFocalPoint = vector(-1, 1);
     if (coin()) l.cameraDirection = vector(1e-6, 1e6);
@@ -506,9 +508,8 @@ class RandomLooks {
     return e;
   }
   glint::HighlightForm form() {
-    const auto form = glint::Highlight(index(9));
-    const bool hasGamma = form >= glint::Highlight::lyon && form <= glint::Highlight::pade;
-    return {form, hasGamma ? 1 << index(7) : 0};
+    const auto& form = glint::highlightRows()[std::size_t(index(10))];
+    return {form.form, form.hasGamma() ? form.leastGamma << index(7) : 0};
   }
   glint::HighlightForms highlight() {
     glint::HighlightForms forms = form();

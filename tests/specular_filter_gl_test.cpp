@@ -52,10 +52,13 @@ TEST_P(GlslFactors, TheFilterIsThatInDouble) {
         "#define PIXEL_VARIANCE 0.159154943\n#define LARGEST_WIDENING 0.18\n"
         "#define EXPONENTS_PER_BLINN " +
         std::string(blinn ? "1.0" : "4.0") + "\n";
-    Probe probe(glslSources(),
-                {{"blocks.glsl", "parameters.glsl", "specular_filter.glsl"},
-                 {{"LIGHTS", 0}, {"INSTANCES", 1}, {"VERTEX_STAGE", 1}, {"PARAMETER_TEXTURES", 0}},
-                 defines});
+    Probe probe(glslSources(), {{"blocks.glsl", "parameters.glsl", "specular_filter.glsl"},
+                                {{"LIGHTS", 0},
+                                 {"INSTANCES", 1},
+                                 {"VERTEX_STAGE", 1},
+                                 {"PARAMETER_TEXTURES", 0},
+                                 {"TOKSVIG", 0}},
+                                defines});
     const Column got = probe.run(
         "vec2 filtered(float n, float turn) {\n"
         "  Parameters p = Parameters(0.0, 0.0, 1.0, n, 0.0, 0.0);\n"
@@ -130,12 +133,12 @@ TEST_P(SpecularFilter, AHighlightSmallerThanAPixelHasItsMean) {
       const double single = sumOf(draw(scene, look));
       least = std::min(least, single);
       most = std::max(most, single);
-      look.specularAntialiasing = true;
+      look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
       EXPECT_NEAR(sumOf(draw(scene, look)) / mean, 1, 0.01)
           << shadingName(shading) << " at " << place.x << "," << place.y;
       // The truth, from 16 x 16 samples a pixel that are not filtered, and from the reference's
       // own.
-      look.specularAntialiasing = false;
+      look.specularAntialiasing = SpecularAntialiasing::none;
       look.antiAliasing = {AntiAliasing::Mode::ssaa, 16};
       EXPECT_NEAR(sumOf(ReferenceRenderer(scene, {}, boundsOf(scene), look).draw()) / mean, 1,
                   0.01);
@@ -167,7 +170,7 @@ TEST_P(SpecularFilter, AgreesWithTheReference) {
           look.shading = shading;
           look.antiAliasing = each;
           look.normalization = kind;
-          look.specularAntialiasing = true;
+          look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
           look.noBackground = true;
           look.maxError = 0;
           const double bound = resolveLook(scene, boundsOf(scene), look).bound;
@@ -202,12 +205,13 @@ TEST_P(SpecularFilter, IsNearerToTheSupersampledPicture) {
                   directional({0, -0.3, 1}), directional({-0.5, -0.3, 1})};
     look.shading = shading;
     const auto drawn = [&](bool filtered) {
-      look.specularAntialiasing = filtered;
+      look.specularAntialiasing =
+          filtered ? SpecularAntialiasing::kaplanyan : SpecularAntialiasing::none;
       return draw(scene, look);
     };
     const Image plain = drawn(false), filtered = drawn(true);
     Look fine = look;
-    fine.specularAntialiasing = false;
+    fine.specularAntialiasing = SpecularAntialiasing::none;
     fine.antiAliasing = {AntiAliasing::Mode::ssaa, 16};
     const Image truth = ReferenceRenderer(scene, {}, boundsOf(scene), fine).draw();
     const auto error = [&](const Image& image) {
@@ -231,7 +235,7 @@ TEST_P(SpecularFilter, ChangesNothingPerFaceAndVertex) {
     Look look = parallelLook({0.2, 0.3, 1}, 32);
     look.shading = shading;
     const Image plain = draw(scene, look);
-    look.specularAntialiasing = true;
+    look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
     EXPECT_EQ(draw(scene, look).values, plain.values) << shadingName(shading);
   }
 }

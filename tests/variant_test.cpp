@@ -14,6 +14,7 @@ using glint::AlphaMode;
 using glint::AntiAliasing;
 using glint::Light;
 using glint::Shading;
+using glint::SpecularAntialiasing;
 using glint::Topology;
 using glint::Variant;
 using glint::test::VariantInputs;
@@ -302,11 +303,12 @@ const Case cases[] = {
        v.metallicRoughnessTexture = true;
        v.parameterPlaceCount = 1;
      }},
-    {"--specular-antialiasing", [](VariantInputs& in) { in.look.specularAntialiasing = true; },
+    {"--specular-antialiasing",
+     [](VariantInputs& in) { in.look.specularAntialiasing = SpecularAntialiasing::kaplanyan; },
      [](Variant& v, Shading s) { v.specularAntialiasing = computesPixels(s); }},
     {"--specular-antialiasing without a highlight",
      [](VariantInputs& in) {
-       in.look.specularAntialiasing = true;
+       in.look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
        in.material.shading.specular = 0;
      },
      [](Variant& v, Shading s) {
@@ -315,7 +317,7 @@ const Case cases[] = {
      }},
     {"an integer power that is filtered",
      [](VariantInputs& in) {
-       in.look.specularAntialiasing = true;
+       in.look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
        in.look.highlight = glint::Highlight::integer;
      },
      [](Variant& v, Shading s) {

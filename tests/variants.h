@@ -119,7 +119,15 @@ inline std::set<Variant> sampledVariants() {
         in.material.textured |= textured::transmission;
       },
       [](VariantInputs& in) { in.look.normalization = Normalization::exact; },
-      [](VariantInputs& in) { in.look.specularAntialiasing = true; },
+      [](VariantInputs& in) { in.look.specularAntialiasing = SpecularAntialiasing::kaplanyan; },
+      [](VariantInputs& in) {
+        in.look.specularAntialiasing = SpecularAntialiasing::toksvig;
+        in.material.normalTexture = Texture{};
+        in.mesh.tangents.assign(in.mesh.positions.size(), glm::vec4(1, 0, 0, 1));
+      },
+      [](VariantInputs& in) {
+        in.look.highlight = {Highlight::table, 64};
+      },
       [](VariantInputs& in) { in.look.antiAliasing = {}; },
       [](VariantInputs& in) { in.look.environment = Environment::sky; },
       [](VariantInputs& in) { in.look.environment = Environment::white; },

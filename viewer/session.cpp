@@ -23,8 +23,9 @@ std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRe
   SceneFile file(path);
   model->scene = file.take(pose);
   model->bounds = boundsOf(model->scene);
-  model->images = std::make_shared<const DecodedImages>(
-      decodeImages(model->scene, Look()));  // no look reads others
+  Look all;  // no look reads others, and nothing else reads the lengths of normals
+  all.specularAntialiasing = SpecularAntialiasing::toksvig;
+  model->images = std::make_shared<const DecodedImages>(decodeImages(model->scene, all));
   for (EncodedImage& image : model->scene.images) std::vector<std::byte>().swap(image.bytes);
   model->picker.emplace(model->scene);
   if (!model->scene.animations.empty()) {

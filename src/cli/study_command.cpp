@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "glint/gl/mediump.h"
 #include "glint/gltf/scene_file.h"
 #include "glint/image/clock.h"
 #include "glint/image/error.h"
@@ -180,10 +181,23 @@ void refuseOthers(const CLI::App& command, const std::string& mode, const std::s
   }
 }
 
+/// Whether the table is what the driver here draws.
+std::string driversHalves() {
+  try {
+    const MediumpReport driver = mediumpOfDriver();
+    return "The driver here, " + driver.renderer + ", computes `mediump` " +
+           (driver.isHalf ? "in 16 bits: this is what its shaders lose by it.\n"
+                          : "in more than 16 bits: here it loses nothing.\n");
+  } catch (const ContextError& error) {
+    return "No OpenGL ES 3 here that would tell what a driver makes of `mediump`: " +
+           std::string(error.what()) + ".\n";
+  }
+}
+
 int runHalfPrecision(const StudyArguments& given, const CLI::App& command) {
   refuseOthers(command, "--half-precision", "");
   OutputFile file(given.half);
-  commitText(file, halfTable());
+  commitText(file, halfTable() + "\n" + driversHalves());
   return done;
 }
 

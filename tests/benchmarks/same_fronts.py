@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Whether two studies of one scene say the same: same_fronts.py A/study.json B/study.json.
 
-Their fronts must have the same members, but for those whose step is as small as noise: where a member
-of one front is dominated in the other, the ratio of its time to its dominator's must be the same in
-both runs, each known to its 95 % interval and the run's spread (A/A). So must be the time of every
-variant beside that of the first: a program that is slow for the whole of one run is found here.
-Times are those of the clock that decided (--clock). Prints what differs; exit status 0 if it is within noise, 1 if not, 2 if the studies are not of one
-scene."""
+What one says of a variant for sure, on a front or dominated, the other may leave open but must not deny.
+And the time of every variant beside that of the first must be the same in both runs, each ratio known to
+its 95 % interval and the run's spread (A/A): a program that is slow for the whole of one run is found here.
+Times are those of the clock that decided (--clock). Prints what differs; exit status 0 if nothing is denied, 1 if
+something is, 2 if the studies are not of one scene."""
 
 import json
 import random
@@ -44,10 +43,12 @@ class Study:
         low, high = drawn[7], drawn[-8]
         return (lower_quartile(a) / lower_quartile(b), low / (1 + self.spread), high * (1 + self.spread))
 
-    def dominator(self, front, name):
+    def standing(self, name, model, metric):
+        """'on', 'open', or the variant that dominates it; None of another model."""
         for error in self.variants[name]["errors"]:
-            if error["against"] == front[0]:
-                return error["fronts"][front[1]]
+            if error["against"] == model:
+                by = error["fronts"][metric]
+                return "on" if by is True else "open" if metric in error["open"] else by
         return None
 
 
@@ -72,18 +73,23 @@ def main(paths):
         return 2
     print(f"{a.json['model']}: {len(a.variants)} variants, {a.json['resolution']} pixels, "
           f"spread {100 * a.spread:.1f} and {100 * b.spread:.1f} %")
-    bad = differing = members = 0
-    fronts = [{(f["model"], f["metric"]): set(f["variants"]) for f in s.json["fronts"]} for s in (a, b)]
-    for front in fronts[0]:
-        members += len(fronts[0][front] | fronts[1][front])
-        for run, name in [(b, n) for n in fronts[0][front] - fronts[1][front]] + \
-                         [(a, n) for n in fronts[1][front] - fronts[0][front]]:
-            differing += 1
-            by = run.dominator(front, name)
-            fine, words = same(a, b, name, by)
-            bad += not fine
-            print(f"{' '.join(front)}: {name} only in {'A' if run is b else 'B'}; its time to that of {by}: {words}: "
-                  + ("within noise" if fine else "NOT within noise"))
+    both = open_in_one = open_in_both = denied = 0
+    for front in a.json["fronts"]:
+        for name in a.variants:
+            first, second = (s.standing(name, front["model"], front["metric"]) for s in (a, b))
+            if first is None:
+                continue
+            if "open" in (first, second):
+                open_in_both += first == second
+                open_in_one += first != second
+            elif (first == "on") == (second == "on"):
+                both += 1
+            else:
+                denied += 1
+                by = second if first == "on" else first
+                words = same(a, b, name, by)[1]
+                print(f"{front['model']} {front['metric']}: {name} on the front in {'A' if first == 'on' else 'B'}, "
+                      f"dominated by {by} in the other; ratio of their times: {words}")
     moved = 0
     first = next(iter(a.variants))
     for name in a.variants:
@@ -91,9 +97,10 @@ def main(paths):
         if not fine:
             moved += 1
             print(f"{name}: time to that of {first}: {words}: NOT within noise")
-    print(f"{members} members of {len(fronts[0])} fronts, {differing} of one run alone, {bad} of them beyond noise; "
-          f"{moved} of {len(a.variants)} variants moved beyond noise")
-    return 1 if bad else 0
+    places = both + open_in_one + open_in_both + denied
+    print(f"{places} places on {len(a.json['fronts'])} fronts: {both} told alike, {open_in_one} told by one run alone, "
+          f"{open_in_both} by none, {denied} denied; {moved} of {len(a.variants)} variants moved beyond noise")
+    return 1 if denied else 0
 
 
 if __name__ == "__main__":

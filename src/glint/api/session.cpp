@@ -103,7 +103,9 @@ struct Session::State {
 GpuScene& Session::State::upload(const std::shared_ptr<Model::State>& model, const Look& look) {
   std::erase_if(uploaded, [](const auto& each) { return each.second->model.expired(); });
   auto& own = uploaded[model.get()];
-  const auto isThere = [&](int image) { return own && own->scene.hasImage(image); };
+  const auto isThere = [&](int image, bool withNormalLengths) {
+    return own && own->scene.hasImage(image, withNormalLengths);
+  };
   if (own && own->posed != model->posed) {
     if (own->posed + 1 == model->posed)
       own->scene.pose(model->scene, model->changed);
@@ -139,8 +141,12 @@ auto Session::State::with(const std::shared_ptr<Model::State>& model, const Opti
   checkMaterialNames(model->scene, look);
   const Look resolved = withChoice(look, resolveLook(model->scene, model->bounds, look));
   if (!context) {
-    model->images.merge(decodeImages(model->scene, resolved,
-                                     [&](int image) { return model->images.contains(image); }));
+    const auto isThere = [&](int image, bool withNormalLengths) {
+      const auto known = model->images.find(image);
+      return known != model->images.end() && known->second.hasNormalLengths >= withNormalLengths;
+    };
+    for (auto& [image, decoded] : decodeImages(model->scene, resolved, isThere))
+      model->images.insert_or_assign(image, std::move(decoded));
     return draw(resolved, nullptr);
   }
   const Current current(*context);

@@ -40,9 +40,10 @@ std::vector<Lobe> lobeCandidates(const FormNeeds& needs, const CostTable& costs,
   const bool whole = std::ranges::all_of(needs.exponents, isIntegerPower);
   std::vector<HighlightForm> forms;
   for (const HighlightRow& each : highlightRows()) {
-    if ((!each.atZero && !aboveZero) || (each.wholePowers && !whole)) continue;
-    if (!each.hasGamma) forms.emplace_back(each.form);
-    for (int gamma = 1; each.hasGamma && gamma <= 64; gamma *= 2)
+    if ((!each.atZero && !aboveZero) || (each.wholePowers && !whole) ||
+        (each.hasTable && needs.varyingExponent))
+      continue;
+    for (int gamma = each.leastGamma; gamma <= each.mostGamma; gamma = std::max(2 * gamma, 1))
       forms.emplace_back(each.form, gamma);
   }
   std::vector<Lobe> all;

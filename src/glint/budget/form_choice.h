@@ -22,6 +22,7 @@ struct LightReach {
 struct FormNeeds {
   bool specular = false, dielectric = false;
   std::vector<double> exponents;  ///< of the lobe as drawn; those that occur
+  bool varyingExponent = false;   ///< of some of them, from pixel to pixel
   glm::dvec3 shine{0.0};          ///< m_s S
   struct Mirror {
     double radiance = 0;  ///< that an error of the reflectance is multiplied by

@@ -63,7 +63,10 @@ std::vector<double> exponentsOf(const Material& material, const Variant& v, cons
   double low = scale * exponentFromRoughness(material.parameterTextures.roughness);
   double high = scale * exponentFromRoughness(0);
   if (!varies) low = high = lobeExponent(material, look);
-  if (v.specularAntialiasing) low = filteredLobe(low, blinn, 1e9).exponent;
+  if (v.toksvig)  // a code holds variances up to 1
+    low = toksvigLobe(low, blinn, material.normalScale * material.normalScale).exponent;
+  else if (v.specularAntialiasing)
+    low = filteredLobe(low, blinn, 1e9).exponent;
   std::vector<double> exponents{low};
   constexpr int steps = 16;
   for (int i = 1; i <= steps; ++i)
@@ -102,7 +105,11 @@ double turnError(const LitScene& lit, const ShadingParameters& m,
 // 23 u s sqrt(w / 2) = 6.5 u sqrt(w); 12 u more are of T's own sums and of the formula. The peak
 // moves with w', and the exponent n by (n + 2) / n of that, which changes a lobe by at most
 // 1 / (e n) of the change; a lobe of an exponent below 0.05 is all but even.
-double filterRounding(const std::vector<double>& exponents, bool blinn) {
+//
+// Of Toksvig's, its look-up given: the width is off by 2 u, its square by 5, n' by 12 and the peak
+// by 20; of n' a lobe is off by 1 / e of that.
+double filterRounding(const std::vector<double>& exponents, bool blinn, bool toksvig) {
+  if (toksvig) return 25 * u;
   const double perBlinn = blinn ? 1 : 4;
   const double high = perBlinn * *std::ranges::max_element(exponents);
   const double low = perBlinn * std::max(*std::ranges::min_element(exponents), 0.05);
@@ -193,6 +200,7 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
   if (v.specular) {
     exponents = exponentsOf(material, v, lit.look);
     needs.specular = true;
+    needs.varyingExponent = needs.varyingExponent || exponents.size() > 1;
     // What lets light through shows that much less of the sum.
     const bool veiled =
         v.program == Shading::environment && (v.textured & textured::transmission) == 0;
@@ -219,7 +227,7 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
   // A normalization is as far off as the exponent, by another 6 u of its power of two, a division
   // and three products.
   if (v.normalized) rounding += 20.0 * u * shine;
-  if (v.specularAntialiasing) rounding += filterRounding(exponents, lit.blinn) * shine;
+  if (v.specularAntialiasing) rounding += filterRounding(exponents, lit.blinn, v.toksvig) * shine;
   rounding += turnError(lit, m, exponents, C, S, v);
   if (v.program == Shading::environment) {
     // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.

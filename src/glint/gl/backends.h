@@ -30,8 +30,15 @@ void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> s
 
 std::unique_ptr<Context> openOsmesa(std::span<const char* const> sonames);
 
+/// OpenGL 3.3 core, or OpenGL ES 3, of which the same function pointers are loaded.
+enum class Api { core33, es3 };
+
 /// software: only Mesa's software renderer will do.
-std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software);
+std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software,
+                                 Api api = Api::core33);
+
+/// An OpenGL ES 3 context of the system's EGL, as openContext() gives others.
+std::unique_ptr<Context> openSystemEs3();
 
 /// Calls openers in turn until one gives a context. The reasons of those that failed become the
 /// context's remark or, if none works, the text of a ContextError. Without a GPU, nothing is lost

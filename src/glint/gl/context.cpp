@@ -27,9 +27,10 @@ constexpr Name names[] = {{Backend::automatic, "auto"},
                           {Backend::eglSoftware, "egl-software"},
                           {Backend::osmesa, "osmesa"}};
 
+constexpr const char* eglSonames[] = {"libEGL.so.1"};
+
 std::unique_ptr<Context> openSystemEgl(bool software) {
-  const char* const sonames[] = {"libEGL.so.1"};
-  return backends::openEgl(sonames, software);
+  return backends::openEgl(eglSonames, software);
 }
 
 std::unique_ptr<Context> openSystemOsmesa() {
@@ -122,6 +123,11 @@ std::unique_ptr<Context> backends::openFirst(std::span<const Opener> openers, bo
   throw ContextError(openers.size() == 1 ? reasons : "no OpenGL context: " + reasons);
 }
 
+std::unique_ptr<Context> backends::openSystemEs3() {
+  prepareEnvironment(Backend::egl);
+  return openEgl(eglSonames, false, Api::es3);
+}
+
 const char* backendName(Backend backend) {
   for (const Name& entry : names)
     if (entry.backend == backend) return entry.name;
@@ -141,7 +147,8 @@ Backend backendFromName(std::string_view name, std::string_view more) {
 void Context::makeCurrent() {
   bind();
   const int version = glint_gladLoadGL(loader());
-  if (version < GLAD_MAKE_VERSION(3, 3)) {
+  static_assert(leastVersion == GLAD_MAKE_VERSION(3, 3));
+  if (version < least_) {
     const std::string got = version ? text(GL_VERSION) : "no OpenGL";
     release();
     throw ContextError(description_ + ": OpenGL 3.3 is needed, the driver gives " + got);

@@ -65,8 +65,9 @@ class Context {
  protected:
   using Function = void (*)();
   using Loader = Function (*)(const char* name);
-  Context(Backend backend, std::string description)
-      : backend_(backend), description_(std::move(description)) {}
+  static constexpr int leastVersion = 30003;  ///< as glad has it: 3.3
+  Context(Backend backend, std::string description, int least = leastVersion)
+      : backend_(backend), description_(std::move(description)), least_(least) {}
 
  private:
   virtual void bind() = 0;
@@ -74,6 +75,7 @@ class Context {
 
   Backend backend_;
   std::string description_, remark_;
+  int least_;
 };
 
 /// Opens a context, not yet current, so that it may run on another thread than the one that calls

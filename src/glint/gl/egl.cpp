@@ -113,8 +113,8 @@ std::string errorWords(const EglFunctions& egl) {
 /// What a context is made of; closes itself. The display stays initialised until the process ends:
 /// EGL does not count who uses it, so that eglTerminate would take it from other contexts.
 struct Handles {
-  Handles(const EglFunctions& functions, EGLDisplay ofDisplay)
-      : egl(functions), display(ofDisplay) {}
+  Handles(const EglFunctions& functions, EGLDisplay ofDisplay, Api ofApi)
+      : egl(functions), display(ofDisplay), api(ofApi) {}
   Handles(const Handles&) = delete;
   ~Handles() {
     release();
@@ -123,8 +123,9 @@ struct Handles {
   }
   bool bind() const {
     // The API is a state of each thread.
-    return egl.bindApi(EGL_OPENGL_API) && egl.makeCurrent(display, surface, surface, context);
+    return bindApi() && egl.makeCurrent(display, surface, surface, context);
   }
+  bool bindApi() const { return egl.bindApi(api == Api::es3 ? EGL_OPENGL_ES_API : EGL_OPENGL_API); }
   void release() const {
     if (context && egl.getCurrentContext() == context)
       egl.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -142,6 +143,7 @@ struct Handles {
 
   EglFunctions egl;
   EGLDisplay display;
+  Api api;
   EGLContext context = EGL_NO_CONTEXT;
   EGLSurface surface = EGL_NO_SURFACE;
 };
@@ -149,7 +151,8 @@ struct Handles {
 class EglContext final : public Context {
  public:
   EglContext(Backend backend, std::string description, std::unique_ptr<Handles> handles)
-      : Context(backend, std::move(description)), handles_(std::move(handles)) {}
+      : Context(backend, std::move(description), handles->api == Api::es3 ? 30000 : leastVersion),
+        handles_(std::move(handles)) {}
   void release() override { handles_->release(); }
 
  private:
@@ -227,27 +230,35 @@ std::vector<Place> choosePlaces(const std::vector<Place>& all, bool software) {
 }
 
 /// Makes the context, with a tiny surface where the driver cannot do without. Throws ContextError.
-std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay display) {
+std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay display, Api api) {
   const auto fail = [&](const std::string& what) {
     throw ContextError(what + ": " + errorWords(egl));
   };
-  auto handles = std::make_unique<Handles>(egl, display);
-  if (!egl.bindApi(EGL_OPENGL_API)) fail("eglBindAPI of desktop OpenGL");
+  auto handles = std::make_unique<Handles>(egl, display, api);
+  if (!handles->bindApi())
+    fail(api == Api::es3 ? "eglBindAPI of OpenGL ES" : "eglBindAPI of desktop OpenGL");
   const char* extensions = egl.queryString(display, EGL_EXTENSIONS);
   const bool surfaceless = has(extensions, "EGL_KHR_surfaceless_context");
   EGLConfig config = nullptr;  // EGL_NO_CONFIG_KHR
   if (!surfaceless || !(has(extensions, "EGL_KHR_no_config_context") ||
                         has(extensions, "EGL_MESA_configless_context"))) {
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE,
-                             surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_NONE};
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
+                             api == Api::es3 ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
+                             EGL_SURFACE_TYPE, surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_NONE};
     EGLint count = 0;
     if (!egl.chooseConfig(display, wanted, &config, 1, &count)) fail("eglChooseConfig");
-    if (count < 1) throw ContextError("no EGL configuration draws with desktop OpenGL");
+    if (count < 1) throw ContextError("no EGL configuration draws with this kind of OpenGL");
   }
   if (!surfaceless) {
     const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     handles->surface = egl.createPbufferSurface(display, config, size);
     if (!handles->surface) fail("eglCreatePbufferSurface");
+  }
+  if (api == Api::es3) {
+    const EGLint es3[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+    handles->context = egl.createContext(display, config, EGL_NO_CONTEXT, es3);
+    if (!handles->context) fail("eglCreateContext of OpenGL ES 3");
+    return handles;
   }
   // A context that tells of a reset of the device (GL_CONTEXT_LOST, see check.h), where the driver
   // has such: without it a lost one may go on and draw nothing.
@@ -274,7 +285,8 @@ std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay displ
       version.empty() ? reason : "the driver has no OpenGL 3.3 core context, only " + version);
 }
 
-std::unique_ptr<Context> openPlace(const EglFunctions& egl, const Place& place, bool software) {
+std::unique_ptr<Context> openPlace(const EglFunctions& egl, const Place& place, bool software,
+                                   Api api) {
   const EGLDisplay display = egl.getPlatformDisplay(place.platform, place.native, nullptr);
   if (!display) throw ContextError("eglGetPlatformDisplay: " + errorWords(egl));
   if (!egl.initialize(display, nullptr, nullptr)) {
@@ -282,7 +294,7 @@ std::unique_ptr<Context> openPlace(const EglFunctions& egl, const Place& place, 
     throw ContextError(reason + (place.hardware ? " (is the user in the group render?)"
                                                 : " (is libgl1-mesa-dri installed?)"));
   }
-  auto handles = createContext(egl, display);
+  auto handles = createContext(egl, display, api);
   const std::string renderer = handles->glString(glRenderer);
   if (renderer.empty()) throw ContextError("eglMakeCurrent: " + errorWords(egl));
   const auto is = [&](const char* name) { return renderer.find(name) != renderer.npos; };
@@ -294,13 +306,13 @@ std::unique_ptr<Context> openPlace(const EglFunctions& egl, const Place& place, 
 
 }  // namespace
 
-std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software) {
+std::unique_ptr<Context> openEgl(std::span<const char* const> sonames, bool software, Api api) {
   const EglFunctions egl = loadFunctions(sonames);
   const std::vector<Place> places = choosePlaces(findPlaces(egl), software);
   std::string reasons;
   for (const Place& place : places) {
     try {
-      std::unique_ptr<Context> context = openPlace(egl, place, software);
+      std::unique_ptr<Context> context = openPlace(egl, place, software, api);
       context->addRemark(reasons);
       return context;
     } catch (const ContextError& error) {

@@ -113,7 +113,7 @@ void readParameterTextures(Cursor from, const std::optional<PbrParameters>& pbr,
   to.occlusionStrength = unit(occlusion.member("strength"), 1);
   const auto take = [&](std::optional<Texture>& texture, Cursor info, unsigned bits) {
     if (bits == 0) return;
-    texture = textures.read(info, true);
+    texture = textures.read(info, TextureUse::numbers);
     if (texture) material.textured |= bits;
   };
   take(to.occlusion, occlusion, to.occlusionStrength > 0 ? unsigned(textured::ambient) : 0u);
@@ -213,7 +213,7 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
     material.emissionTexture = textures.read(from.member("emissiveTexture"));
   }
   if (const Cursor normal = from.member("normalTexture"); normal.exists()) {
-    material.normalTexture = textures.read(normal, true);
+    material.normalTexture = textures.read(normal, TextureUse::normals);
     material.normalScale =
         std::clamp(normal.member("scale").number(1), -largestFactor, largestFactor);
   }

@@ -70,7 +70,7 @@ glm::dmat3x2 transformOf(Cursor from) {
 
 }  // namespace
 
-std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
+std::optional<Texture> TextureReader::read(Cursor info, TextureUse use) {
   if (!info.exists()) return std::nullopt;
   const Cursor textures = root_.member("textures");
   const auto index = static_cast<std::size_t>(info.required("index").index(textures.size()));
@@ -102,7 +102,7 @@ std::optional<Texture> TextureReader::read(Cursor info, bool isData) {
     return std::nullopt;
   }
   Texture result;
-  result.image = imageSlot(static_cast<std::size_t>(image), isData);
+  result.image = imageSlot(static_cast<std::size_t>(image), use);
   result.texcoord = static_cast<int>(texcoord);
   result.sampler = sampler(texture);
   if (transform.exists()) result.transform = transformOf(transform);
@@ -133,9 +133,9 @@ Texture TextureReader::glossTexture(const Texture& from, const GlossPicture& mad
   return result;
 }
 
-int TextureReader::imageSlot(std::size_t index, bool isData) {
-  if (const auto known = slots_.find({index, isData}); known != slots_.end()) return known->second;
-  int& slot = slots_[{index, isData}];
+int TextureReader::imageSlot(std::size_t index, TextureUse use) {
+  if (const auto known = slots_.find({index, use}); known != slots_.end()) return known->second;
+  int& slot = slots_[{index, use}];
   slot = -1;
   const Cursor image = root_.member("images").item(index);
   // A data URI is its own source; as a key it would be a copy of the image.
@@ -144,7 +144,8 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   std::string source = view >= 0        ? "view " + std::to_string(view)
                        : isDataUri(uri) ? "image " + std::to_string(index)
                                         : "file " + uri;
-  if (isData) source += " as data";
+  if (use == TextureUse::numbers) source += " as data";
+  if (use == TextureUse::normals) source += " as normals";
   if (const auto known = slotsBySource_.find(source); known != slotsBySource_.end()) {
     return slot = known->second;
   }
@@ -153,12 +154,13 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   loaded.bytes = load(image, loaded.name, error);
   if (error.empty()) {
     // Exporters write a picture once for each material that shows it.
-    if (const int twin = equalImage(loaded.bytes, isData); twin >= 0)
+    if (const int twin = equalImage(loaded.bytes, use); twin >= 0)
       return slotsBySource_[source] = slot = twin;
     if (formatOf(loaded.bytes) == std::string_view("JPEG") && lacksEnd(loaded.bytes))
       messages_.warn("the image " + loaded.name + " is a JPEG without its end");
     slot = static_cast<int>(images_.size());
-    loaded.isData = isData;
+    loaded.isData = use != TextureUse::colors;
+    loaded.isNormalMap = use == TextureUse::normals;
     images_.push_back(std::move(loaded));
   } else {
     messages_.warn("the image " + loaded.name + " " + error + ", drawn without it");
@@ -166,13 +168,15 @@ int TextureReader::imageSlot(std::size_t index, bool isData) {
   return slotsBySource_[source] = slot;
 }
 
-int TextureReader::equalImage(const std::vector<std::byte>& bytes, bool isData) {
+int TextureReader::equalImage(const std::vector<std::byte>& bytes, TextureUse use) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::size_t hash = std::hash<std::string_view>()(text);
   const auto [first, end] = slotsByHash_.equal_range(hash);
   for (auto it = first; it != end; ++it) {
     const EncodedImage& known = images_[static_cast<std::size_t>(it->second)];
-    if (known.isData == isData && known.bytes == bytes) return it->second;
+    if (known.isData == (use != TextureUse::colors) &&
+        known.isNormalMap == (use == TextureUse::normals) && known.bytes == bytes)
+      return it->second;
   }
   slotsByHash_.emplace(hash, static_cast<int>(images_.size()));
   return -1;

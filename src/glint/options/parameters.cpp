@@ -69,7 +69,10 @@ Parameter lightScale() {
 std::string formNames() {
   std::string names;
   for (const HighlightRow& each : highlightRows())
-    names += (names.empty() ? "" : ", ") + std::string(each.name) + (each.hasGamma ? ":G" : "");
+    names += (names.empty() ? "" : ", ") + std::string(each.name) +
+             (!each.hasGamma() ? ""
+              : each.hasTable  ? ":N"
+                               : ":G");
   return names;
 }
 
@@ -77,9 +80,11 @@ Parameter highlight() {
   Parameter p = custom(
       "highlight", "FORM[/N,FORM...]",
       "how the specular lobe is computed: " + formNames() +
-          " (G = 1, 2, 4, ... 64); exact is from the difference vector, stable, pow the textbook's "
+          " (G = 1, 2, 4, ... 64; N = 16, 32, ... 1024); exact is from the difference vector, "
+          "stable, pow the textbook's "
           "pow(dot), integer takes whole exponents from 1 to 128 by squaring and others exactly, "
-          "docs/approximations.md has the others; exact/2,lyon:8 uses the first form for the two "
+          "table reads N steps of the cosine linearly, docs/approximations.md has the others; "
+          "exact/2,lyon:8 uses the first form for the two "
           "brightest lights and the second for the others",
       [](Look& look, const std::string& text) {
         look.highlight = parseHighlights(text, "--highlight");
@@ -355,10 +360,11 @@ std::vector<Parameter> makeTable() {
                      },
                      [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
                  &Look::antiAliasing),
-       flag("specular-antialiasing", &Look::specularAntialiasing,
-            "widen highlights that are narrower than a pixel, by how far the normals turn over it, "
-            "and dim them to the same light, so that they do not flicker; of programs that shade "
-            "pixels"),
+       choice("specular-antialiasing", specularAntialiasingNames, &Look::specularAntialiasing,
+              "widen highlights that are narrower than what a pixel sees of the normals, and dim "
+              "them to the same light, so that they do not flicker: kaplanyan by how far the "
+              "normals turn over the pixel, toksvig by how far those are apart that a smaller "
+              "level of the normal map stands for; of programs that shade pixels"),
        color("background-color", &Look::backgroundColor, "colour behind the model"),
        flag("no-background", &Look::noBackground, "transparent background"),
        slider(number("exposure", "EV", -64, 64, &Look::exposure,

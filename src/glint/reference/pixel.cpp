@@ -42,15 +42,17 @@ glm::dvec3 emissionOf(const Item& item, const Footprint& f) {
 }
 
 // The interpolated normal, bent by the normal map: its texel is the direction in the frame of
-// tangent, bitangent and normal, none of which is renormalised.
+// tangent, bitangent and normal, none of which is renormalised. `width`: Attributes::normalWidth.
 glm::dvec3 normalOf(const Item& item, const Vertices& v, const Footprint& f,
-                    const glm::dvec3& faceNormal) {
+                    const glm::dvec3& faceNormal, double* width = nullptr) {
   glm::dvec3 N = mean(f, [&](std::uint32_t i) { return v.normals[i]; });
   if (!item.normalTexture) return N;
   if (!(glm::dot(N, N) > 1e-6)) N = faceNormal;
   const glm::dvec4 tangent = mean(f, [&](std::uint32_t i) { return v.tangents[i]; });
   const glm::dvec3 T(tangent), B = tangent.w * glm::cross(N, T);
-  const glm::dvec3 texel(sampleTexture(*item.normalTexture, item.normalTexcoords, f));
+  const glm::dvec4 sampled = sampleTexture(*item.normalTexture, item.normalTexcoords, f);
+  if (width) *width = item.normalScale * (1 - sampled.a);
+  const glm::dvec3 texel(sampled);
   const glm::dvec3 m = (texel * 2.0 - 1.0) * glm::dvec3(item.normalScale, item.normalScale, 1);
   const glm::dvec3 bent = m.x * T + m.y * B + m.z * N;
   return glm::dot(bent, bent) > 1e-12 ? bent : N;
@@ -201,9 +203,10 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   if (item.surface.unlit) return a;
   a.emission = emissionOf(item, f);
   a.faceNormal = faceNormal_;
-  a.normal = normalAt(f);
+  const bool toksvig = item.surface.filter == SpecularAntialiasing::toksvig;
+  a.normal = normalOf(item, v, f, faceNormal_, toksvig ? &a.normalWidth : nullptr);
   if ((stage_.frame.image && item.surface.program == Shading::environment) ||
-      item.surface.filtersHighlight) {
+      item.surface.filter == SpecularAntialiasing::kaplanyan) {
     for (std::size_t i = 0; i < 4; ++i) {
       Footprint at = f;
       at.weights = f.square[i];

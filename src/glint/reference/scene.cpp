@@ -127,7 +127,7 @@ Surface surfaceFor(const Material& material, const Variant& variant, const Look&
   s.numbers = {m.ambient, m.diffuse, m.specular, m.exponent, m.metalness, m.transmission};
   s.blinnFactor = look.blinnFactor;
   s.normalization = look.normalization;
-  s.filtersHighlight = look.specularAntialiasing && isPerPixel(s.program) && !s.unlit;
+  if (variant.specularAntialiasing) s.filter = look.specularAntialiasing;
   s.schlickExponent = look.schlickExponent;
   s.ior = material.shading.ior;
   s.mediumIor = look.mediumIor;

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "glint/shading/safe.h"
-#include "glint/shading/specular_filter.h"
 #include "glint/shading/sum.h"
 
 namespace glint::reference {
@@ -113,11 +112,8 @@ glm::dvec3 shadingNormal(const Surface& surface, const Attributes& a) {
 
 namespace {
 
-// The numbers of the pixel's lights: the exponent by the largest turns of the normal across and
-// along the square.
-Numbers pixelNumbers(const Surface& surface, const Attributes& a) {
-  Numbers numbers = a.numbers;
-  if (!surface.filtersHighlight) return numbers;
+// |dN/dx|^2 + |dN/dy|^2: of the largest turns across and along the square.
+double normalTurn(const Surface& surface, const Attributes& a) {
   std::array<glm::dvec3, 4> n;
   for (std::size_t i = 0; i < 4; ++i) {
     Attributes at = a;
@@ -128,12 +124,20 @@ Numbers pixelNumbers(const Surface& surface, const Attributes& a) {
     const glm::dvec3 d = n[i] - n[j];
     return glm::dot(d, d);
   };
-  const double turn = std::max(apart(0, 1), apart(2, 3)) + std::max(apart(0, 2), apart(1, 3));
+  return std::max(apart(0, 1), apart(2, 3)) + std::max(apart(0, 2), apart(1, 3));
+}
+
+// The numbers of the pixel's lights.
+Numbers pixelNumbers(const Surface& surface, const Attributes& a) {
+  Numbers numbers = a.numbers;
+  if (surface.filter == SpecularAntialiasing::none) return numbers;
   // Of the lobe as drawn, whose exponent may be a multiple of the material's.
   const bool blinn = usesBlinn(surface.program);
   const double factor = blinn ? surface.blinnFactor : 1;
   const double exponent = factor * numbers.exponent;
-  const FilteredLobe filtered = filteredLobe(exponent, blinn, turn);
+  const FilteredLobe filtered = surface.filter == SpecularAntialiasing::toksvig
+                                    ? toksvigLobe(exponent, blinn, a.normalWidth * a.normalWidth)
+                                    : filteredLobe(exponent, blinn, normalTurn(surface, a));
   // The normalisation stays that of the surface: what is filtered is its light.
   numbers.specular *= filtered.scale * lobeNormalization(surface.normalization, blinn, exponent) /
                       lobeNormalization(surface.normalization, blinn, filtered.exponent);

@@ -10,6 +10,7 @@
 #include "glint/shading/forms.h"
 #include "glint/shading/fresnel.h"
 #include "glint/shading/normalization.h"
+#include "glint/shading/specular_filter.h"
 
 // The shading of the reference renderer: double precision, by the formulas of src/shading alone.
 // Everything is in eye space: the eye at the origin, looking along -Z.
@@ -61,7 +62,7 @@ struct Surface {
   Fresnel fresnel = Fresnel::exact;
   Numbers numbers;  ///< where no texture gives them
   Normalization normalization = Normalization::none;
-  bool filtersHighlight = false;  ///< by how the normals turn over a pixel; per-pixel programs
+  SpecularAntialiasing filter = SpecularAntialiasing::none;  ///< of programs that shade pixels
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
   FresnelSides sides;        ///< of ior and mediumIor
@@ -85,9 +86,12 @@ struct Attributes {
   glm::dvec4 base{1.0};        ///< C and alpha: material, vertex colour and texture
   glm::dvec3 emission{0.0};    ///< material and texture
   Numbers numbers;             ///< material and textures; flat and gouraud read the metalness alone
+  /// How far the normals are apart that the normal map's texel stands for: the root of their
+  /// variance, of Surface::filter toksvig.
+  double normalWidth = 0;
   /// Position and normal in the middles of the four pixels of the square by which GL takes
   /// differences: this one, the others across, along and across both. Set where the environment is
-  /// a picture or the highlight is filtered.
+  /// a picture or the highlight is filtered by its normals.
   struct Place {
     glm::dvec3 position{0.0}, normal{0.0};
   };

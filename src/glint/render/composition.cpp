@@ -132,6 +132,7 @@ std::string defines(const Variant& v) {
   const int lights = v.directionalLights + v.pointLights + v.spotLights;
   text += define("LIGHTS", lights);
   text += define("LOBE_FORMS", lights > 0 ? int(v.dimmer.size()) + 1 : 0);
+  if (const int rows = lobeTableRows(v)) text += define("LOBE_TABLES", rows);
   text += define("BLINN", usesBlinn(v.program));
   const bool perFace = v.program == Shading::flat;
   text += std::string("#define CARRIED ") + (perFace ? "flat" : "VARYING") + "\n";
@@ -158,6 +159,7 @@ std::vector<std::string> lobeDefines(const Variant& v) {
                                     "material.fourthLobe"};
   const bool varies = (v.textured & textured::exponent) != 0 || v.specularAntialiasing;
   std::vector<std::string> texts;
+  int table = 0;
   for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
     const Variant::Dimmer &from = forms[i], &end = forms[i + 1];
     std::string text;
@@ -183,6 +185,8 @@ std::vector<std::string> lobeDefines(const Variant& v) {
                                     : shapes[i]);
     set("LOBE_EVEN", lobe && !form.atZero && varies ? "!(p.exponent > 0.0)" : "false");
     set("POWER", std::to_string(from.form.gamma));
+    set("TABLE", std::to_string(table));
+    if (lobe) table += lobeTableRows(from.form);
     range("DIRECTIONAL", 0, from.directional, end.directional);
     range("POINT", v.directionalLights, from.point, end.point);
     range("SPOT", v.directionalLights + v.pointLights, from.spot, end.spot);

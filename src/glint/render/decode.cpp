@@ -15,6 +15,7 @@
 #include "glint/render/decode_plan.h"
 #include "glint/render/environment_image.h"
 #include "glint/render/gloss_picture.h"
+#include "glint/render/normal_lengths.h"
 #include "glint/render/opacity.h"
 #include "glint/scene/material_parameters.h"
 
@@ -101,7 +102,8 @@ class Decoding {
   DecodedImage decode(const DecodeJob& job) const {
     const EncodedImage& image = scene_.images[std::size_t(job.image)];
     const bool areNumbers = image.isData && !image.gloss;
-    DecodedImage decoded{decodeTexture(image.bytes, image.name, job.halvings, areNumbers), {}};
+    DecodedImage decoded{
+        decodeTexture(image.bytes, image.name, job.halvings, areNumbers), {}, false};
     if (image.gloss) {
       std::optional<ByteImage> other;
       if (const EncodedImage* beside = otherOf(scene_, image)) {
@@ -111,6 +113,8 @@ class Decoding {
       convertGlossPicture(decoded.image, other ? &*other : nullptr, *image.gloss);
     }
     if (job.hasLevels) decoded.mipLevels = mipLevels(decoded.image, image.isData);
+    if (job.needsNormalLengths) writeNormalLengths(decoded);
+    decoded.hasNormalLengths = job.needsNormalLengths;
     return decoded;
   }
 
@@ -167,21 +171,25 @@ std::uint64_t decodeLimit(std::uint64_t encoded) {
 
 DecodedImages decodeImages(Scene& scene, const Look& look) {
   tellOfEnvironment(scene, look);
-  return decodeImages(scene, look, [](int) { return false; });
+  return decodeImages(scene, look, [](int, bool) { return false; });
 }
 
-DecodedImages decodeImages(Scene& scene, const Look& look,
-                           const std::function<bool(int image)>& present) {
+bool needsNormalLengths(const EncodedImage& image, const Look& look) {
+  return image.isNormalMap && look.specularAntialiasing == SpecularAntialiasing::toksvig;
+}
+
+DecodedImages decodeImages(Scene& scene, const Look& look, const IsPresent& present) {
   std::vector<DecodeJob> jobs;
   for (const int i : imagesRead(scene, look)) {
-    if (present(i)) continue;
     const EncodedImage& image = scene.images[std::size_t(i)];
+    if (present(i, needsNormalLengths(image, look))) continue;
     try {
       DecodeJob job{i,
                     image.name,
                     textureHeader(image.bytes, image.name),
                     image.bytes.size(),
                     readsMipLevels(scene, i),
+                    needsNormalLengths(image, look),
                     0};
       if (const EncodedImage* other = otherOf(scene, image)) {
         const TextureHeader header = textureHeader(other->bytes, other->name);

@@ -15,6 +15,7 @@ namespace glint {
 struct DecodedImage {
   ByteImage image;
   std::vector<ByteImage> mipLevels;
+  bool hasNormalLengths = false;  ///< in the alpha of a normal map (normal_lengths.h)
 };
 
 /// By index in Scene::images.
@@ -45,7 +46,12 @@ std::uint64_t decodeLimit(std::uint64_t encoded);
 /// the look's environment that are no light.
 DecodedImages decodeImages(Scene&, const Look&);
 
-/// The same of those that `present` says are not there yet, for a look that has changed.
-DecodedImages decodeImages(Scene&, const Look&, const std::function<bool(int image)>& present);
+/// The same of those that `present` says are not there yet, for a look that has changed. A normal
+/// map may be there without the lengths of its normals, and the look need them.
+using IsPresent = std::function<bool(int image, bool withNormalLengths)>;
+DecodedImages decodeImages(Scene&, const Look&, const IsPresent& present);
+
+/// Whether a look needs the lengths of an image's normals.
+bool needsNormalLengths(const EncodedImage&, const Look&);
 
 }  // namespace glint

@@ -15,7 +15,8 @@ struct DecodeJob {
   TextureHeader header;
   std::uint64_t encoded = 0;  ///< bytes in the file
   bool hasLevels = false;     ///< the smaller levels are made too
-  int halvings = 0;           ///< of its sides, while it is read
+  bool needsNormalLengths = false;
+  int halvings = 0;  ///< of its sides, while it is read
 
   int width() const;  ///< pixels, once halved
   int height() const;

@@ -124,6 +124,21 @@ MaterialBlock materialBlock(const Material& material, const Variant& variant, co
   return block;
 }
 
+std::vector<glm::vec4> lobeTablesOf(const Variant& v, double exponent) {
+  std::vector<glm::vec4> tables;
+  const auto add = [&](const HighlightForm& form) {
+    for (int row = 0; row < lobeTableRows(form); ++row) {
+      glm::vec4& entries = tables.emplace_back(1);
+      for (int k = 0; k < 4; ++k)
+        entries[k] = lobeTableEntry(std::min(4 * row + k, form.gamma), exponent, form.gamma);
+    }
+  };
+  if (!v.specular) return tables;
+  add(v.highlight);
+  for (const Variant::Dimmer& each : v.dimmer) add(each.form);
+  return tables;
+}
+
 // Model to eye space in double up to the last step, and the matrix for normals: the rotation itself
 // where there is one scale, else the cofactors, both scaled to entries of about 1.
 DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& camera) {
@@ -208,6 +223,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     if (!finite(item.draw.eyeFromModel)) continue;  // beyond what float can place
     item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
     item.materialBlock = materialBlock(material, item.variant, look);
+    item.lobeTables = lobeTablesOf(item.variant, lobeExponent(material, look));
     item.mirrored = isMirrored(instance.world);
     item.draw.normalScale = float(material.normalScale);
     item.draw.handedness = item.mirrored ? -1 : 1;

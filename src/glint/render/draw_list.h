@@ -18,7 +18,8 @@ struct DrawItem {
   Variant variant;
   DrawBlock draw;
   MaterialBlock materialBlock;
-  bool mirrored = false;  ///< the transform turns counter-clockwise into clockwise
+  std::vector<glm::vec4> lobeTables;  ///< lobeTableRows() of the variant: the exponent's lobe
+  bool mirrored = false;              ///< the transform turns counter-clockwise into clockwise
   FaceSide faces = FaceSide::front;
   bool blended = false;       ///< drawn after the others, layer by layer, without writing depth
   double depth = 0.0;         ///< of the centre of its bounding box along the view; eye space units

@@ -287,8 +287,8 @@ void GpuScene::drawShown(int mesh, bool faces) {
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {
   if (shared_) return shared_->bindTexture(use, unit);
   glActiveTexture(GL_TEXTURE0 + unit);
-  TextureHandle& texture = textures_[use.image];
-  if (!texture) {
+  Uploaded& uploaded = textures_[use.image];
+  if (!uploaded.texture) {
     const EncodedImage& image = scene_->images[std::size_t(use.image)];
     DecodedImage& decoded = images_.at(use.image);
     if (fitDriver(decoded, image.isData))
@@ -299,10 +299,25 @@ void GpuScene::bindTexture(const Texture& use, GLuint unit) {
                           std::to_string(decoded.image.height) + " pixels");
     if (decoded.mipLevels.empty() && readsMipLevels(*scene_, use.image))
       decoded.mipLevels = mipLevels(decoded.image, image.isData);
-    texture = uploadTexture(decoded);
+    uploaded = {uploadTexture(decoded), decoded.hasNormalLengths};
     images_.erase(use.image);
   }
-  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glBindTexture(GL_TEXTURE_2D, uploaded.texture.id());
+}
+
+bool GpuScene::hasImage(int image, bool withNormalLengths) const {
+  if (const auto decoded = images_.find(image); decoded != images_.end())
+    return decoded->second.hasNormalLengths >= withNormalLengths;
+  if (const auto known = textures_.find(image); known != textures_.end())
+    return known->second.hasNormalLengths >= withNormalLengths;
+  return shared_ && shared_->hasImage(image, withNormalLengths);
+}
+
+void GpuScene::addImages(DecodedImages images) {
+  for (auto& [image, decoded] : images) {
+    textures_.erase(image);
+    images_.insert_or_assign(image, std::move(decoded));
+  }
 }
 
 }  // namespace glint

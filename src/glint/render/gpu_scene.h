@@ -50,12 +50,11 @@ class GpuScene {
   /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);
 
-  /// Whether an image has been given, be it that it was not uploaded yet.
-  bool hasImage(int image) const {
-    return images_.contains(image) || textures_.contains(image) ||
-           (shared_ && shared_->hasImage(image));
-  }
-  void addImages(DecodedImages images) { images_.merge(images); }
+  /// Whether an image has been given, be it that it was not uploaded yet; of a normal map perhaps
+  /// with the lengths of its normals.
+  bool hasImage(int image, bool withNormalLengths) const;
+  /// Those that are there already are replaced.
+  void addImages(DecodedImages images);
 
   const Scene& scene() const { return *scene_; }
 
@@ -68,7 +67,11 @@ class GpuScene {
   DecodedImages images_;
   std::vector<std::string> warnings_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
-  std::map<int, TextureHandle> textures_;
+  struct Uploaded {
+    TextureHandle texture;
+    bool hasNormalLengths = false;
+  };
+  std::map<int, Uploaded> textures_;
   GpuScene* shared_ = nullptr;         ///< has the textures, if not null
   std::vector<std::uint32_t> firsts_;  ///< of the stretches found last
   std::vector<std::int32_t> counts_;

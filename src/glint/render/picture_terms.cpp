@@ -32,7 +32,7 @@ struct LightPlace {
 
 void removeLights(Variant& v) {
   v.directionalLights = v.pointLights = v.spotLights = 0;
-  v.diffuse = v.specular = v.specularAntialiasing = false;
+  v.diffuse = v.specular = v.specularAntialiasing = v.toksvig = false;
   v.highlight = Highlight::exact;
   v.dimmer.clear();
 }
@@ -42,15 +42,18 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   const bool lit = v.directionalLights + v.pointLights + v.spotLights > 0;
   const bool diffuse = v.diffuse && term.kind == Kind::diffuse;
   bool specular = v.specular && term.kind == Kind::specular;
-  const bool filtered = v.specularAntialiasing;
+  const bool filtered = v.specularAntialiasing, toksvig = v.toksvig;
   const MaterialBlock& block = item.materialBlock;
   HighlightForm form = v.highlight;
   glm::vec2 shape = block.lobe;
+  int table = 0, tableEnd = lobeTableRows(form);
   const glm::vec2 shapes[] = {block.secondLobe, block.thirdLobe, block.fourthLobe};
   for (std::size_t i = 0; i < v.dimmer.size(); ++i) {
     const Variant::Dimmer& each = v.dimmer[i];
     const int from = place.type == 0 ? each.directional : place.type == 1 ? each.point : each.spot;
-    if (place.among >= from) form = each.form, shape = shapes[i];
+    const int begin = tableEnd;
+    tableEnd += lobeTableRows(each.form);
+    if (place.among >= from) form = each.form, shape = shapes[i], table = begin;
   }
   removeLights(v);
   if (!lit) return;
@@ -60,8 +63,11 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
   v.specular = specular;
   if (!specular) return;
   v.specularAntialiasing = filtered;
+  v.toksvig = toksvig;
   v.highlight = form;
   item.materialBlock.lobe = shape;
+  const auto own = item.lobeTables.begin() + table;
+  item.lobeTables = {own, own + lobeTableRows(form)};
 }
 
 void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {

@@ -16,7 +16,14 @@ namespace {
 constexpr GLuint environmentUnit = 3;
 constexpr GLuint parameterUnit = 5;  // and the three after it
 
-enum Binding : GLuint { frameBinding, lightBinding, drawBinding, materialBinding, curveBinding };
+enum Binding : GLuint {
+  frameBinding,
+  lightBinding,
+  drawBinding,
+  materialBinding,
+  curveBinding,
+  tableBinding
+};
 
 class Stopwatch {
  public:
@@ -34,6 +41,7 @@ void connect(const Program& program) {
   program.bindBlock("DrawBlock", drawBinding);
   program.bindBlock("MaterialBlock", materialBinding);
   program.bindBlock("CurveBlock", curveBinding);
+  program.bindBlock("LobeTableBlock", tableBinding);
   program.bindSampler("colorTexture", 0);
   program.bindSampler("emissionTexture", 1);
   program.bindSampler("normalTexture", 2);
@@ -260,6 +268,8 @@ void Renderer::Picture::uploadDraws() {
     for (std::size_t i = 0; i < call.count; ++i) draws.add(list_.items[call.first + i].draw);
     materialOffsets_.push_back(materials.begin());
     materials.add(list_.items[call.first].materialBlock);
+    tableOffsets_.push_back(materials.begin());
+    for (const glm::vec4& row : list_.items[call.first].lobeTables) materials.add(row);
   }
   draws.upload(draws_, mostInstances * sizeof(DrawBlock));
   materials.upload(materials_);
@@ -380,6 +390,9 @@ void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
   bindDraw(i);
   glBindBufferRange(GL_UNIFORM_BUFFER, materialBinding, materials_.id(), materialOffsets_[i],
                     sizeof(MaterialBlock));
+  if (!item.lobeTables.empty())
+    glBindBufferRange(GL_UNIFORM_BUFFER, tableBinding, materials_.id(), tableOffsets_[i],
+                      GLsizeiptr(item.lobeTables.size() * sizeof(glm::vec4)));
   const Material& material = scene_.scene().materials[std::size_t(item.material)];
   if (item.variant.colorTexture) scene_.bindTexture(*material.colorTexture, 0);
   if (item.variant.emissionTexture) scene_.bindTexture(*material.emissionTexture, 1);

@@ -73,10 +73,10 @@ class Renderer {
     Buffer lights_, draws_, materials_;
     std::vector<Buffer> ordered_;  ///< indices of what is blended, farthest first; empty until used
     std::vector<DrawCall> calls_;
-    std::vector<GLintptr> drawOffsets_, materialOffsets_;  ///< of each call
-    std::vector<const Program*> programs_;                 ///< of each call
-    const Program* used_ = nullptr;                        ///< by the call before
-    glm::mat4 projection_{1};                              ///< of the tile being drawn
+    std::vector<GLintptr> drawOffsets_, materialOffsets_, tableOffsets_;  ///< of each call
+    std::vector<const Program*> programs_;                                ///< of each call
+    const Program* used_ = nullptr;                                       ///< by the call before
+    glm::mat4 projection_{1};  ///< of the tile being drawn
     glm::ivec2 tilePixels_{0};
     std::vector<float> scratch_;
     RenderTimes times_;

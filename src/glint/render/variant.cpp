@@ -145,16 +145,22 @@ Shading programOf(const Look& look) {
   return look.shading == Shading::automatic ? Shading::phong : look.shading;
 }
 
-bool filtersHighlights(const Look& look) {
-  return look.specularAntialiasing && isPerPixel(look.shading);
+bool filtersHighlights(const Material& material, const Look& look) {
+  if (!isPerPixel(look.shading)) return false;
+  const auto& map = material.normalTexture;
+  return look.specularAntialiasing == SpecularAntialiasing::kaplanyan ||
+         (look.specularAntialiasing == SpecularAntialiasing::toksvig && map &&
+          map->sampler.mip != MipFilter::none);
 }
 
 HighlightForms highlightOf(const Material& material, const Look& look) {
   const double exponent = lobeExponent(material, look);
-  const bool varies = (material.textured & textured::exponent) != 0 || filtersHighlights(look);
+  const bool varies =
+      (material.textured & textured::exponent) != 0 || filtersHighlights(material, look);
   const auto drawn = [&](const HighlightForm& asked) -> HighlightForm {
     const HighlightRow& form = row(asked.form);
     if (!varies && !(exponent > 0) && !form.atZero) return Highlight::exact;
+    if (form.hasTable && varies) return Highlight::exact;
     if (!form.wholePowers) return asked;
     if (varies || !isIntegerPower(exponent)) return Highlight::exact;
     return {asked.form, int(exponent)};
@@ -172,8 +178,13 @@ Fresnel fresnelOf(const Material& material, const Look& look) {
 Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& world,
                    const Look& look, bool orthographic) {
   const unsigned textured = texturedOn(mesh, given);
+  const bool mapped = !mesh.tangents.empty() && readsTexture(mesh, given.normalTexture);
   std::optional<Material> own;
-  if (textured != given.textured) (own = given)->textured = textured;
+  if (textured != given.textured || (given.normalTexture && !mapped)) {
+    own = given;
+    own->textured = textured;
+    if (!mapped) own->normalTexture.reset();
+  }
   const Material& material = own ? *own : given;
   Variant v;
   v.program = programOf(look);
@@ -231,7 +242,8 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.diffuse = lit && s.diffuse > 0;
   v.specular = highlights && shines;
   if (!v.specular) v.highlight = Highlight::exact, v.dimmer.clear();
-  v.specularAntialiasing = v.specular && filtersHighlights(look);
+  v.specularAntialiasing = v.specular && filtersHighlights(material, look);
+  v.toksvig = v.specularAntialiasing && look.specularAntialiasing == SpecularAntialiasing::toksvig;
   const bool environment = look.shading == Shading::environment;
   v.constantView = orthographic || look.viewer == Viewer::infinite;
   v.unevenScale = !isSimilarity(glm::dmat3(world));
@@ -250,14 +262,24 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
     v.pixelPosition = v.pointLights + v.spotLights > 0 || v.vanishingNormal ||
                       ((v.specular || environment) && !v.constantView);
   }
-  v.normalTexture = pixels && (lit || environment) && !mesh.tangents.empty() &&
-                    readsTexture(mesh, material.normalTexture);
+  v.normalTexture = pixels && (lit || environment) && mapped;
   if (v.normalTexture) v.samplers[2] = material.normalTexture->sampler;
   readParameters(v, mesh, material, look);
   // Nothing of the surface's side is left where there is neither light nor environment.
   if (!lit && !environment)
     v.twoSided = v.vanishingNormal = v.pixelPosition = v.unevenScale = false;
   return v;
+}
+
+int lobeTableRows(const HighlightForm& form) {
+  return row(form.form).hasTable ? form.gamma / 4 + 1 : 0;
+}
+
+int lobeTableRows(const Variant& v) {
+  if (!v.specular) return 0;
+  int rows = lobeTableRows(v.highlight);
+  for (const Variant::Dimmer& each : v.dimmer) rows += lobeTableRows(each.form);
+  return rows;
 }
 
 Variant attributeVariant(Variant variant, PixelOutput output) {

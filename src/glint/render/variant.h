@@ -40,6 +40,7 @@ struct Variant {
   /// The form in use, `exact` unless specular; of `integer`, gamma is the exponent.
   HighlightForm highlight;
   bool specularAntialiasing = false;  ///< the exponent is filtered, pixel by pixel
+  bool toksvig = false;               ///< by the normal map's levels, not by how normals turn
   /// Lights that have another form, the same as ever from a light of each type on.
   struct Dimmer {
     HighlightForm form;
@@ -116,12 +117,12 @@ Shading programOf(const Look&);
 /// The forms that draw a material's highlight: those asked for, except that `integer` becomes
 /// `exact` where the exponent is not a whole number from 1 to 128, and every form but `pow` and
 /// `none` does where the exponent is 0. An exponent that comes from a texture, or is filtered, is
-/// no whole number; where it is 0 the forms are exact, pixel by pixel. Of `integer`, gamma is the
-/// exponent.
+/// no whole number and has no table; where it is 0 the forms are exact, pixel by pixel. Of
+/// `integer`, gamma is the exponent.
 HighlightForms highlightOf(const Material&, const Look&);
 
-/// Whether a look widens highlights by how the normals turn over a pixel.
-bool filtersHighlights(const Look&);
+/// Whether a look widens a material's highlight, pixel by pixel.
+bool filtersHighlights(const Material&, const Look&);
 
 /// The form of a material's reflectance.
 Fresnel fresnelOf(const Material&, const Look&);
@@ -133,6 +134,11 @@ Variant attributeVariant(Variant, PixelOutput);
 /// Why a variant is as it is, in the order of features().
 std::vector<FeatureReason> reasonsFor(const Variant&, const Mesh&, const Material&, const Look&,
                                       bool orthographic);
+
+/// Rows of four entries that the table of a form takes (HighlightRow::hasTable), 0 if it has none;
+/// and those of all forms of a variant, in their order.
+int lobeTableRows(const HighlightForm&);
+int lobeTableRows(const Variant&);
 
 /// The names of the features that a variant has.
 std::vector<std::string> featureNames(const Variant&);

@@ -9,6 +9,7 @@
 
 #include "glint/shading/forms.h"
 #include "glint/shading/normalization.h"
+#include "glint/shading/specular_filter.h"
 
 namespace glint {
 
@@ -140,7 +141,7 @@ struct Look {
 
   glm::ivec2 resolution{1024, 1024};
   AntiAliasing antiAliasing;
-  bool specularAntialiasing = false;
+  SpecularAntialiasing specularAntialiasing = SpecularAntialiasing::none;
   glm::dvec3 backgroundColor{0.033104766570885055};  ///< linear; #333333
   bool noBackground = false;
   double exposure = 0.0;  ///< EV: the picture is multiplied by 2^exposure before encoding

@@ -169,19 +169,24 @@ HighlightForm parseHighlight(const std::string& name, const std::string& what,
   const auto found = std::ranges::find(rows, parts[0], &HighlightRow::name);
   if (found != rows.end()) {
     HighlightForm form(found->form);
-    if (!found->hasGamma && parts.size() == 1) return form;
+    if (!found->hasGamma() && parts.size() == 1) return form;
     const bool number = parts.size() == 2 && readAll(parts[1], form.gamma);
-    if (found->hasGamma && number && form.gamma >= 1 && form.gamma <= 64 &&
-        (form.gamma & (form.gamma - 1)) == 0)
+    if (found->hasGamma() && number && form.gamma >= found->leastGamma &&
+        form.gamma <= found->mostGamma && (form.gamma & (form.gamma - 1)) == 0)
       return form;
-    if (found->hasGamma)
+    if (found->hasGamma()) {
+      std::string all;
+      for (int gamma = found->leastGamma; gamma <= found->mostGamma; gamma *= 2)
+        all += (all.empty() ? "" : ", ") + std::to_string(gamma);
       refuse(what, whole,
-             parts[0] + ":G with G one of 1, 2, 4, 8, 16, 32, 64, such as " + parts[0] + ":8");
+             parts[0] + ":G with G one of " + all + ", such as " + parts[0] + ":" +
+                 std::to_string(8 * found->leastGamma));
+    }
   }
   std::string expected;
   for (const HighlightRow& each : rows)
     expected += (expected.empty() ? "one of " : ", ") + std::string(each.name) +
-                (each.hasGamma ? ":G" : "");
+                (each.hasGamma() ? ":G" : "");
   refuse(what, whole, expected);
 }
 
@@ -215,7 +220,7 @@ HighlightForms parseHighlights(const std::string& text, const std::string& what)
 
 std::string highlightText(const HighlightForm& form) {
   std::string text(row(form.form).name);
-  if (row(form.form).hasGamma) text += ":" + std::to_string(form.gamma);
+  if (row(form.form).hasGamma()) text += ":" + std::to_string(form.gamma);
   return text;
 }
 
@@ -232,7 +237,7 @@ std::string highlightText(const HighlightForms& forms) {
 std::vector<std::string> highlightTexts() {
   std::vector<std::string> texts;
   for (const HighlightRow& each : highlightRows())
-    for (int gamma = 1; gamma <= (each.hasGamma ? 64 : 1); gamma *= 2)
+    for (int gamma = each.leastGamma; gamma <= each.mostGamma; gamma = std::max(2 * gamma, 1))
       texts.push_back(highlightText(HighlightForm(each.form, gamma)));
   return texts;
 }

@@ -76,6 +76,7 @@ struct EncodedImage {
   bool isData = false;  ///< numbers, as of a normal map, not colours in sRGB
   /// What is made of it: of the diffuse picture its colours, of the other one its numbers.
   std::optional<GlossPicture> gloss{};
+  bool isNormalMap = false;  ///< read as nothing else: its alpha is free (normal_lengths.h)
 };
 
 /// Which texture and which texture coordinates a material reads; empty means none.

@@ -178,6 +178,22 @@ double gaussianBound(double alpha) {
   return largestDifference({alpha, alpha + gaussianShift, 1, Highlight::gaussian});
 }
 
+// Between entries h = 1 / steps apart the chord is off by the mean of |f''| = a |a - 1| x^(a - 2)
+// by a kernel that is the same in each step (Peano), so that the step where |f''| is largest has
+// the largest error: the last one for a >= 2, the first one below, where f'' has no bound at 0. In
+// a step from b to c the chord of the slope m is farthest away where f' = m.
+double tableBound(double alpha, int steps) {
+  const double h = 1.0 / std::max(steps, 1);
+  if (alpha == 1.0) return 0.0;
+  if (alpha < 2.0)  // at s h of the first step, s = a^(-1 / (a - 1)): h^a |s - s^a|
+    return std::pow(h, alpha) * std::abs(1.0 - 1.0 / alpha) *
+           std::exp(-std::log(alpha) / (alpha - 1.0));
+  // 1 - (1 - h)^a and what the lobe is below 1 where its slope is the chord's: with their digits.
+  const double fall = -std::expm1(alpha * std::log1p(-h)), slope = fall / h;
+  const double logAway = std::log(slope / alpha) / (alpha - 1.0);  // of the cosine, below 0
+  return std::max(-std::expm1(alpha * logAway) + slope * std::expm1(logAway), 0.0);
+}
+
 double lobeFormulaBound(Highlight form, int gamma, double alpha) {
   const HighlightRow& of = row(form);
   // At the exponent 0 every form is 1, or drawn as the exact one.

@@ -20,7 +20,7 @@ constexpr double u = 0x1p-24;
 // for the reflectances every cell of a subdivision of [0, 1] is bounded by monotonicity.
 
 /// The largest |form - exact| of the lobe over lambda in [0, 2]. For alpha in [0, 1e6], gamma a
-/// power of two in [1, 64]. 0 for exact, pow and integer, 1 for none.
+/// power of two that the form has. 0 for exact, pow and integer, 1 for none.
 double lobeFormulaBound(Highlight form, int gamma, double alpha);
 
 /// Of single forms, for alpha > 0.
@@ -29,6 +29,7 @@ double lyonTunedBound(double alpha, int gamma);
 double lyonCrossBound(double alpha, int gamma);
 double padeBound(double alpha, int gamma);
 double gaussianBound(double alpha);
+double tableBound(double alpha, int steps);
 
 /// The largest |form - exact| of the reflectance over all angles, for either direction through the
 /// boundary (which have the same). At most a quarter too large; errors below 1e-9 count as that.

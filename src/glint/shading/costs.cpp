@@ -18,8 +18,9 @@ int productsOf(int power) {
 double CostTable::lobe(Highlight form, int power) const {
   const auto found = lobes.find(row(form).costsAs);
   if (found == lobes.end()) return 0;
-  const int squarings = power > 1 ? std::bit_width(unsigned(power)) - 1 : 0;
-  const int index = row(form).wholePowers ? productsOf(power) : squarings;
+  const int least = std::max(row(form).leastGamma, 1);
+  const int doublings = power > least ? std::bit_width(unsigned(power / least)) - 1 : 0;
+  const int index = row(form).wholePowers ? productsOf(power) : doublings;
   return found->second[std::size_t(std::clamp(index, 0, int(found->second.size()) - 1))];
 }
 

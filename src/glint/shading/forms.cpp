@@ -19,6 +19,12 @@ double powerRounding(double power) { return (1.5 * power + 4.0) * u; }
 // both.
 double powRounding(double alpha, int) { return 1e-6 + 1.4e-6 * alpha; }
 
+// The cosine of rounded vectors is off by 1e-6, and a chord as steep as alpha at most, or the first
+// one of an exponent below 1. Entries and what lies between them round by 4 u.
+double tableRounding(double alpha, int steps) {
+  return 1e-6 * std::max(alpha, std::pow(double(std::max(steps, 1)), 1.0 - alpha)) + 4.0 * u;
+}
+
 // The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 + beta) for
 // beta < 1), and 9 u of itself, the division's 5 u included.
 double padeRounding(double alpha, int gamma) {
@@ -48,11 +54,12 @@ constexpr double lyonCosts[] = {22, 24, 26, 27, 28, 29, 30};
 constexpr double lyonCrossCosts[] = {26, 27, 28, 29, 30, 32, 33};
 constexpr double padeCosts[] = {29, 30, 31, 32, 33, 35, 38};
 constexpr double gaussianCosts[] = {34};
+constexpr double tableCosts[] = {50, 50, 50, 50, 50, 50, 50};
 
 // Missing initialisers are meant: a row says what is not the default.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-constexpr std::array<HighlightRow, 9> highlights{{
+constexpr std::array<HighlightRow, 10> highlights{{
     {.form = Highlight::exact,
      .name = "exact",
      .atZero = true,
@@ -77,7 +84,8 @@ constexpr std::array<HighlightRow, 9> highlights{{
      .costs = integerCosts},
     {.form = Highlight::lyon,
      .name = "lyon",
-     .hasGamma = true,
+     .leastGamma = 1,
+     .mostGamma = 64,
      .glsl = "lobeLyon(x, shape.x, POWER)",
      .shape = [](double alpha, int gamma) { return glm::dvec2(alpha / gamma, 0); },
      .value = lyon,
@@ -86,7 +94,8 @@ constexpr std::array<HighlightRow, 9> highlights{{
      .costs = lyonCosts},
     {.form = Highlight::lyonTuned,  // lyon with another constant
      .name = "lyon-tuned",
-     .hasGamma = true,
+     .leastGamma = 1,
+     .mostGamma = 64,
      .glsl = "lobeLyon(x, shape.x, POWER)",
      .shape = [](double alpha, int gamma) { return glm::dvec2(tunedSlope(alpha, gamma), 0); },
      .value = lyonTuned,
@@ -95,7 +104,8 @@ constexpr std::array<HighlightRow, 9> highlights{{
      .costsAs = Highlight::lyon},
     {.form = Highlight::lyonCross,
      .name = "lyon-cross",
-     .hasGamma = true,
+     .leastGamma = 1,
+     .mostGamma = 64,
      .glsl = "lobeLyonCross(x, shape.x, POWER)",
      .shape = [](double alpha, int gamma) { return glm::dvec2(0.5 * alpha / gamma, 0); },
      .value = lyonCross,
@@ -104,7 +114,8 @@ constexpr std::array<HighlightRow, 9> highlights{{
      .costs = lyonCrossCosts},
     {.form = Highlight::pade,
      .name = "pade",
-     .hasGamma = true,
+     .leastGamma = 1,
+     .mostGamma = 64,
      .glsl = "lobePade(x, shape.x, shape.y, POWER)",
      .shape = [](double alpha,
                  int gamma) { return glm::dvec2(1 + alpha / gamma, alpha / gamma - 1); },
@@ -121,6 +132,17 @@ constexpr std::array<HighlightRow, 9> highlights{{
      .formulaBound = [](double alpha, int) { return gaussianBound(alpha); },
      .rounding = [](double, int) { return 6.5 * u; },
      .costs = gaussianCosts},
+    {.form = Highlight::table,
+     .name = "table",
+     .leastGamma = 16,
+     .mostGamma = 1024,
+     .hasTable = true,
+     .takesCosine = true,
+     .glsl = "lobeTable(x, TABLE, POWER)",
+     .value = [](double x, double alpha, int steps) { return lobeTable(1.0 - x, alpha, steps); },
+     .formulaBound = tableBound,
+     .rounding = tableRounding,
+     .costs = tableCosts},
     {.form = Highlight::none,
      .name = "none",
      .atZero = true,

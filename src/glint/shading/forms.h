@@ -16,7 +16,18 @@ namespace glint {
 enum class Shading { flat, gouraud, phong, blinnPhong, environment, automatic };
 
 /// The forms of the lobe: `--highlight`. `none` is 0 everywhere, which is off by the whole lobe.
-enum class Highlight { exact, pow, integer, lyon, lyonTuned, lyonCross, pade, gaussian, none };
+enum class Highlight {
+  exact,
+  pow,
+  integer,
+  lyon,
+  lyonTuned,
+  lyonCross,
+  pade,
+  gaussian,
+  table,
+  none
+};
 
 /// The forms of the reflectance: `--fresnel`.
 enum class Fresnel { exact, textbook, schlick, schlickExp2, rational };
@@ -33,12 +44,16 @@ struct ShadingRow {
 struct HighlightRow {
   Highlight form;
   std::string_view name;
-  bool hasGamma = false;     ///< a power of two from 1 to 64
+  /// The number behind its name is a power of two from leastGamma to mostGamma; 0: it has none.
+  int leastGamma = 0, mostGamma = 0;
   bool wholePowers = false;  ///< only for exponents that isIntegerPower takes; others are exact
+  /// Reads a table of the exponent's lobe (lobeTable in lobe.h): drawn as exact where the exponent
+  /// varies from pixel to pixel. Gamma is the number of its steps.
+  bool hasTable = false;
   bool atZero = false;       ///< draws the exponent 0 itself; other forms are drawn as exact there
   bool takesCosine = false;  ///< the shader's form is one of the cosine, not of lambda
-  /// The form in GLSL, of x (lambda or the cosine), shape (a vec2) and POWER (gamma, or the whole
-  /// exponent).
+  /// The form in GLSL, of x (lambda or the cosine), shape (a vec2), POWER (gamma, or the whole
+  /// exponent) and TABLE (where its table begins).
   std::string_view glsl = {};
   /// What the shader is given as `shape`; null: the exponent.
   glm::dvec2 (*shape)(double alpha, int gamma) = nullptr;
@@ -47,10 +62,12 @@ struct HighlightRow {
   double (*formulaBound)(double alpha, int gamma) = nullptr;  ///< null: none
   /// How far the form itself rounds in single precision, beside its geometry (bounds.h).
   double (*rounding)(double alpha, int gamma);
-  /// In hundredths of the exact lobe's (costs.h): one number; or by the binary logarithm of gamma;
-  /// or, with wholePowers, by productsOf() the exponent.
+  /// In hundredths of the exact lobe's (costs.h): one number; or by the binary logarithm of gamma
+  /// over leastGamma; or, with wholePowers, by productsOf() the exponent.
   std::span<const double> costs = {};
   Highlight costsAs = form;  ///< the form whose costs these are
+
+  bool hasGamma() const { return mostGamma > 0; }
 };
 
 /// What a reflectance is a function of, beside the cosine.

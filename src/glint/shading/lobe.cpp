@@ -70,6 +70,20 @@ double lobeInteger(double lambda, double alpha) {
   });
 }
 
+float lobeTableEntry(int place, double alpha, int steps) {
+  // In long double, so that the float is the nearest.
+  return float(std::pow((long double)(place) / steps, (long double)(alpha)));
+}
+
+double lobeTable(double dot, double alpha, int steps) {
+  if (!(dot > 0.0)) return 0.0;
+  if (!(alpha > 0.0)) return 1.0;
+  const double place = std::min(dot, 1.0) * std::max(steps, 1);
+  const double below = std::min(std::floor(place), std::max(steps, 1) - 1.0);
+  const auto entry = [&](double at) { return std::pow(at / std::max(steps, 1), alpha); };
+  return std::lerp(entry(below), entry(below + 1), place - below);
+}
+
 double lyon(double lambda, double alpha, int gamma) {
   gamma = validGamma(gamma);
   return lobeWith(lambda, alpha, [gamma](double x, double a) {

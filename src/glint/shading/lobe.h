@@ -64,6 +64,15 @@ double pade(double lambda, double alpha, int gamma);
 /// What is added to alpha in `gaussian`.
 inline constexpr double gaussianShift = 0.69;
 
+/// An entry of a table of max(dot, 0)^alpha over the cosine: that of place / steps, as a shader is
+/// given it, rounded to a float.
+float lobeTableEntry(int place, double alpha, int steps);
+
+/// A table of `steps` equal steps of the cosine (at least 1), read linearly between its entries, as
+/// if those were not rounded. For alpha >= 2 off by at most alpha (alpha - 1) / (8 steps^2), next
+/// to the peak; below, next to 90 degrees (bounds.h).
+double lobeTable(double dot, double alpha, int steps);
+
 /// exp(-(alpha + 0.69) lambda), the spherical Gaussian: 0.134 / alpha. Not 0 past 90 degrees.
 double gaussian(double lambda, double alpha);
 

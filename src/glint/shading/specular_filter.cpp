@@ -14,4 +14,10 @@ FilteredLobe filteredLobe(double exponent, bool blinn, double turn) {
   return {(2 / wider - 2) / perBlinn, squareWidth / wider};
 }
 
+FilteredLobe toksvigLobe(double exponent, bool blinn, double variance) {
+  const double given = clampTo(exponent, 0, 1e9), perBlinn = blinn ? 1 : 4;
+  const double filtered = given / (1 + perBlinn * given * clampTo(variance, 0, 1e9));
+  return {filtered, (1 + filtered) / (1 + given)};
+}
+
 }  // namespace glint

@@ -1,10 +1,20 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 namespace glint {
 
 // Specular anti-aliasing: a highlight that is narrower than what a pixel sees of the normals is
 // widened to that, and dimmed so that it sends the same light: --specular-antialiasing.
-//
+
+/// By what it is widened: how normals turn from pixel to pixel, or how far those that a smaller
+/// level of the normal map stands for are apart.
+enum class SpecularAntialiasing { none, kaplanyan, toksvig };
+
+inline constexpr std::array<std::string_view, 3> specularAntialiasingNames{"none", "kaplanyan",
+                                                                           "toksvig"};
+
 // Kaplanyan, Hill, Patney and Lefohn, Filtering Distributions of Normals for Shading Antialiasing,
 // 2016, with the isotropic kernel of normals of Tokuyoshi and Kaplanyan, Improved Geometric
 // Specular Antialiasing, 2019, and Stable Geometric Specular Antialiasing with Projected-Space NDF
@@ -31,5 +41,18 @@ struct FilteredLobe {
 /// `turn` is |dN/dx|^2 + |dN/dy|^2 of the unit normal from pixel to pixel, at least 0 (below, and
 /// NaN, it counts as that); exponent >= 0 of the lobe of Blinn-Phong or of Phong.
 FilteredLobe filteredLobe(double exponent, bool blinn, double turn);
+
+// Toksvig, Mipmapping Normal Maps, Journal of Graphics Tools 10 (3), 2005: the mean N of unit
+// normals is the shorter the farther they are apart; of slopes that are normally distributed with
+// the variance v it is about 1 / (1 + v) long, so that v = (1 - |N|) / |N|. Blinn-Phong's lobe of
+// the exponent n becomes that of n / (1 + n v), its peak (1 + n') / (1 + n) of what it was. Phong's
+// R turns twice as far as N: a becomes a / (1 + 4 a v), the peak likewise, which keeps all of its
+// light, 2 pi / (a + 1).
+//
+// |N| cannot be had from a level's own texels: of 8 bits, they are off by up to 0.007 in length, as
+// if an exponent of 140 were the most there is. src/glint/render/normal_lengths.h computes it.
+
+/// `variance` is v, at least 0 (below, and NaN, it counts as that).
+FilteredLobe toksvigLobe(double exponent, bool blinn, double variance);
 
 }  // namespace glint

@@ -152,6 +152,12 @@ std::string programText(const Variant& variant, const GlslSources& sources) {
       {"out vec4 fragment;", "vec4 fragment;"},
       {"void main()", "void surfaceMain()"},
       {"invariant gl_Position;", ""},
+      // The exponent may be another at each point: its table's entries are computed.
+      {"float tableEntry(int table, int place) { return lobeTables[table + (place >> 2)][place & "
+       "3]; "
+       "}",
+       "float atStep(int steps, int place);"},
+      {"tableEntry(table, ", "atStep(steps, "},
       {"gl_FrontFacing", "surfaceFront"},
       {"gl_Position", "surfacePosition"},
       {"discard;", "{ fragment = vec4(0.0); return; }"}};
@@ -161,6 +167,10 @@ std::string programText(const Variant& variant, const GlslSources& sources) {
   text = "bool surfaceFront = true;\nvec4 surfacePosition;\n#define FACE_CENTER " +
          std::to_string(variant.program == Shading::flat) + "\n" + text;
   if (variant.unlit) return text;
+  if (lobeTableRows(variant) > 0)
+    text +=
+        "float atStep(int steps, int place) {\n"
+        "  return lobeExact(1.0 - float(place) / float(steps), material.exponent);\n}\n";
   return text + "#line 1 90\n" + setBlocks + (perVertex(variant) ? vertexSurface : pixelSurface);
 }
 

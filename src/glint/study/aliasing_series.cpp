@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <iterator>
 #include <map>
 
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "glint/study/series.h"
+#include "glint/study/statistics.h"
 
 // Aliasing of small pictures: over the exponent, beside what forms are off by; over the distance,
 // as a model moves away; and over time, in how a highlight changes from one picture to the next.
@@ -40,14 +42,17 @@ bool hasHighlight(const SeriesTools& tools, const Look& look) {
 /// What is done about aliasing.
 struct Way {
   const char* name;
-  bool filtered;
+  SpecularAntialiasing filter;
   AntiAliasing samples;
 };
-const Way ways[] = {{"one sample", false, {AntiAliasing::Mode::none, 1}},
-                    {"filtered", true, {AntiAliasing::Mode::none, 1}},
-                    {"msaa:4", false, {AntiAliasing::Mode::msaa, 4}},
-                    {"msaa:4 filtered", true, {AntiAliasing::Mode::msaa, 4}},
-                    {"ssaa:2", false, {AntiAliasing::Mode::ssaa, 2}}};
+using Filter = SpecularAntialiasing;
+const Way ways[] = {{"one sample", Filter::none, {AntiAliasing::Mode::none, 1}},
+                    {"kaplanyan", Filter::kaplanyan, {AntiAliasing::Mode::none, 1}},
+                    {"toksvig", Filter::toksvig, {AntiAliasing::Mode::none, 1}},
+                    {"msaa:4", Filter::none, {AntiAliasing::Mode::msaa, 4}},
+                    {"msaa:4 kaplanyan", Filter::kaplanyan, {AntiAliasing::Mode::msaa, 4}},
+                    {"msaa:4 toksvig", Filter::toksvig, {AntiAliasing::Mode::msaa, 4}},
+                    {"ssaa:2", Filter::none, {AntiAliasing::Mode::ssaa, 2}}};
 
 /// Draws small pictures of one size: each kind of samples has a renderer of its own.
 class SmallPictures {
@@ -59,9 +64,24 @@ class SmallPictures {
                     makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
   Image draw(Look look, const Way& way) {
-    look.specularAntialiasing = way.filtered;
+    look.specularAntialiasing = way.filter;
     look.antiAliasing = way.samples;
     return draw(look);
+  }
+  /// Whether a way's filter changes anything.
+  bool has(Look look, const Way& way) const {
+    look.specularAntialiasing = way.filter;
+    const DrawList list = makeDrawList(tools_.scene.scene, tools_.scene.bounds, look);
+    return way.filter == Filter::none || std::ranges::any_of(list.items, [](const DrawItem& item) {
+             return item.variant.specularAntialiasing;
+           });
+  }
+  /// Begins the picture of a way, to be timed.
+  Renderer::Picture begin(Look look, const Way& way) {
+    look.specularAntialiasing = way.filter;
+    look.antiAliasing = way.samples;
+    return renderers_[antiAliasingText(look.antiAliasing)].begin(
+        tools_.gpu, makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
   StudyMask mask(Look look) {
     look.antiAliasing = ways[0].samples;
@@ -77,15 +97,35 @@ class SmallPictures {
   std::map<std::string, Renderer> renderers_;
 };
 
-/// Adds a point to the line of each way that the driver has; `draw` gives its picture.
+/// Adds a point to the line of each way that the driver and the scene have; `draw` gives its
+/// picture.
 template <typename Draw>
-void addWays(StudySeries& series, double x, const WholeTruth& truth, const StudyMask& mask,
-             const Draw& draw) {
+void addWays(StudySeries& series, const SmallPictures& pictures, const Look& look, double x,
+             const WholeTruth& truth, const StudyMask& mask, const Draw& draw) {
   for (std::size_t k = 0; k < std::size(ways); ++k) try {
+      if (!pictures.has(look, ways[k])) continue;
       series.lines[k].points.push_back(
           pointOf(x, wholeErrorOf(truth, draw(ways[k]), mask, 1).inside));
     } catch (const InputError&) {  // a driver without so many samples
     }
+}
+
+/// Times the ways that have a point at x, in turn.
+void timeWays(StudySeries& series, SmallPictures& pictures, const Look& look, double x,
+              const SeriesTools& tools) {
+  std::deque<Renderer::Picture> begun;
+  std::vector<Renderer::Picture*> all;
+  std::vector<SeriesPoint*> points;
+  for (std::size_t k = 0; k < std::size(ways); ++k) {
+    SeriesLine& line = series.lines[k];
+    if (line.points.empty() || line.points.back().x != x) continue;
+    points.push_back(&line.points.back());
+    all.push_back(&begun.emplace_back(pictures.begin(look, ways[k])));
+  }
+  if (all.empty()) return;
+  const auto times = timeInTurn(all, tools.timing(tools.rounds));
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (!times[i].wall.empty()) points[i]->milliseconds = quantile(times[i].by(tools.clock), 0.5);
 }
 
 StudySeries seriesOfWays(const char* name, const char* title, const char* axis, const char* note) {
@@ -116,6 +156,22 @@ Look movedLook(const SeriesTools& tools, const Look& look, const glm::dvec2& pix
   return moved;
 }
 
+/// What series of the sphere with a normal map are measured with.
+struct BumpyTools {
+  StudyScene scene{bumpySphereScene(sphereMaterial()), bumpyImages()};
+  GpuScene gpu{scene.scene, scene.images};
+  SeriesTools tools;
+
+  explicit BumpyTools(const SeriesTools& given)
+      : tools{scene,        gpu,        given.renderer, {},         given.quick, given.warmUp,
+              given.rounds, given.stop, given.progress, given.clock} {
+    tools.look.antiAliasing = {AntiAliasing::Mode::none, 1};
+    tools.look.resolution = glm::ivec2(smallSize);
+    tools.look.noBackground = true;
+    tools.look.specularAntialiasing = Filter::none;
+  }
+};
+
 void subtract(Image& from, const Image& what) {
   for (std::size_t i = 0; i < from.values.size(); ++i) from.values[i] -= what.values[i];
 }
@@ -139,7 +195,7 @@ std::optional<StudySeries> aliasingSeries(const SeriesTools& tools) {
     look.material[""].exponent = exponents[i];
     const WholeTruth truth = pictures.truth(look, mask);
     if (truth.picture.values.empty()) break;
-    addWays(series, exponents[i], truth, mask,
+    addWays(series, pictures, look, exponents[i], truth, mask,
             [&](const Way& way) { return pictures.draw(look, way); });
     Look lyon = look;
     setForms(lyon, "lyon:8", "exact");
@@ -166,8 +222,9 @@ std::optional<StudySeries> distanceSeries(const SeriesTools& tools) {
     if (mask.pixels.empty()) break;
     const WholeTruth truth = pictures.truth(look, mask);
     if (truth.picture.values.empty()) break;
-    addWays(series, sizes[i], truth, mask,
+    addWays(series, pictures, look, sizes[i], truth, mask,
             [&](const Way& way) { return pictures.draw(look, way); });
+    timeWays(series, pictures, look, sizes[i], tools);
     tools.tell(double(i + 1) / double(sizes.size()));
   }
   return finished(std::move(series));
@@ -197,7 +254,7 @@ std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
     WholeTruth change = pictures.truth(next, both);
     if (first.picture.values.empty() || change.picture.values.empty()) break;
     subtract(change.picture, first.picture);
-    addWays(series, exponents[i], change, both, [&](const Way& way) {
+    addWays(series, pictures, look, exponents[i], change, both, [&](const Way& way) {
       Image drawn = pictures.draw(next, way);
       subtract(drawn, pictures.draw(look, way));
       return drawn;
@@ -205,6 +262,28 @@ std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
     tools.tell(double(i + 1) / double(exponents.size()));
   }
   return finished(std::move(series));
+}
+
+std::optional<StudySeries> bumpsSeries(const SeriesTools& tools) {
+  auto series = distanceSeries(BumpyTools(tools).tools);
+  if (!series) return {};
+  series->name = "bumps";
+  series->title = "Aliasing of a bumpy sphere as it moves away";
+  series->note =
+      "phong, a built-in sphere with a normal map of 1024 x 512 texels, slopes of 0.15 by chance, "
+      "α = 40: against the supersampled exact picture";
+  return series;
+}
+
+std::optional<StudySeries> bumpsMotionSeries(const SeriesTools& tools) {
+  auto series = motionSeries(BumpyTools(tools).tools);
+  if (!series) return {};
+  series->name = "bumps-motion";
+  series->title = "Flicker of a bumpy sphere";
+  series->note =
+      "phong, the sphere of the series bumps, 128 pixels across, moved by 0.5 and 0.25 pixels: the "
+      "difference of both pictures against that of the supersampled exact ones";
+  return series;
 }
 
 }  // namespace glint

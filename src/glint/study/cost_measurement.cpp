@@ -112,7 +112,8 @@ Trials lobeTrials(CostTable& table, Look look) {
       }
     } else {
       for (std::size_t i = 0; i < costs.size(); ++i)
-        add(name + (row(form).hasGamma ? ":" + std::to_string(1 << i) : ""), costs[i]);
+        add(name + (row(form).hasGamma() ? ":" + std::to_string(row(form).leastGamma << i) : ""),
+            costs[i]);
     }
   }
   add("exact", table.lobes[Highlight::exact][0]);

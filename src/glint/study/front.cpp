@@ -2,48 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace glint {
 
-bool isFaster(std::span<const double> a, std::span<const double> b, double spread) {
-  const TimeRatio ratio = timeRatio(a, b);
+namespace {
+
+bool isBelow(const TimeRatio& ratio, double spread) {
   return ratio.value > 0 && ratio.high * (1 + spread) < 1;
 }
 
+}  // namespace
+
+bool isFaster(std::span<const double> a, std::span<const double> b, double spread) {
+  return isBelow(timeRatio(a, b), spread);
+}
+
+bool isFaster(const QuartileSamples& a, const QuartileSamples& b, double spread) {
+  return isBelow(timeRatio(a, b), spread);
+}
+
 std::vector<FrontPlace> paretoFront(std::span<const double> errors,
-                                    const std::function<bool(int, int)>& isFasterThan) {
-  std::vector<int> order(errors.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto error = [&](int i) { return errors[std::size_t(i)]; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) < error(b); });
+                                    const std::function<bool(int, int)>& isFasterThan,
+                                    const std::function<bool(int)>& isRival) {
   std::vector<FrontPlace> places(errors.size());
-  int last = -1;
-  for (const int i : order) {
+  const int count = int(errors.size());
+  for (int i = 0; i < count; ++i) {
     FrontPlace& place = places[std::size_t(i)];
-    if (last >= 0 && !isFasterThan(i, last)) {
-      place.dominatedBy = last;
-      continue;
-    }
-    if (last >= 0 && error(i) <= error(last) * (1 + sameError)) {
-      for (FrontPlace& other : places)
-        if (other.dominatedBy == last) other.dominatedBy = i;
-      places[std::size_t(last)] = {false, i};
-    }
     place.onFront = true;
-    last = i;
+    for (int j = 0; j < count; ++j) {
+      if (j == i || (isRival && !isRival(j))) continue;
+      if (!(errors[std::size_t(j)] <= errors[std::size_t(i)] * (1 + sameError))) continue;
+      if (isFasterThan(i, j)) continue;
+      const bool isSlower = isFasterThan(j, i);
+      // Who is faster for sure is named before who may be, and of each kind the fastest.
+      const bool first = place.onFront || (isSlower && !place.isSlower);
+      place.onFront = false;
+      if (!first && (isSlower != place.isSlower || !isFasterThan(j, place.dominatedBy))) continue;
+      place.dominatedBy = j;
+      place.isSlower = isSlower;
+    }
   }
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i].dominatedBy >= 0)
-      places[i].isSlower = isFasterThan(places[i].dominatedBy, int(i));
   return places;
 }
 
 std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread) {
   std::vector<double> errors;
-  for (const FrontCandidate& each : candidates) errors.push_back(each.error);
+  std::vector<QuartileSamples> samples;
+  for (const FrontCandidate& each : candidates) {
+    errors.push_back(each.error);
+    samples.push_back(quartileSamples(each.rounds));
+  }
   return paretoFront(errors, [&](int a, int b) {
-    return isFaster(candidates[std::size_t(a)].rounds, candidates[std::size_t(b)].rounds, spread);
+    return isFaster(samples[std::size_t(a)], samples[std::size_t(b)], spread);
   });
 }
 

@@ -14,11 +14,15 @@ struct FrontCandidate {
   std::span<const double> rounds;  ///< times, of all candidates measured in turn
 };
 
+/// Where a candidate stands, as far as intervals tell: on the front for sure; dominated for sure;
+/// or neither can be told. Of two runs of which each interval holds the true ratio, one never says
+/// "on" and the other "dominated" of the same candidate.
 struct FrontPlace {
-  bool onFront = false;
-  int dominatedBy = -1;  ///< index of a member of the front that is as good or better in both
-  /// Of what is dominated: that member is faster beyond noise too. Otherwise their times cannot be
-  /// told apart, and it is the error alone that speaks for the member.
+  bool onFront = false;  ///< for sure: faster than each rival that is at least as accurate
+  /// Otherwise the index of such a rival than which it is not: the fastest, as far as can be told.
+  int dominatedBy = -1;
+  /// That rival is faster for sure: the candidate is dominated. Otherwise their times cannot be
+  /// told apart.
   bool isSlower = false;
 };
 
@@ -29,18 +33,19 @@ inline constexpr double sameError = 0.05;
 /// 1 / (1 + spread). `spread` is the noise floor, by which two
 /// measurements of one program may differ.
 bool isFaster(std::span<const double> a, std::span<const double> b, double spread);
+bool isFaster(const QuartileSamples& a, const QuartileSamples& b, double spread);
 
-/// The Pareto front of time and error, as a staircase whose every step is faster than noise: in the
-/// order of rising error a candidate joins if it is faster (isFaster) than the member that joined
-/// last; with the same error as that one it takes its place. All others are dominated by the last
-/// member before them: at least as accurate, and not slower as far as can be told. So what is on it
-/// owes nothing to chance unless a step is about as large as the spread itself.
+/// The Pareto front of time and error. Errors are known, times to an interval: a candidate is on it
+/// for sure if it is faster (isFaster) than every other one at least as accurate (by less than
+/// sameError, errors are the same), dominated for sure if one of those is faster than it, and else
+/// cannot be told. A chain of steps each of which is noise has no member but its ends.
 std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread);
 
 /// The same by errors and by what tells whether one candidate, by its index, is faster than
-/// another.
+/// another; those that are no rivals get a place and take none from others.
 std::vector<FrontPlace> paretoFront(std::span<const double> errors,
-                                    const std::function<bool(int, int)>& isFasterThan);
+                                    const std::function<bool(int, int)>& isFasterThan,
+                                    const std::function<bool(int)>& isRival = {});
 
 /// The largest spread of which a front is made. Where a machine at rest has one of 1 to 3 %, forms
 /// of one light's highlight differ by 3 to 15 % of a frame: with more than this every step of such

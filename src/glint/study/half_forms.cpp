@@ -61,6 +61,13 @@ Half formIn(Highlight form, int gamma, Half x, double alpha) {
     }
     case Highlight::gaussian:
       return exp2Of(-1 * a * x);
+    case Highlight::table: {
+      const Half place = std::clamp(x.value(), 0.0, 1.0) * gamma;
+      const int below = std::min(int(place.value()), gamma - 1);
+      const Half share = place - below;
+      return (1 - share) * Half(lobeTableEntry(below, alpha, gamma)) +
+             share * Half(lobeTableEntry(below + 1, alpha, gamma));
+    }
     case Highlight::none:
       break;
   }
@@ -72,9 +79,9 @@ std::vector<HighlightForm> tableForms() {
   std::vector<HighlightForm> forms;
   for (const HighlightRow& each : highlightRows()) {
     if (each.form == Highlight::none) continue;
-    if (!each.hasGamma) forms.emplace_back(each.form);
-    for (const int gamma : {4, 16, 64})
-      if (each.hasGamma) forms.emplace_back(each.form, gamma);
+    if (!each.hasGamma()) forms.emplace_back(each.form);
+    for (const int step : {4, 16, 64})  // of tables 16, 64, 256
+      if (each.hasGamma()) forms.emplace_back(each.form, step * std::max(each.leastGamma / 4, 1));
   }
   return forms;
 }

@@ -52,7 +52,7 @@ const char* colorOf(const std::string& shading) {
 struct Point {
   std::string name, shading;
   double ms, low, high, error;
-  bool onFront, isChosen;
+  bool onFront, isOpen, isChosen;  // isOpen: whether it is on the front cannot be told
 };
 
 /// Of a variant or a floor, by the clock that decides; null if it was not timed.
@@ -66,11 +66,14 @@ std::vector<Point> pointsOf(const Json& json, const std::string& model) {
   for (const Json& v : json["variants"]) {
     const Json& times = timesOf(json, v);
     if (times.is_null()) continue;
-    for (const Json& e : v["errors"])
+    for (const Json& e : v["errors"]) {
+      const bool isOpen = std::ranges::find(e["open"], Json("rmse")) != e["open"].end();
       if (e["against"] == model && e["rmse"].is_number())
         points.push_back({v["name"], v["shading"], times["median"], times["lowerQuartile"],
                           times["upperQuartile"], std::max(e["rmse"].get<double>(), 1e-9),
-                          e["fronts"].value("rmse", Json()) == Json(true), v.contains("bound")});
+                          e["fronts"].value("rmse", Json()) == Json(true), isOpen,
+                          v.contains("bound")});
+    }
   }
   return points;
 }
@@ -149,7 +152,8 @@ std::string studyPlot(const Json& json) {
     svg += line(x(p.low), y(p.error), x(p.high), y(p.error),
                 ("stroke=\"" + color + "\" stroke-opacity=\"0.35\"").c_str());
     svg += "<circle cx=\"" + number(x(p.ms)) + "\" cy=\"" + number(y(p.error)) + "\" r=\"" +
-           (p.onFront ? "5" : "3") + "\" fill=\"" + color + "\"><title>" + p.name +
+           (p.onFront ? "5" : "3") + "\" fill=\"" + color +
+           (p.isOpen ? "\" fill-opacity=\"0.2\" stroke=\"" + color : "") + "\"><title>" + p.name +
            "</title></circle>\n";
     if (p.isChosen)  // by --max-error
       svg += "<path d=\"M" + number(x(p.ms)) + " " + number(y(p.error) - 10) +

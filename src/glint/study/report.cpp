@@ -113,9 +113,10 @@ std::string studyCsv(const StudyResult& r) {
                        e.whole.rmse, e.whole.relativeRmse, e.flip, e.whole.offByMore) +
              formatted("%.6g,%.6g,%.6g,%.6g,", v.shading.max, v.shading.rmse, v.interpolation.max,
                        v.interpolation.rmse) +
-             (!place           ? ","
-              : place->onFront ? "yes,"
-                               : "no,\"" + dominator(r, *front, *place) + "\"") +
+             (!place ? ","
+              : place->onFront
+                  ? "yes,"
+                  : (place->isSlower ? "no,\"" : "open,\"") + dominator(r, *front, *place) + "\"") +
              "\n";
     }
   }

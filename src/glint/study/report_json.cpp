@@ -176,13 +176,13 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
       error["flip"] = e.flip;
       error["against"] = shadingName(e.against);
       error["fronts"] = Json::object();
-      error["asFast"] = Json::array();
+      error["open"] = Json::array();
       for (const std::string& metric : errorMetrics()) {
         const StudyFront* front = frontOf(r, e.against, metric);
         const FrontPlace* place = placeOf(front, i);
         if (!place) continue;
         error["fronts"][metric] = place->onFront ? Json(true) : Json(dominator(r, *front, *place));
-        if (!place->onFront && !place->isSlower) error["asFast"].push_back(metric);
+        if (!place->onFront && !place->isSlower) error["open"].push_back(metric);
       }
       entry["errors"].push_back(error);
     }
@@ -193,12 +193,17 @@ Json studyJson(const StudyHead& head, const StudyResult& r) {
   }
   json["fronts"] = Json::array();
   for (const StudyFront& front : r.fronts) {
-    Json names = Json::array();
-    for (std::size_t i = 0; i < front.variants.size(); ++i)
-      if (front.places[i].onFront)
-        names.push_back(r.variants[std::size_t(front.variants[i])].variant.name);
-    json["fronts"].push_back(
-        {{"model", shadingName(front.model)}, {"metric", front.metric}, {"variants", names}});
+    Json names = Json::array(), open = Json::array();
+    for (std::size_t i = 0; i < front.variants.size(); ++i) {
+      const FrontPlace& place = front.places[i];
+      if (place.onFront || !place.isSlower)
+        (place.onFront ? names : open)
+            .push_back(r.variants[std::size_t(front.variants[i])].variant.name);
+    }
+    json["fronts"].push_back({{"model", shadingName(front.model)},
+                              {"metric", front.metric},
+                              {"variants", names},
+                              {"open", open}});
   }
   json["series"] = Json::array();
   for (const StudySeries& s : r.series) json["series"].push_back(seriesJson(s));

@@ -24,11 +24,11 @@ const StudyFront* wayFrontOf(const StudyResult& r, Shading model);
 /// Its place on the front of a model, or null.
 const FrontPlace* placeOf(const StudyFront* front, std::size_t variant);
 
-/// The name of the variant that dominates a place, which is not on the front.
+/// The name of the variant that dominates a place, or that it cannot be told from.
 std::string dominator(const StudyResult& r, const StudyFront& front, const FrontPlace& place);
 
-/// "on the front"; "by X" if X is faster; "as fast as X" if no difference can be told; empty
-/// without a place. Of variants and of ways.
+/// "on the front"; "by X" if X dominates it; "not told from X" if it cannot be told which is
+/// faster; empty without a place. Of variants and of ways.
 std::string placeWords(const StudyResult& r, const StudyFront* front, std::size_t variant);
 std::string wayPlaceWords(const StudyResult& r, std::size_t way);
 

@@ -166,14 +166,17 @@ class Results {
   }
 
   /// A row for each line, a column for each point.
-  void largestErrors(const char* over, const StudySeries& s) {
+  /// `withTimes`: of the first point, in ms.
+  void largestErrors(const char* over, const StudySeries& s, bool withTimes = false) {
     add(formatted("\nThe largest error over %s:\n\n| form |", over));
     for (const SeriesPoint& p : s.lines[0].points) add(formatted(" %g |", p.x));
+    if (withTimes) add(formatted(" ms at %g |", s.lines[0].points[0].x));
     add("\n|---|");
-    for (std::size_t i = 0; i < s.lines[0].points.size(); ++i) add("---|");
+    for (std::size_t i = 0; i < s.lines[0].points.size() + withTimes; ++i) add("---|");
     for (const SeriesLine& l : s.lines) {
       add("\n| `" + l.name + "` |");
       for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
+      if (withTimes) add(formatted(" %.2f |", l.points[0].milliseconds));
     }
     add("\n");
   }
@@ -289,7 +292,7 @@ class Results {
     add("\n## What does aliasing add, and what takes it away?\n\nAgainst the exact form "
         "supersampled "
         "in double: the whole error, of form, interpolation, driver and aliasing; inside, where\na "
-        "surface covers all of a pixel, and of the whole picture. `filtered` is "
+        "surface covers all of a pixel, and of the whole picture. `kaplanyan` and `toksvig` are "
         "`--specular-antialiasing`; the RMSE of the truth itself\nis below");
     for (const WholeTruth& truth : r_.wholeTruths)
       add(formatted("%s %.1e (%s, %d x %d samples)", &truth == &r_.wholeTruths[0] ? "" : ",",
@@ -300,11 +303,11 @@ class Results {
       const std::string exact = std::string(program) + " exact";
       const VariantResult* single = variant(exact);
       const StudyWay *plain = way(exact),
-                     *filtered = way(std::string(program) + " gaussian filtered");
+                     *filtered = way(std::string(program) + " gaussian kaplanyan");
       if (!single || !plain || !filtered) continue;
       add(
           formatted("\n**%s.** Inside, one exact sample a pixel is off by %.1e at most, RMSE %.1e: "
-                    "%.0f times what the driver and rounding add.\n`gaussian filtered` is off by "
+                    "%.0f times what the driver and rounding add.\n`gaussian kaplanyan` is off by "
                     "%.1e, RMSE %.1e",
                     program, plain->error.inside.max, plain->error.inside.rmse,
                     plain->error.inside.rmse / std::max(single->errors[0].whole.rmse, 1e-12),
@@ -326,6 +329,15 @@ class Results {
     }
     if (const StudySeries* s = series("aliasing"); s && !s->lines.empty())
       largestErrors("the exponent α, `phong` at 128 pixels across against 16 x 16 samples", *s);
+    if (const StudySeries* s = series("distance"); s && !s->lines.empty())
+      largestErrors("the pixels that the model is across as it moves away, likewise", *s, true);
+    if (const StudySeries* s = series("motion"); s && !s->lines.empty())
+      largestErrors("the exponent α, of the change as the model moves by 0.5 and 0.25 pixels", *s);
+    if (const StudySeries* s = series("bumps"); s && !s->lines.empty())
+      largestErrors("the pixels that a sphere with a normal map of small bumps is across", *s,
+                    true);
+    if (const StudySeries* s = series("bumps-motion"); s && !s->lines.empty())
+      largestErrors("the exponent α, of the change as that sphere moves likewise", *s);
   }
 
   void specialisation() {
@@ -344,15 +356,21 @@ class Results {
 
   void fronts() {
     if (r_.fronts.empty()) return;
-    add("\n## The fronts\n\nFrom the most accurate to the fastest, each with its time beside that "
+    add("\n## The fronts\n\nFrom the most accurate to the fastest what is on the front for sure: "
+        "faster than all that is as accurate, beyond the\nspread; each with its time beside that "
         "of "
-        "the one before it and the 95 % interval\nof that ratio. What is not named is dominated by "
-        "one of these, or cannot be told from it in time.\n\n");
+        "the one before it and the 95 % interval of that ratio. Then how many\ncannot be told: "
+        "neither are they, nor is any other that is as accurate faster. All others are dominated "
+        "for "
+        "sure.\n\n");
     for (const StudyFront& front : r_.fronts) {
       if (front.metric != "rmse" && front.metric != "max") continue;
       std::vector<std::pair<double, const VariantResult*>> members;
+      int open = 0;
       for (std::size_t i = 0; i < front.variants.size(); ++i) {
-        if (!front.places[i].onFront) continue;
+        const FrontPlace& place = front.places[i];
+        open += !place.onFront && !place.isSlower;
+        if (!place.onFront) continue;
         const VariantResult& v = r_.variants[std::size_t(front.variants[i])];
         members.emplace_back(metricOf(*errorAgainst(v, front.model), front.metric), &v);
       }
@@ -365,7 +383,8 @@ class Results {
             formatted("%s (%.1e, %.2f ms", v->variant.name.c_str(), error, median(v->times)));
         add(i == 0 ? ")" : "; " + ratio(v->times, members[i - 1].second->times) + ")");
       }
-      add("\n");
+      add(formatted("%s%d of %d cannot be told\n", members.empty() ? "" : "; ", open,
+                    int(front.variants.size())));
     }
   }
 

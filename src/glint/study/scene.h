@@ -26,6 +26,11 @@ struct StudyScene {
 /// material with the given values.
 Scene sphereScene(int level, const ShadingParameters& shading);
 
+/// A sphere of longitudes and latitudes with a normal map of small bumps by chance, and its
+/// pictures, the lengths of normals among them.
+Scene bumpySphereScene(const ShadingParameters& shading);
+DecodedImages bumpyImages();
+
 /// Of the built-in sphere: red plastic.
 ShadingParameters sphereMaterial();
 

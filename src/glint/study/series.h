@@ -63,6 +63,9 @@ std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs;
 /// Of built-in spheres, whatever the scene:
 std::optional<StudySeries> incidenceSeries(const SeriesTools&);  ///< Blinn-Phong against Phong
 std::optional<StudySeries> finenessSeries(const SeriesTools&);   ///< against the true sphere
+/// Of a built-in sphere with a normal map: distanceSeries() and motionSeries().
+std::optional<StudySeries> bumpsSeries(const SeriesTools&);
+std::optional<StudySeries> bumpsMotionSeries(const SeriesTools&);
 
 /// Sets the orders of a series whose x is a length, from the last two points of each line.
 void setOrders(StudySeries& series);

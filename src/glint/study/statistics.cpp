@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
 namespace glint {
+namespace {
+
+constexpr double lowerQuarter = 0.25;
+
+}  // namespace
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -36,22 +42,42 @@ Interval medianInterval(const std::vector<double>& values) {
   return {quantile(medians, 0.025), quantile(medians, 0.975)};
 }
 
+QuartileSamples quartileSamples(std::span<const double> rounds) {
+  QuartileSamples samples;
+  if (rounds.empty()) return samples;
+  std::vector<double> drawn(rounds.begin(), rounds.end());
+  samples.value = quantile(drawn, lowerQuarter);
+  std::mt19937 random(1);
+  samples.drawn.resize(1000);
+  for (double& each : samples.drawn) {
+    for (double& value : drawn)
+      value = rounds[std::size_t(std::uint64_t(random()) * rounds.size() >> 32)];
+    each = quantile(drawn, lowerQuarter);
+  }
+  return samples;
+}
+
+TimeRatio timeRatio(const QuartileSamples& a, const QuartileSamples& b) {
+  if (a.drawn.empty() || b.drawn.empty()) return {};
+  std::vector<double> ratios(a.drawn.size());
+  std::transform(a.drawn.begin(), a.drawn.end(), b.drawn.begin(), ratios.begin(), std::divides());
+  return {a.value / b.value, quantile(ratios, 0.025), quantile(ratios, 0.975)};
+}
+
 TimeRatio timeRatio(std::span<const double> a, std::span<const double> b) {
   const std::size_t rounds = std::min(a.size(), b.size());
-  const std::span<const double> times[] = {a.first(rounds), b.first(rounds)};
-  return quartileFunction(times, [](std::span<const double> q) { return q[0] / q[1]; });
+  return timeRatio(quartileSamples(a.first(rounds)), quartileSamples(b.first(rounds)));
 }
 
 TimeRatio quartileFunction(std::span<const std::span<const double>> times,
                            const std::function<double(std::span<const double>)>& function) {
   if (times.empty() || times[0].empty()) return {};
-  constexpr double share = 0.25;
   const std::size_t rounds = times[0].size();
   std::vector<std::vector<double>> drawn;
   for (const std::span<const double> each : times) drawn.emplace_back(each.begin(), each.end());
   std::vector<double> quartiles(times.size());
   const auto value = [&] {
-    for (std::size_t k = 0; k < times.size(); ++k) quartiles[k] = quantile(drawn[k], share);
+    for (std::size_t k = 0; k < times.size(); ++k) quartiles[k] = quantile(drawn[k], lowerQuarter);
     return function(quartiles);
   };
   TimeRatio ratio;

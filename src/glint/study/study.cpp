@@ -236,14 +236,11 @@ class Study {
   }
 
   void makeFronts() {
-    std::map<std::pair<int, int>, bool> known;  // fronts of one model ask about the same pairs
+    std::vector<QuartileSamples> samples;
+    for (const VariantResult& v : result_.variants)
+      samples.push_back(quartileSamples(v.times.by(result_.clock)));
     const auto faster = [&](int a, int b) {
-      const auto [place, isNew] = known.try_emplace({a, b});
-      const auto times = [&](int i) {
-        return std::span(result_.variants[std::size_t(i)].times.by(result_.clock));
-      };
-      if (isNew) place->second = isFaster(times(a), times(b), result_.spread());
-      return place->second;
+      return isFaster(samples[std::size_t(a)], samples[std::size_t(b)], result_.spread());
     };
     for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
       for (const std::string& metric : errorMetrics()) {
@@ -256,9 +253,11 @@ class Study {
           errors.push_back(metricOf(*error, metric));
         }
         if (errors.empty()) continue;
-        front.places = paretoFront(errors, [&](int a, int b) {
-          return faster(front.variants[std::size_t(a)], front.variants[std::size_t(b)]);
-        });
+        const auto variant = [&](int i) { return front.variants[std::size_t(i)]; };
+        // What --max-error chooses is another one drawn once more.
+        front.places = paretoFront(
+            errors, [&](int a, int b) { return faster(variant(a), variant(b)); },
+            [&](int i) { return !result_.variants[std::size_t(variant(i))].variant.bound; });
         result_.fronts.push_back(std::move(front));
       }
     }
@@ -347,6 +346,8 @@ class Study {
                                                 {"aliasing", aliasingSeries},
                                                 {"distance", distanceSeries},
                                                 {"motion", motionSeries},
+                                                {"bumps", bumpsSeries},
+                                                {"bumps-motion", bumpsMotionSeries},
                                                 {"ior", iorSeries},
                                                 {"incidence", incidenceSeries},
                                                 {"fineness", finenessSeries},

@@ -66,7 +66,8 @@ std::vector<std::string> formsOf(std::span<const std::string_view> texts, bool q
   for (const std::string_view form : texts) {
     const std::size_t colon = form.find(':');
     const std::string_view number = colon == form.npos ? "" : form.substr(colon + 1);
-    if (!quick || number.empty() || number == "4" || number == "16") forms.emplace_back(form);
+    if (!quick || number.empty() || number == "4" || number == "16" || number == "256")
+      forms.emplace_back(form);
   }
   return forms;
 }

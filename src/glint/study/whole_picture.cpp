@@ -45,7 +45,7 @@ WholeTruth wholeTruthOf(const StudyScene& scene, const Look& given, Shading mode
   truth.model = model;
   truth.samples = samples;
   Look look = exactLook(given, model);
-  look.specularAntialiasing = false;
+  look.specularAntialiasing = SpecularAntialiasing::none;
   const Image coarse = supersampled(scene, look, samples / 2, stop);
   if (!coarse.values.empty()) truth.picture = supersampled(scene, look, samples, stop);
   if (!truth.picture.values.empty()) truth.own = wholeErrorOf(truth, coarse, mask, 1).picture;
@@ -65,31 +65,34 @@ WholeError wholeErrorOf(const WholeTruth& truth, const Image& drawn, const Study
 std::vector<StudyWay> studyWays(const StudyScene& scene, const Look& given) {
   std::vector<StudyWay> ways;
   for (const Shading model : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
-    const auto add = [&](const char* form, bool filtered, const AntiAliasing& samples) {
+    using Filter = SpecularAntialiasing;
+    const auto add = [&](const char* form, Filter filter, const AntiAliasing& samples) {
       StudyWay way;
       way.model = model;
       way.look = exactLook(given, model);
       setForms(way.look, form, "exact");
-      way.look.specularAntialiasing = filtered;
+      way.look.specularAntialiasing = filter;
       way.look.antiAliasing = samples;
-      way.name = std::string(shadingName(model)) + " " + form + (filtered ? " filtered" : "");
+      way.name = std::string(shadingName(model)) + " " + form;
+      if (filter != Filter::none)
+        way.name += " " + std::string(specularAntialiasingNames[std::size_t(filter)]);
       if (samples.mode != AntiAliasing::Mode::none) way.name += " " + antiAliasingText(samples);
       const DrawList list = makeDrawList(scene.scene, scene.bounds, way.look);
-      if (filtered && std::ranges::none_of(list.items, [](const DrawItem& item) {
+      if (filter != Filter::none && std::ranges::none_of(list.items, [](const DrawItem& item) {
             return item.variant.specularAntialiasing;
           }))
-        return;  // no highlight
+        return;  // no highlight, or no normal map
       ways.push_back(std::move(way));
     };
     const AntiAliasing none{AntiAliasing::Mode::none, 1}, msaa{AntiAliasing::Mode::msaa, 4};
     for (const char* form : {"exact", "lyon-tuned:16", "gaussian"}) {
       if (std::string_view(form) != "exact" && model == Shading::environment) continue;
-      add(form, false, none);
-      add(form, true, none);
+      for (const Filter filter : {Filter::none, Filter::kaplanyan, Filter::toksvig})
+        add(form, filter, none);
     }
-    add("exact", false, msaa);
-    add("exact", true, msaa);
-    add("exact", false, {AntiAliasing::Mode::ssaa, 2});
+    for (const Filter filter : {Filter::none, Filter::kaplanyan, Filter::toksvig})
+      add("exact", filter, msaa);
+    add("exact", Filter::none, {AntiAliasing::Mode::ssaa, 2});
   }
   return ways;
 }

@@ -33,15 +33,15 @@ WholeError wholeErrorOf(const WholeTruth& truth, const Image& drawn, const Study
 
 /// A way of drawing a model that does something about aliasing, or nothing.
 struct StudyWay {
-  std::string name;  ///< "phong exact filtered msaa:4"
+  std::string name;  ///< "phong exact kaplanyan msaa:4"
   Shading model = Shading::phong;
   Look look;
   WholeError error;
   FrameTimes times;
 };
 
-/// Of each model that the scene has a highlight for: the exact lobe and two cheap ones, with and
-/// without --specular-antialiasing; the exact one with msaa:4, both with and without that, and by
+/// Of each model that the scene has a highlight for: the exact lobe and two cheap ones by each
+/// --specular-antialiasing that changes the scene; the exact one with msaa:4, likewise, and by
 /// ssaa:2. Without errors and times.
 std::vector<StudyWay> studyWays(const StudyScene& scene, const Look& look);
 

@@ -1,0 +1,90 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "glint/image/mipmaps.h"
+#include "glint/render/normal_lengths.h"
+#include "glint/study/scene.h"
+
+namespace glint {
+namespace {
+
+/// The standard deviation of both slopes, 0.0225 in variance: as wide as Phong's lobe of the
+/// exponent 11.
+constexpr double bumpSlope = 0.15;
+constexpr int mapWidth = 1024, mapHeight = 512, sphereColumns = 96, sphereRows = 48;
+
+/// Slopes by chance, each texel's of its own: what a smaller level cannot show is all of them.
+ByteImage bumps() {
+  ByteImage image{mapWidth, mapHeight, 4, {}};
+  std::mt19937 random(1);
+  const auto normal = [&] {  // Irwin and Hall's sum of twelve, less its mean: variance 1
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += double(random()) / 4294967296.0;
+    return sum;
+  };
+  const auto code = [](double x) { return std::uint8_t(std::lround(127.5 * (1 + x))); };
+  for (int i = 0; i < mapWidth * mapHeight; ++i) {
+    const double x = bumpSlope * normal(), y = bumpSlope * normal(),
+                 scale = 1 / std::hypot(x, y, 1.0);
+    for (const double n : {scale * x, scale * y, scale}) image.values.push_back(code(n));
+    image.values.push_back(255);
+  }
+  return image;
+}
+
+}  // namespace
+
+Scene bumpySphereScene(const ShadingParameters& shading) {
+  using std::numbers::pi;
+  Mesh mesh;
+  mesh.texcoords.resize(1);
+  for (int row = 0; row <= sphereRows; ++row)
+    for (int column = 0; column <= sphereColumns; ++column) {
+      const double down = pi * row / sphereRows, around = 2 * pi * column / sphereColumns;
+      const glm::dvec3 n(std::sin(down) * std::sin(around), std::cos(down),
+                         std::sin(down) * std::cos(around));
+      mesh.positions.emplace_back(n);
+      mesh.normals.emplace_back(n);
+      mesh.tangents.emplace_back(float(std::cos(around)), 0.0f, float(-std::sin(around)), 1.0f);
+      mesh.texcoords[0].emplace_back(float(column) / sphereColumns, float(row) / sphereRows);
+    }
+  const auto at = [](int row, int column) {
+    return std::uint32_t(row * (sphereColumns + 1) + column);
+  };
+  for (int row = 0; row < sphereRows; ++row)
+    for (int column = 0; column < sphereColumns; ++column) {
+      if (row > 0)
+        mesh.indices.insert(mesh.indices.end(),
+                            {at(row, column), at(row + 1, column), at(row, column + 1)});
+      if (row + 1 < sphereRows)
+        mesh.indices.insert(mesh.indices.end(),
+                            {at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
+    }
+  Material material;
+  material.name = "Bumps";
+  material.shading = shading;
+  material.normalTexture = Texture{};
+  Scene scene;
+  scene.name = "bumpy sphere";
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back({0, glm::dmat4(1.0)});
+  scene.materials = {material, Material{}};
+  scene.materials.back().name = "#default";
+  EncodedImage image;
+  image.name = "bumps";
+  image.isData = image.isNormalMap = true;
+  scene.images.push_back(std::move(image));
+  return scene;
+}
+
+DecodedImages bumpyImages() {
+  DecodedImage decoded{bumps(), {}, true};
+  decoded.mipLevels = mipLevels(decoded.image, true);
+  writeNormalLengths(decoded);
+  DecodedImages images;
+  images[0] = std::move(decoded);
+  return images;
+}
+
+}  // namespace glint
