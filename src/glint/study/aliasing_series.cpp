@@ -156,9 +156,16 @@ Look movedLook(const SeriesTools& tools, const Look& look, const glm::dvec2& pix
   return moved;
 }
 
+/// Mostly highlight: what bumps do to diffuse light, no filter of highlights mends.
+ShadingParameters bumpyMaterial() {
+  ShadingParameters lacquer = sphereMaterial();
+  lacquer.diffuse = 0.2;
+  return lacquer;
+}
+
 /// What series of the sphere with a normal map are measured with.
 struct BumpyTools {
-  StudyScene scene{bumpySphereScene(sphereMaterial()), bumpyImages()};
+  StudyScene scene{bumpySphereScene(bumpyMaterial()), bumpyImages()};
   GpuScene gpu{scene.scene, scene.images};
   SeriesTools tools;
 

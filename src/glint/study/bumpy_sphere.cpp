@@ -14,22 +14,42 @@ namespace {
 constexpr double bumpSlope = 0.15;
 constexpr int mapWidth = 1024, mapHeight = 512, sphereColumns = 96, sphereRows = 48;
 
-/// Slopes by chance, each texel's of its own: what a smaller level cannot show is all of them.
+/// Waves to all sides, by chance, 8 to 12 texels long: many in a pixel that sees a smaller level, and
+/// smooth from texel to texel, as a filter between texels would else take some of them away.
+struct Wave {
+  int across, down;  ///< periods in the map, so that it repeats
+  double phase;
+};
+
 ByteImage bumps() {
-  ByteImage image{mapWidth, mapHeight, 4, {}};
+  constexpr int count = 24;
   std::mt19937 random(1);
-  const auto normal = [&] {  // Irwin and Hall's sum of twelve, less its mean: variance 1
-    double sum = -6;
-    for (int i = 0; i < 12; ++i) sum += double(random()) / 4294967296.0;
-    return sum;
-  };
-  const auto code = [](double x) { return std::uint8_t(std::lround(127.5 * (1 + x))); };
-  for (int i = 0; i < mapWidth * mapHeight; ++i) {
-    const double x = bumpSlope * normal(), y = bumpSlope * normal(),
-                 scale = 1 / std::hypot(x, y, 1.0);
-    for (const double n : {scale * x, scale * y, scale}) image.values.push_back(code(n));
-    image.values.push_back(255);
+  const auto unit = [&] { return double(random()) / 4294967296.0; };
+  std::vector<Wave> waves;
+  for (int i = 0; i < count; ++i) {
+    const double turn = std::numbers::pi * unit(), length = 8 + 4 * unit();
+    waves.push_back({int(std::lround(mapWidth / length * std::cos(turn))),
+                     int(std::lround(mapHeight / length * std::sin(turn))),
+                     2 * std::numbers::pi * unit()});
   }
+  const auto code = [](double x) { return std::uint8_t(std::lround(127.5 * (1 + x))); };
+  ByteImage image{mapWidth, mapHeight, 4, {}};
+  image.values.reserve(std::size_t(4) * mapWidth * mapHeight);
+  for (int row = 0; row < mapHeight; ++row)
+    for (int column = 0; column < mapWidth; ++column) {
+      glm::dvec2 slope(0);
+      for (const Wave& w : waves) {
+        // Texels are square, so that a wave's slopes are as its periods in texels.
+        const glm::dvec2 way(double(w.across) / mapWidth, double(w.down) / mapHeight);
+        const double at = 2 * std::numbers::pi * (way.x * column + way.y * row) + w.phase;
+        slope += std::cos(at) / glm::length(way) * way;
+      }
+      slope *= 2 * bumpSlope / std::sqrt(double(count));  // each has the variance 1 / 4 of its square
+      const double scale = 1 / std::hypot(slope.x, slope.y, 1.0);
+      for (const double n : {scale * slope.x, scale * slope.y, scale})
+        image.values.push_back(code(n));
+      image.values.push_back(255);
+    }
   return image;
 }
 
