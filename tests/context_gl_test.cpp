@@ -169,7 +169,8 @@ TEST_P(OnBackend, ReadsAPartFromTheTop) {
     target.read(rows.data(), 4, 3, 7);  // rows 2, 1, 0, each before three pixels of something else
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 7; ++x)
-        EXPECT_EQ(rows[std::size_t(4 * (7 * y + x))], x < 4 ? float(2 - y) : -1.0f) << x << "," << y;
+        EXPECT_EQ(rows[std::size_t(4 * (7 * y + x))], x < 4 ? float(2 - y) : -1.0f)
+            << x << "," << y;
   }
   GLINT_GLAD_GL_MESA_pack_invert = drivers;
 }

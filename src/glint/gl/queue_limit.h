@@ -21,8 +21,8 @@ class QueueLimit {
   /// Indices that may be drawn before drawn() is called next: of whole triangles, not 0.
   std::size_t room() const { return most - queued_; }
 
-  /// So many indices were drawn. Waits, where it was the last of a portion, until the portion before
-  /// is drawn, so that there is always work.
+  /// So many indices were drawn. Waits, where it was the last of a portion, until the portion
+  /// before is drawn, so that there is always work.
   void drawn(std::size_t indices) {
     queued_ += indices;
     if (queued_ < most) return;
