@@ -20,8 +20,8 @@ void PrintTo(const Look& look, std::ostream* out) { *out << saveLook(look); }
 using glint::AntiAliasing;
 using glint::Light;
 using glint::Look;
-using glint::SpecularAntialiasing;
 using glint::Parameter;
+using glint::SpecularAntialiasing;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;

@@ -210,6 +210,61 @@ TEST(RoundTrip, OfEveryParameterThroughTextAndPictures) {
   }
 }
 
+std::string optionText(const Parameter& p, const ParameterValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return numberText(*number);
+  if (const auto* on = std::get_if<bool>(&value)) return *on ? "true" : "false";
+  if (const auto* at = std::get_if<std::size_t>(&value)) return p.choices()[*at];
+  const auto& v = std::get<glm::dvec3>(value);
+  return numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
+}
+
+// As the panel sets them; also what else follows, such as the end of a calibrated lens.
+TEST(RoundTrip, OfEveryValueWithoutItsText) {
+  Texts texts(7);
+  for (int i = 0; i < 200; ++i) {
+    const Look from = texts.look(), before = texts.look();
+    for (const Parameter& p : lookParameters()) {
+      EXPECT_EQ(p.get == nullptr, p.kind == ParameterKind::text || p.name == "highlight") << p.name;
+      const ParameterValue value = p.get ? p.get(from) : ParameterValue();
+      if (value == ParameterValue()) continue;
+      Look set = before, read = before;
+      p.set(set, value);
+      p.read(read, optionText(p, value));
+      EXPECT_EQ(set, read) << p.name;
+      EXPECT_EQ(p.get(set), value) << p.name;
+    }
+  }
+}
+
+TEST(RoundTrip, AValueOutOfRangeIsRefusedAsItsTextIs) {
+  for (const Parameter& p : lookParameters()) {
+    if (!p.get || p.kind == ParameterKind::flag || p.kind == ParameterKind::choice) continue;
+    std::vector<ParameterValue> wrong;
+    for (const double number : {2 * p.min - 1, 2 * p.max + 1, std::nan("")})
+      if (p.kind == ParameterKind::number)
+        wrong.emplace_back(number);
+      else
+        wrong.emplace_back(glm::dvec3(0, number, 0));
+    if (p.kind == ParameterKind::direction) wrong.emplace_back(glm::dvec3(0.0));
+    for (const ParameterValue& value : wrong) {
+      const auto said = [&](const auto& change) -> std::string {
+        Look look;
+        try {
+          change(look);
+        } catch (const InputError& error) {
+          EXPECT_EQ(look, Look{}) << p.name;
+          return error.what();
+        }
+        return "nothing";
+      };
+      const std::string text = optionText(p, value);
+      const std::string refused = said([&](Look& look) { p.set(look, value); });
+      EXPECT_EQ(refused, said([&](Look& look) { p.read(look, text); })) << p.name;
+      EXPECT_TRUE(refused.starts_with("--" + p.name + ": '" + text + "'")) << refused;
+    }
+  }
+}
+
 // As the panel's list of lights edits them, and every action of the keyboard.
 TEST(RoundTrip, OfEveryEditOfTheWindow) {
   test::Random random(5);

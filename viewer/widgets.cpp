@@ -112,15 +112,11 @@ bool textField(const Parameter& p, Look& look) {
   return true;
 }
 
-std::string joined(const glm::dvec3& v) {
-  return numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
-}
-
 // Left of a slider, for a number without which something is off.
 bool tick(const Parameter& p, Look& look) {
-  bool on = !p.save(look).is_null();
+  bool on = p.get(look) != ParameterValue();
   const bool clicked = ImGui::Checkbox(("##on" + p.name).c_str(), &on);
-  if (clicked && on) p.read(look, "0.01");
+  if (clicked && on) p.set(look, 0.01);
   if (clicked && !on) p.reset(look);
   tooltip(on ? "off" : "on, within 0.01");
   ImGui::SameLine();
@@ -252,8 +248,7 @@ namespace {
 
 bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
               const std::optional<glm::dvec3>& shown, const std::string& reason) {
-  const nlohmann::ordered_json now = p.save(look);
-  const bool edited = now != p.save(Look{});
+  const bool edited = p.save(look) != p.save(Look{});
   std::string name = p.name;
   if (name.starts_with("camera-")) name = name.substr(7);
   std::replace(name.begin(), name.end(), '-', ' ');
@@ -262,59 +257,45 @@ bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
                          reason.empty() ? p.help : "without effect: " + reason);
   label(name, edited);
   const std::string id = "##" + p.name;
+  const ParameterValue now = p.get ? p.get(look) : ParameterValue();
+  ParameterValue next;  // empty while nothing is changed
   bool changed = false;
   std::string unit;
   switch (p.kind) {
     case ParameterKind::number: {
-      const bool off = now.is_null() && p.name == "max-error";
-      if (p.name == "max-error") changed = tick(p, look);
-      double value = now.is_number() ? now.get<double>() : p.unset;
-      if (slider(id.c_str(), value, p.slider, p.min, p.max, off ? "off" : "%.4g")) {
-        p.read(look, numberText(value));
-        changed = true;
-      }
-      for (const char c : p.value)
-        unit += p.value.size() > 1 ? char(std::tolower(static_cast<unsigned char>(c))) : c;
-      if (unit == "factor" || unit == "x" || unit.size() == 1) unit.clear();
+      const bool open = now == ParameterValue(), ticked = p.name == "max-error";
+      if (ticked) changed = tick(p, look);
+      const char* format = ticked && open                   ? "off"
+                           : ticked && look.maxErrorInCodes ? "%.4g codes"
+                                                            : "%.4g";
+      double value = open ? p.unset : std::get<double>(now);
+      if (slider(id.c_str(), value, p.slider, p.min, p.max, format)) next = value;
+      if (p.value.size() > 1 && p.value != "FACTOR" && !ticked)
+        for (const char c : p.value) unit += char(std::tolower(static_cast<unsigned char>(c)));
       break;
     }
     case ParameterKind::flag: {
-      bool value = now.is_boolean() && now.get<bool>();
-      if (ImGui::Checkbox(id.c_str(), &value)) {
-        p.read(look, value ? "true" : "false");
-        changed = true;
-      }
+      bool value = std::get<bool>(now);
+      if (ImGui::Checkbox(id.c_str(), &value)) next = value;
       break;
     }
     case ParameterKind::choice: {
-      const std::string value = now.get<std::string>();
-      if (ImGui::BeginCombo(id.c_str(), value.c_str())) {
-        for (const std::string& each : p.choices())
-          if (ImGui::Selectable(each.c_str(), each == value) && each != value) {
-            p.read(look, each);
-            changed = true;
-          }
+      const std::vector<std::string> words = p.choices();
+      const std::size_t at = std::get<std::size_t>(now);
+      if (ImGui::BeginCombo(id.c_str(), words[at].c_str())) {
+        for (std::size_t i = 0; i < words.size(); ++i)
+          if (ImGui::Selectable(words[i].c_str(), i == at) && i != at) next = i;
         ImGui::EndCombo();
       }
       break;
     }
     case ParameterKind::vector:
-    case ParameterKind::direction: {
-      glm::dvec3 value = shown.value_or(glm::dvec3(0.0));
-      if (now.is_array())
-        value = {now[0].get<double>(), now[1].get<double>(), now[2].get<double>()};
-      if (vector(id.c_str(), value)) {
-        p.read(look, joined(value));
-        changed = true;
-      }
-      break;
-    }
+    case ParameterKind::direction:
     case ParameterKind::color: {
-      glm::dvec3 value{now[0].get<double>(), now[1].get<double>(), now[2].get<double>()};
-      if (color(id.c_str(), value)) {
-        p.read(look, joined(value));
-        changed = true;
-      }
+      const glm::dvec3* given = std::get_if<glm::dvec3>(&now);
+      glm::dvec3 value = given ? *given : shown.value_or(glm::dvec3(0.0));
+      if (p.kind == ParameterKind::color ? color(id.c_str(), value) : vector(id.c_str(), value))
+        next = value;
       break;
     }
     case ParameterKind::text: {
@@ -322,6 +303,10 @@ bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
       changed = texts.empty() ? textField(p, look) : textCombo(p, look, scene, texts);
       break;
     }
+  }
+  if (next != ParameterValue()) {
+    p.set(look, next);
+    changed = true;
   }
   const bool slides = p.kind == ParameterKind::number;
   if (p.reset && resetAsked(slides)) {

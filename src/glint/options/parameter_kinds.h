@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "glint/image/error.h"
@@ -21,21 +20,13 @@ namespace glint::kinds {
 
 using Json = nlohmann::ordered_json;
 
+inline Json toJson(double v) { return Json(v); }
 inline Json toJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 template <typename Value>
 void finish(Parameter& p, ParameterKind kind, Value Look::*member) {
   p.kind = kind;
   p.reset = [=](Look& look) { look.*member = Look{}.*member; };
-}
-
-template <typename Value>
-Json toJson(const std::optional<Value>& v) {
-  if (!v) return Json();
-  if constexpr (std::is_same_v<Value, glm::dvec3>)
-    return toJson(*v);
-  else
-    return Json(*v);
 }
 
 inline Parameter parameter(std::string name, std::string value, std::string help,
@@ -45,16 +36,58 @@ inline Parameter parameter(std::string name, std::string value, std::string help
           std::move(save)};
 }
 
-// Value is double or std::optional<double>.
-template <typename Value>
-Parameter number(std::string name, std::string unit, double min, double max, Value Look::*member,
-                 std::string help) {
-  auto read = [=](Look& look, const std::string& text) {
-    look.*member = parseNumber(text, min, max, "--" + name);
+template <typename Type>
+const Type* given(const Type& value) {
+  return &value;
+}
+template <typename Type>
+const Type* given(const std::optional<Type>& value) {
+  return value ? &*value : nullptr;
+}
+
+inline std::string textOf(double value) { return numberText(value); }
+inline std::string textOf(const glm::dvec3& v) {
+  return numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
+}
+
+inline bool within(double value, double min, double max) { return value >= min && value <= max; }
+inline bool within(const glm::dvec3& v, double min, double max) {
+  return within(v.x, min, max) && within(v.y, min, max) && within(v.z, min, max);
+}
+
+// A row of one number or three, each from `min` to `max`: Member is Value or std::optional<Value>.
+// `parse` throws where a text is no such value; the error of a value out of range is its text's.
+template <typename Value, typename Member>
+Parameter numbers(ParameterKind kind, const std::string& name, const std::string& value,
+                  const std::string& help, double min, double max, Member Look::*member,
+                  std::function<Value(const std::string&)> parse) {
+  Parameter p = parameter(
+      name, value, help, [=](Look& look, const std::string& text) { look.*member = parse(text); },
+      [=](const Look& look) {
+        const Value* now = given(look.*member);
+        return now ? toJson(*now) : Json();
+      },
+      min, max);
+  p.get = [=](const Look& look) {
+    const Value* now = given(look.*member);
+    return now ? ParameterValue(*now) : ParameterValue();
   };
-  auto save = [=](const Look& look) { return Json(toJson(std::optional(look.*member))); };
-  Parameter p = parameter(name, unit, help, read, save, min, max);
-  finish(p, ParameterKind::number, member);
+  p.set = [=](Look& look, const ParameterValue& value) {
+    const Value& now = std::get<Value>(value);
+    const bool fits =
+        within(now, min, max) && (kind != ParameterKind::direction || now != Value(0.0));
+    look.*member = fits ? now : parse(textOf(now));
+  };
+  finish(p, kind, member);
+  return p;
+}
+
+template <typename Member>
+Parameter number(const std::string& name, const std::string& unit, double min, double max,
+                 Member Look::*member, const std::string& help) {
+  Parameter p = numbers<double>(
+      ParameterKind::number, name, unit, help, min, max, member,
+      [=](const std::string& text) { return parseNumber(text, min, max, "--" + name); });
   p.slider = {min, max, false};
   return p;
 }
@@ -67,6 +100,8 @@ inline Parameter flag(const std::string& name, bool Look::*member, const std::st
   };
   Parameter p =
       parameter(name, {}, help, read, [=](const Look& look) { return Json(look.*member); });
+  p.get = [=](const Look& look) { return ParameterValue(look.*member); };
+  p.set = [=](Look& look, const ParameterValue& value) { look.*member = std::get<bool>(value); };
   finish(p, ParameterKind::flag, member);
   return p;
 }
@@ -81,43 +116,37 @@ Parameter choice(const std::string& name, std::span<const std::string_view> name
   };
   Parameter p = parameter(name, value, help, read,
                           [=](const Look& look) { return Json(names[std::size_t(look.*member)]); });
+  p.get = [=](const Look& look) { return ParameterValue(std::size_t(look.*member)); };
+  p.set = [=](Look& look, const ParameterValue& value) {
+    look.*member = Enum(std::get<std::size_t>(value));
+  };
   finish(p, ParameterKind::choice, member);
   return p;
 }
 
 inline Parameter vector(const std::string& name, double limit,
                         std::optional<glm::dvec3> Look::*member, const std::string& help) {
-  auto read = [=](Look& look, const std::string& text) {
-    look.*member = parseVector(text, -limit, limit, "--" + name);
-  };
-  Parameter p = parameter(
-      name, "x,y,z", help, read, [=](const Look& look) { return toJson(look.*member); }, -limit,
-      limit);
-  finish(p, ParameterKind::vector, member);
-  return p;
+  return numbers<glm::dvec3>(
+      ParameterKind::vector, name, "x,y,z", help, -limit, limit, member,
+      [=](const std::string& text) { return parseVector(text, -limit, limit, "--" + name); });
 }
 
 inline Parameter direction(const std::string& name, std::optional<glm::dvec3> Look::*member,
                            const std::string& help) {
-  Parameter p = vector(name, 1e6, member, help);
-  p.kind = ParameterKind::direction;
-  p.read = [read = p.read, name = p.name, member](Look& look, const std::string& text) {
-    read(look, text);
-    if (*(look.*member) == glm::dvec3(0.0))
-      throw InputError("--" + name + ": '" + text + "' has no direction: give another than 0,0,0");
-  };
-  return p;
+  return numbers<glm::dvec3>(ParameterKind::direction, name, "x,y,z", help, -1e6, 1e6, member,
+                             [=](const std::string& text) {
+                               const glm::dvec3 v = parseVector(text, -1e6, 1e6, "--" + name);
+                               if (v == glm::dvec3(0.0))
+                                 throw InputError("--" + name + ": '" + text +
+                                                  "' has no direction: give another than 0,0,0");
+                               return v;
+                             });
 }
 
 inline Parameter color(const std::string& name, glm::dvec3 Look::*member, const std::string& help) {
-  auto read = [=](Look& look, const std::string& text) {
-    look.*member = parseColor(text, "--" + name);
-  };
-  Parameter p = parameter(
-      name, "r,g,b|#rrggbb", help, read, [=](const Look& look) { return toJson(look.*member); }, 0,
-      1e6);
-  finish(p, ParameterKind::color, member);
-  return p;
+  return numbers<glm::dvec3>(
+      ParameterKind::color, name, "r,g,b|#rrggbb", help, 0, 1e6, member,
+      [=](const std::string& text) { return parseColor(text, "--" + name); });
 }
 
 inline Parameter slider(Parameter p, double min, double max, bool logarithmic, double unset = 0,
@@ -125,6 +154,19 @@ inline Parameter slider(Parameter p, double min, double max, bool logarithmic, d
   p.slider = {min, max, logarithmic};
   p.unset = unset;
   p.symbol = symbol;
+  return p;
+}
+
+// A row of which something else follows when it is set.
+inline Parameter then(Parameter p, void (*follow)(Look&)) {
+  p.read = [=, read = std::move(p.read)](Look& look, const std::string& text) {
+    read(look, text);
+    follow(look);
+  };
+  p.set = [=, set = std::move(p.set)](Look& look, const ParameterValue& value) {
+    set(look, value);
+    follow(look);
+  };
   return p;
 }
 

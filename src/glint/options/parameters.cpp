@@ -140,20 +140,24 @@ Parameter costTable() {
 }
 
 Parameter maxError() {
-  Parameter p = number("max-error", "E", 0, 1e6, &Look::maxError,
-                       "use the cheapest forms of lobe and reflectance whose proven error for "
-                       "this scene is at most E, in linear light, or Ncode: N codes of the 8-bit "
-                       "picture after exposure; the exact ones where there is none");
-  p.value = "E|Ncode";
-  p.read = [read = p.read](Look& look, const std::string& text) {
-    const std::size_t at = text.size() < 4 ? std::string::npos : text.size() - 4;
-    const bool codes = at != std::string::npos && text.compare(at, 4, "code") == 0;
+  const auto parse = [](const std::string& text) {
     try {
-      read(look, codes ? text.substr(0, at) : text);
+      return parseNumber(text.substr(0, text.size() - (text.ends_with("code") ? 4 : 0)), 0, 1e6,
+                         "");
     } catch (const InputError&) {
       throw InputError("--max-error: '" + text + "' is not a number from 0 to 1e+06, nor Ncode");
     }
-    look.maxErrorInCodes = codes;
+  };
+  Parameter p = numbers<double>(
+      ParameterKind::number, "max-error", "E|Ncode",
+      "use the cheapest forms of lobe and reflectance whose proven error for this scene is at most "
+      "E, in linear light, or Ncode: N codes of the 8-bit picture after exposure; the exact ones "
+      "where there is none",
+      0, 1e6, &Look::maxError, parse);
+  p = then(std::move(p), [](Look& look) { look.maxErrorInCodes = false; });
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    read(look, text);
+    look.maxErrorInCodes = text.ends_with("code");
   };
   p.save = [save = p.save](const Look& look) {
     if (!look.maxErrorInCodes || !look.maxError) return save(look);
@@ -183,12 +187,10 @@ Parameter intrinsics() {
 }
 
 // What takes the place of a lens that a look has: the last that is said of the two counts.
-Parameter withoutIntrinsics(Parameter p) {
-  p.read = [read = p.read](Look& look, const std::string& text) {
-    read(look, text);
-    if (text != "false") look.cameraIntrinsics.reset();
-  };
-  return p;
+void dropIntrinsics(Look& look) { look.cameraIntrinsics.reset(); }
+
+void dropIntrinsicsIfParallel(Look& look) {
+  if (look.cameraOrthographic) dropIntrinsics(look);
 }
 
 constexpr std::array<std::string_view, 2> viewerNames{"local", "infinite"};
@@ -262,10 +264,10 @@ std::vector<Parameter> makeTable() {
        vector("camera-focal-point", 1e30, &Look::cameraFocalPoint,
               "the point that the camera looks at [default: the model's centre]"),
        direction("camera-view-up", &Look::cameraViewUp, "up direction [default: 0,1,0]"),
-       withoutIntrinsics(
-           slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
-                         "vertical angle of view [default: 30]"),
-                  1, 120, false, 30)),
+       then(slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
+                          "vertical angle of view [default: 30]"),
+                   1, 120, false, 30),
+            dropIntrinsics),
        intrinsics(),
        direction(
            "camera-direction", &Look::cameraDirection,
@@ -280,10 +282,10 @@ std::vector<Parameter> makeTable() {
                      "how much of the picture the model's bounding sphere fills, unless "
                      "--camera-position is given"),
               0.05, 20, true),
-       withoutIntrinsics(
-           flag("camera-orthographic", &Look::cameraOrthographic,
-                "parallel projection; half the picture's height is the distance to the focal "
-                "point times tan(view angle / 2)")),
+       then(flag("camera-orthographic", &Look::cameraOrthographic,
+                 "parallel projection; half the picture's height is the distance to the focal "
+                 "point times tan(view angle / 2)"),
+            dropIntrinsicsIfParallel),
        resetting(custom(
                      "camera-index", "N", "use camera N of the file, counted from 0",
                      [](Look& look, const std::string& text) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "glint/scene/look.h"
@@ -24,6 +26,10 @@ enum class ParameterKind {
   text,       ///< the option's text
 };
 
+/// What a parameter is set to, in the type of its kind: a number, a tick, the place of a choice's
+/// word among Parameter::choices(), or three numbers. Empty where a look leaves it open.
+using ParameterValue = std::variant<std::monostate, double, bool, std::size_t, glm::dvec3>;
+
 /// One parameter of a look. This table is the only place that knows a parameter's name, unit,
 /// range, default and help: command line, look files, help and panel are made from it.
 struct Parameter {
@@ -39,6 +45,10 @@ struct Parameter {
   /// The value for a look file; null where the look leaves it open.
   std::function<nlohmann::ordered_json(const Look&)> save;
   ParameterKind kind = ParameterKind::text;
+  /// The value itself, without its text; not of the kind text, nor of highlight, whose forms may
+  /// be several words. `set` throws what `read` would of the value's text; it takes no empty value.
+  std::function<ParameterValue(const Look&)> get = {};
+  std::function<void(Look&, const ParameterValue&)> set = {};
   SliderRange slider = {};       ///< of a number
   double unset = 0.0;            ///< of a number that a look may leave open: what stands then
   std::string_view symbol = {};  ///< in docs/science.md; empty if none

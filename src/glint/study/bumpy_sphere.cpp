@@ -14,8 +14,8 @@ namespace {
 constexpr double bumpSlope = 0.15;
 constexpr int mapWidth = 1024, mapHeight = 512, sphereColumns = 96, sphereRows = 48;
 
-/// Waves to all sides, by chance, 8 to 12 texels long: many in a pixel that sees a smaller level, and
-/// smooth from texel to texel, as a filter between texels would else take some of them away.
+/// Waves to all sides, by chance, 8 to 12 texels long: many in a pixel that sees a smaller level,
+/// and smooth from texel to texel, as a filter between texels would else take some of them away.
 struct Wave {
   int across, down;  ///< periods in the map, so that it repeats
   double phase;
@@ -44,7 +44,8 @@ ByteImage bumps() {
         const double at = 2 * std::numbers::pi * (way.x * column + way.y * row) + w.phase;
         slope += std::cos(at) / glm::length(way) * way;
       }
-      slope *= 2 * bumpSlope / std::sqrt(double(count));  // each has the variance 1 / 4 of its square
+      slope *=
+          2 * bumpSlope / std::sqrt(double(count));  // each has the variance 1 / 4 of its square
       const double scale = 1 / std::hypot(slope.x, slope.y, 1.0);
       for (const double n : {scale * slope.x, scale * slope.y, scale})
         image.values.push_back(code(n));

@@ -34,7 +34,4 @@ DecodedImages bumpyImages();
 /// Of the built-in sphere: red plastic.
 ShadingParameters sphereMaterial();
 
-/// Draws a list as a whole picture.
-Image drawList(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
-
 }  // namespace glint
