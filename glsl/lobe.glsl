@@ -36,22 +36,6 @@ float lobePow(float cosine, float exponent) {
   return cosine > 0.0 ? pow(min(cosine, 1.0), exponent) : 0.0;
 }
 
-#ifdef LOBE_TABLES
-// Tables of the cosine's powers, one behind the other, each from the beginning of a vec4 on.
-layout(std140) uniform LobeTableBlock {
-  vec4 lobeTables[LOBE_TABLES];
-};
-float tableEntry(int table, int place) { return lobeTables[table + (place >> 2)][place & 3]; }
-
-// From a table of so many steps, a power of two, that begins at the vec4 `table`.
-float lobeTable(float cosine, int table, int steps) {
-  float place = clamp(cosine, 0.0, 1.0) * float(steps);
-  int below = min(int(place), steps - 1);
-  float share = place - float(below);
-  return (1.0 - share) * tableEntry(table, below) + share * tableEntry(table, below + 1);
-}
-#endif
-
 // x^power for a constant from 1 to 255: the squarings and products that the power needs, and no
 // more, once the compiler has folded the tests.
 float powerOf(float x, int power) {

@@ -178,7 +178,8 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
                       fragment = Preprocessor().run(program.fragment), both = vertex + fragment;
     const auto holds = [&](const char* what) { return both.find(what) != std::string::npos; };
     const int lights = v.directionalLights + v.pointLights + v.spotLights;
-    EXPECT_EQ(holds("sampler2D"), v.colorTexture || v.emissionTexture || v.textured != 0)
+    EXPECT_EQ(holds("sampler2D"),
+              v.colorTexture || v.emissionTexture || v.normalTexture || v.textured != 0)
         << program.name;
     EXPECT_EQ(holds("LightBlock"), lights > 0) << program.name;
     EXPECT_EQ(holds("for ("), lights > 0) << program.name;

@@ -238,6 +238,7 @@ ComposedProgram compose(const Variant& v, const GlslSources& sources, bool fileN
   std::vector<Part> files{{"vector.glsl"}, {"blocks.glsl"}};
   if (!v.unlit) {
     if (v.specular) files.insert(files.begin() + 1, {"lobe.glsl"});
+    if (lobeTableRows(v) > 0) files.insert(files.begin() + 1, {"lobe_table.glsl"});
     if (v.normalized) files.insert(files.begin() + 1, {"normalization.glsl"});
     if (v.program == Shading::environment)
       files.insert(files.end(), {{"fresnel.glsl"}, {"environment_map.glsl"}});
