@@ -13,14 +13,8 @@
 #include "glint/image/read_image.h"
 #include "scenes.h"
 
-namespace batch_cli_test {
+namespace glint::test::batch_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -723,4 +717,4 @@ TEST(Batch, OptionsThatExcludeEachOther) {
   EXPECT_THAT(folder.names(), ElementsAre("list"));
 }
 
-}  // namespace batch_cli_test
+}  // namespace glint::test::batch_cli_test

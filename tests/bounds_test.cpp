@@ -10,9 +10,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace bounds_test {
-
-using namespace glint;
+namespace glint::bounds_test {
 
 int draws(int usual) {
   const char* more = std::getenv("GLINT_BOUND_DRAWS");
@@ -184,4 +182,4 @@ TEST(Bounds, OfEnvironments) {
   }
 }
 
-}  // namespace bounds_test
+}  // namespace glint::bounds_test

@@ -8,14 +8,8 @@
 #include "command.h"
 #include "scenes.h"
 
-namespace convert_cli_test {
+namespace glint::test::convert_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -187,4 +181,4 @@ TEST(Convert, WhatCannotBe) {
   EXPECT_EQ(contents(in), contents(folder / "a.glb"));
 }
 
-}  // namespace convert_cli_test
+}  // namespace glint::test::convert_cli_test

@@ -8,13 +8,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
-namespace diff_cli_test {
+namespace glint::test::diff_cli_test {
 
-using glint::Image;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -353,4 +348,4 @@ TEST(DiffJobs, DoNotChangeTheResult) {
   EXPECT_THAT(pages[0], Not(HasSubstr("https:")));
 }
 
-}  // namespace diff_cli_test
+}  // namespace glint::test::diff_cli_test

@@ -10,14 +10,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
-namespace diff_files_cli_test {
+namespace glint::test::diff_files_cli_test {
 
-using glint::ExrLayer;
-using glint::Image;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
@@ -410,4 +404,4 @@ TEST(DiffReports, PicturesBesideThePage) {
   EXPECT_EQ(files.diff({"x", "y", "--pictures-beside"}).status, 2);
 }
 
-}  // namespace diff_files_cli_test
+}  // namespace glint::test::diff_files_cli_test

@@ -7,13 +7,8 @@
 #include "command.h"
 #include "scenes.h"
 
-namespace errors_cli_test {
+namespace glint::test::errors_cli_test {
 
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -401,4 +396,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, FakeDrivers,
                            return name;
                          });
 
-}  // namespace errors_cli_test
+}  // namespace glint::test::errors_cli_test

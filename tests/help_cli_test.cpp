@@ -7,12 +7,8 @@
 
 #include "command.h"
 
-namespace help_cli_test {
+namespace glint::test::help_cli_test {
 
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -175,4 +171,4 @@ TEST(Help, ATypoIsAnsweredEvenWhereSomethingElseIsMissing) {
   EXPECT_THAT(answer({"rendre", "a.glb", "-o", "a.png"}), HasSubstr("did you mean 'render'?"));
 }
 
-}  // namespace help_cli_test
+}  // namespace glint::test::help_cli_test

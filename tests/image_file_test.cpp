@@ -11,10 +11,9 @@
 
 #include "glint/image/error.h"
 
-namespace image_file_test {
+namespace glint::image_file_test {
 
 namespace fs = std::filesystem;
-using glint::OutputFile;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -234,4 +233,4 @@ TEST_P(File, MessagesStayOneLine) {
               ::testing::AllOf(HasSubstr("a\\nb\\x1b[1m"), Not(HasSubstr("\n"))));
 }
 
-}  // namespace image_file_test
+}  // namespace glint::image_file_test

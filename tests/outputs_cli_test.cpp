@@ -10,15 +10,8 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
-namespace outputs_cli_test {
+namespace glint::test::outputs_cli_test {
 
-using glint::readImage;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -321,4 +314,4 @@ TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
   }
 }
 
-}  // namespace outputs_cli_test
+}  // namespace glint::test::outputs_cli_test

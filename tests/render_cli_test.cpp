@@ -11,14 +11,8 @@
 #include "glint/options/parameters.h"
 #include "scenes.h"
 
-namespace render_cli_test {
+namespace glint::test::render_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -559,4 +553,4 @@ TEST(Backends, AreListedInTextAndJson) {
   }
 }
 
-}  // namespace render_cli_test
+}  // namespace glint::test::render_cli_test

@@ -10,13 +10,8 @@
 #include "glint/image/read_image.h"
 #include "gltf_sample.h"
 
-namespace safety_cli_test {
+namespace glint::test::safety_cli_test {
 
-using glint::test::contents;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -396,4 +391,4 @@ TEST(Names, DoNotReachATerminalAsTheyAre) {
   EXPECT_THAT(ran.out, HasSubstr(R"(\x1b[2J\nred)"));
 }
 
-}  // namespace safety_cli_test
+}  // namespace glint::test::safety_cli_test

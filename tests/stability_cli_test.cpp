@@ -7,11 +7,8 @@
 
 #include "command.h"
 
-namespace stability_cli_test {
+namespace glint::test::stability_cli_test {
 
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -109,4 +106,4 @@ TEST(StabilityCommand, NoContextIsStatus3) {
   expectRefusal(runGlint({"stability", "--rendering-backend", "egl-software"}, options), "egl", 3);
 }
 
-}  // namespace stability_cli_test
+}  // namespace glint::test::stability_cli_test
