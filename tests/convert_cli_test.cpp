@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
 namespace glint::test::convert_cli_test {
@@ -18,11 +19,6 @@ using Json = nlohmann::json;
 
 const std::string edit =
     "ambient=0.7,diffuse=0.9,specular=0.6,exponent=33.3,metalness=0.25,ior=1.7,color=0.1,0.4,0.9";
-
-void expectDone(const Ran& ran) {
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_THAT(ran.err, IsEmpty());
-}
 
 void expectRefusal(const Ran& ran, const std::string& part) {
   EXPECT_EQ(ran.status, 2);

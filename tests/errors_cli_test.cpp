@@ -17,15 +17,6 @@ using testing::StartsWith;
 
 const std::string sphere = shipped + "sphere.glb";
 
-void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
-  EXPECT_EQ(ran.status, status) << ran.err;
-  EXPECT_EQ(ran.signal, 0);
-  const auto lines = ran.errorLines();
-  ASSERT_EQ(lines.size(), 1u) << ran.err;
-  EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
-  EXPECT_THAT(ran.out, IsEmpty());
-}
-
 TEST(Usage, CommandsAndOptionsThatDoNotExist) {
   expectRefusal(runGlint({}), "see glint --help");
   expectRefusal(runGlint({"rendre", "a.glb"}), "did you mean 'render'?");

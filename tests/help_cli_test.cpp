@@ -19,13 +19,6 @@ const std::vector<std::string> commands{"render",  "view", "diff",        "study
 const std::vector<std::pair<std::string, std::string>> noDisplay{{"DISPLAY", ""},
                                                                  {"WAYLAND_DISPLAY", ""}};
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 std::string helpOf(const std::string& command) {
   const Ran ran = runGlint({command, "--help"});
   EXPECT_EQ(ran.status, 0) << ran.err;

@@ -20,14 +20,6 @@ Ran stability(std::vector<std::string> arguments) {
   return runGlint(arguments);
 }
 
-void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
-  EXPECT_EQ(ran.status, status) << ran.err;
-  const auto lines = ran.errorLines();
-  ASSERT_EQ(lines.size(), 1u) << ran.err;
-  EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
-  EXPECT_THAT(ran.out, IsEmpty());
-}
-
 TEST(StabilityCommand, ListsTheWholeCatalogue) {
   const Ran ran = runGlint({"stability", "--list"});
   EXPECT_EQ(ran.status, 0) << ran.err;

@@ -10,7 +10,6 @@
 #include "glint/scene/look_text.h"
 #include "variants.h"
 
-
 namespace glint {
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << shadingName(v.program) << (v.multisampled ? " multisampled" : "");
