@@ -132,7 +132,7 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "--jobs", "0"}, 2, "--jobs"},
       {{"a.png", "b.png", "--difference", "heat"}, 2, "flip, absolute or side-by-side"},
       {{"a.png", "b.png", "-o", "a.png"}, 2, "would overwrite what is read"},
-      {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending tells no known format"},
+      {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending is that of no known format"},
       {{"a.png", "b.png", "--json", "-", "--junit", "-"}, 2, "goes to stdout already"},
       {{"a.png", "b.png", "--json", "/proc/none/a.json"}, 2, "/proc/none"},
       // No baseline.

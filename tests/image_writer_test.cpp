@@ -181,7 +181,7 @@ TEST_F(Writer, EndingsAndSizesThatDoNotWorkAreRefused) {
   };
   EXPECT_THAT(open("a.bmp"), HasSubstr("BMP is not written: use .png, .jpg"));
   EXPECT_THAT(open("png"), HasSubstr(".exr or .pfm"));
-  EXPECT_THAT(open("a.xyz"), HasSubstr("tells no known format"));
+  EXPECT_THAT(open("a.xyz"), HasSubstr("is that of no known format"));
   EXPECT_THAT(open("a.jpg", 65501), HasSubstr("JPEG has at most 65500 pixels a side"));
   EXPECT_THAT(open("a.webp", 1, 16384), HasSubstr("WebP has at most 16383 pixels a side"));
   for (const int quality : {0, 101, -1}) {
