@@ -135,20 +135,24 @@ Parameter costTable() {
 }
 
 Parameter maxError() {
-  Parameter p = number("max-error", "E", 0, 1e6, &Look::maxError,
-                       "use the cheapest forms of lobe and reflectance whose proven error for "
-                       "this scene is at most E, in linear light, or Ncode: N codes of the 8-bit "
-                       "picture after exposure; the exact ones where there is none");
-  p = then(std::move(p), [](Look& look) { look.maxErrorInCodes = false; });
-  p.value = "E|Ncode";
-  p.read = [read = p.read](Look& look, const std::string& text) {
-    const bool codes = text.ends_with("code");
+  const auto parse = [](const std::string& text) {
     try {
-      read(look, codes ? text.substr(0, text.size() - 4) : text);
+      return parseNumber(text.substr(0, text.size() - (text.ends_with("code") ? 4 : 0)), 0, 1e6,
+                         "");
     } catch (const InputError&) {
       throw InputError("--max-error: '" + text + "' is not a number from 0 to 1e+06, nor Ncode");
     }
-    look.maxErrorInCodes = codes;
+  };
+  Parameter p = numbers<double>(
+      ParameterKind::number, "max-error", "E|Ncode",
+      "use the cheapest forms of lobe and reflectance whose proven error for this scene is at most "
+      "E, in linear light, or Ncode: N codes of the 8-bit picture after exposure; the exact ones "
+      "where there is none",
+      0, 1e6, &Look::maxError, parse);
+  p = then(std::move(p), [](Look& look) { look.maxErrorInCodes = false; });
+  p.read = [read = p.read](Look& look, const std::string& text) {
+    read(look, text);
+    look.maxErrorInCodes = text.ends_with("code");
   };
   p.save = [save = p.save](const Look& look) {
     if (!look.maxErrorInCodes || !look.maxError) return save(look);
