@@ -11,7 +11,7 @@
 #include "files.h"
 #include "glint/image/error.h"
 
-namespace glint::image_file_test {
+namespace glint::test::image_file_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -208,4 +208,4 @@ TEST_P(File, MessagesStayOneLine) {
               ::testing::AllOf(HasSubstr("a\\nb\\x1b[1m"), Not(HasSubstr("\n"))));
 }
 
-}  // namespace glint::image_file_test
+}  // namespace glint::test::image_file_test
