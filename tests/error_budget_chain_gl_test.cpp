@@ -84,13 +84,7 @@ Image normalsOf(Stage& stage, const Scene& scene, const Look& look) {
   DrawList list = makeDrawList(scene, boundsOf(scene), look);
   for (DrawItem& item : list.items)
     item.variant = attributeVariant(item.variant, PixelOutput::normal);
-  auto picture = stage.renderer().begin(gpu, std::move(list), look);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
+  return stage.renderer().draw(gpu, std::move(list), look);
 }
 
 double largest(const glm::dvec3& v) {

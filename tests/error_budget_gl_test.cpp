@@ -25,16 +25,6 @@ class BudgetOnDriver : public testing::TestWithParam<Backend> {};
 
 using test::Random;
 
-Image pictureOf(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look) {
-  auto picture = renderer.begin(scene, std::move(list), look);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
-}
-
 glm::dvec3 at(const Image& image, int x, int y) {
   const float* p = image.row(y) + 4 * x;
   return {p[0], p[1], p[2]};
@@ -110,12 +100,12 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     const auto attributes = reference.attributes(0, 32);
     GpuScene gpu(scene, {});
     const Image drawn =
-        pictureOf(renderer, gpu, makeDrawList(scene, bounds, resolved.look), resolved.look);
+        renderer.draw(gpu, makeDrawList(scene, bounds, resolved.look), resolved.look);
     const DrawList geometry = makeDrawList(scene, bounds, exact);
     const auto attribute = [&](PixelOutput output) {
       DrawList list = geometry;
       for (DrawItem& item : list.items) item.variant = attributeVariant(item.variant, output);
-      return pictureOf(renderer, gpu, std::move(list), exact);
+      return renderer.draw(gpu, std::move(list), exact);
     };
     const Image positions = attribute(PixelOutput::position);
     const Image normals = attribute(PixelOutput::normal);

@@ -58,20 +58,10 @@ Look lookWith(Shading shading, int size) {
   return look;
 }
 
-Image drawWith(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look) {
-  auto picture = renderer.begin(scene, std::move(list), look);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
-}
-
 Image attributeImage(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look,
                      PixelOutput output) {
   for (DrawItem& item : list.items) item.variant = attributeVariant(item.variant, output);
-  return drawWith(renderer, scene, std::move(list), look);
+  return renderer.draw(scene, std::move(list), look);
 }
 
 glm::dvec4 pixel(const Image& image, int x, int y) {
@@ -132,7 +122,7 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
   auto attributes = reference.attributes(0, height);
   GpuScene scene(model.scene, model.images);
   const DrawList list = makeDrawList(model.scene, model.bounds, look);
-  const Image drawn = drawWith(renderer, scene, list, look);
+  const Image drawn = renderer.draw(scene, list, look);
   const auto output = [&](PixelOutput o) { return attributeImage(renderer, scene, list, look, o); };
   const bool split = perPixel(look.shading);
   const Image colors = output(PixelOutput::color), emission = output(PixelOutput::emission);

@@ -4,8 +4,8 @@
   tests/benchmarks/batch.py BUILD MODELS_FOLDER [--runs N]
 
 The models are those of the folder, in turn until there are 20. f3d needs an X server that is
-already up (DISPLAY); without f3d only glint is timed. Also prints glint's peak memory over lists of
-200 and 2000 pictures.
+already up (DISPLAY); without f3d only glint is timed. Also prints how many processors a list of 200
+keeps busy, and glint's peak memory over lists of 200 and 2000 pictures.
 """
 import argparse
 import os
@@ -87,6 +87,12 @@ def main():
             rounds = [a / b for a, b in zip(times["glint"], times["f3d"])]
             print(f"glint / f3d: {statistics.median(rounds):.3f} "
                   f"({min(rounds):.3f} to {max(rounds):.3f})")
+        start, before = time.perf_counter(), os.times()
+        wall([batch(200, "1024,1024")])
+        after = os.times()
+        spent = sum(after[i] - before[i] for i in (2, 3))  # by the child
+        cores = len(os.sched_getaffinity(0))
+        print(f"200 models keep {spent / (time.perf_counter() - start):.2f} of {cores} processors busy")
         for count in (200, 2000):
             print(f"peak memory over {count} pictures: {peak(batch(count, '256,256')):.0f} MiB")
 

@@ -217,10 +217,19 @@ void RenderTarget::resolve() const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void RenderTarget::readRows(float* rgba, int first, int rows) const {
+void RenderTarget::read(float* rgba, int width, int height, int stride) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glReadPixels(0, first, width_, rows, GL_RGBA, GL_FLOAT, rgba);
+  glPixelStorei(GL_PACK_ROW_LENGTH, stride);
+  const bool turns = GLINT_GLAD_GL_MESA_pack_invert != 0;
+  if (turns) glPixelStorei(GL_PACK_INVERT_MESA, GL_TRUE);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
+  if (turns) glPixelStorei(GL_PACK_INVERT_MESA, GL_FALSE);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+  if (turns) return;
+  const auto row = [&](int y) { return rgba + std::size_t(4) * stride * std::size_t(y); };
+  for (int y = 0; y < height / 2; ++y)
+    std::swap_ranges(row(y), row(y) + std::size_t(4) * width, row(height - 1 - y));
 }
 
 }  // namespace glint

@@ -40,16 +40,14 @@ class RenderTarget {
   /// Averages the samples of each pixel, in linear light, by a program of its own: the sum is then
   /// the same on every driver, and it is compiled once for all (a software driver compiles the
   /// program of glBlitFramebuffer anew in every process, 100 ms). Call it after drawing and before
-  /// readRows or blitting; does nothing if there is one sample. Leaves other framebuffers bound and
+  /// read() or blitting; does nothing if there is one sample. Leaves other framebuffers bound and
   /// state changed: bind() and set state before drawing more.
   void resolve() const;
 
-  /// Copies `rows` rows beginning with `first` (row 0 is the bottom one, as in GL; a picture file
-  /// begins with the top) to rgba: 4 * width * rows floats, linear, as drawn. Waits until drawing
-  /// is done. Leaves the resolved picture bound for reading.
-  void readRows(float* rgba, int first, int rows) const;
-  /// The whole picture, bottom row first.
-  void readRows(float* rgba) const { readRows(rgba, 0, height_); }
+  /// Copies the rectangle of width x height pixels in the lower left corner to rgba: four floats a
+  /// pixel, linear, as drawn; the top row first, as in a picture file, each `stride` pixels behind
+  /// the one before. Waits until drawing is done. Leaves the resolved picture bound for reading.
+  void read(float* rgba, int width, int height, int stride) const;
 
   /// The depths of each sample, as a texture to be read while nothing draws into them; and more of
   /// the same kind (DepthLayers).

@@ -265,6 +265,7 @@ void GpuScene::draw(int mesh, bool faces, std::size_t times, const Buffer* indic
   else
     glDrawElementsInstanced(g.mode, g.count, GL_UNSIGNED_INT, nullptr, GLsizei(times));
   if (indices) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g.indices.id());
+  queue_.drawn(std::size_t(g.count) * times);
 }
 
 bool GpuScene::findShown(int mesh, bool faces, const RunView& view) {
@@ -277,11 +278,31 @@ bool GpuScene::findShown(int mesh, bool faces, const RunView& view) {
 void GpuScene::drawShown(int mesh, bool faces) {
   const Geometry& g = geometry(mesh, faces);
   glBindVertexArray(g.array.id());
-  std::vector<const void*> offsets(firsts_.size());
-  for (std::size_t i = 0; i < offsets.size(); ++i)
-    offsets[i] = reinterpret_cast<const void*>(firsts_[i] * sizeof(std::uint32_t));
-  glMultiDrawElements(g.mode, counts_.data(), GL_UNSIGNED_INT, offsets.data(),
-                      GLsizei(offsets.size()));
+  std::vector<const void*> offsets;
+  std::vector<GLsizei> counts;
+  std::size_t room = queue_.room(), sum = 0;
+  const auto drawPortion = [&] {
+    glMultiDrawElements(g.mode, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                        GLsizei(counts.size()));
+    queue_.drawn(sum);
+    offsets.clear();
+    counts.clear();
+    room = queue_.room();
+    sum = 0;
+  };
+  for (std::size_t i = 0; i < firsts_.size(); ++i) {
+    std::size_t first = firsts_[i], left = std::size_t(counts_[i]);
+    while (left > 0) {
+      const std::size_t count = std::min(left, room - sum);
+      offsets.push_back(reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
+      counts.push_back(GLsizei(count));
+      first += count;
+      left -= count;
+      sum += count;
+      if (sum == room) drawPortion();
+    }
+  }
+  if (sum > 0) drawPortion();
 }
 
 void GpuScene::bindTexture(const Texture& use, GLuint unit) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "glint/gl/handles.h"
+#include "glint/gl/queue_limit.h"
 #include "glint/render/decode.h"
 #include "glint/render/triangle_runs.h"
 #include "glint/scene/scene.h"
@@ -72,6 +73,7 @@ class GpuScene {
   GpuScene* shared_ = nullptr;         ///< has the textures, if not null
   std::vector<std::uint32_t> firsts_;  ///< of the stretches found last
   std::vector<std::int32_t> counts_;
+  QueueLimit queue_;
 };
 
 }  // namespace glint

@@ -186,13 +186,7 @@ Image drawTerm(Renderer& renderer, GpuScene& scene, const Bounds& bounds, const 
   const DrawList list = makeDrawList(scene.scene(), bounds, look);
   const Camera camera = list.camera;
   const Look own = termLook(term, look);
-  auto picture = renderer.begin(scene, termList(scene.scene(), list, term), own);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  image.values.reserve(std::size_t(4) * image.width * image.height);
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
+  Image image = renderer.draw(scene, termList(scene.scene(), list, term), own);
   if (term.kind == Kind::normal) toWorld(image, camera);
   if (term.kind == Kind::ids) markBackground(image);
   if (term.kind == Kind::depth) toDistance(image, camera, renderer.reversedDepth());

@@ -1,7 +1,6 @@
 #include "glint/render/renderer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <utility>
 
@@ -118,24 +117,17 @@ glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection
   return {first, end - first};
 }
 
-// The mean of each scale x scale block. Rows of `from`, fromWidth pixels wide, count from the
-// bottom; those of the band `to` from the top.
-void copyRows(const float* from, int fromWidth, int scale, const Tile& tile, Image& to) {
-  const std::size_t across = std::size_t(4) * fromWidth;
-  const int last = tile.height * scale - 1;
-  for (int y = 0; y < tile.height; ++y) {
-    float* out = to.row(y) + std::size_t(4) * tile.x;
-    if (scale == 1) {
-      std::memcpy(out, from + across * std::size_t(last - y),
-                  sizeof(float) * 4 * std::size_t(tile.width));
-      continue;
-    }
-    const double share = 1.0 / (double(scale) * scale);
-    for (int x = 0; x < tile.width; ++x) {
+// The mean of each scale x scale block of `from`, `to` being of width x height pixels in rows of
+// `stride`.
+void average(const float* from, int scale, float* to, int width, int height, int stride) {
+  const std::size_t across = std::size_t(4) * width * scale;
+  const double share = 1.0 / (double(scale) * scale);
+  for (int y = 0; y < height; ++y) {
+    float* out = to + std::size_t(4) * stride * y;
+    for (int x = 0; x < width; ++x) {
       double sum[4] = {0, 0, 0, 0};
       for (int sy = 0; sy < scale; ++sy) {
-        const float* in =
-            from + across * std::size_t(last - y * scale - sy) + std::size_t(4) * x * scale;
+        const float* in = from + across * std::size_t(y * scale + sy) + std::size_t(4) * x * scale;
         for (int i = 0; i < 4 * scale; ++i) sum[i % 4] += double(in[i]);
       }
       for (int c = 0; c < 4; ++c) out[4 * x + c] = float(sum[c] * share);
@@ -272,7 +264,15 @@ void Renderer::Picture::drawBand(Image& rows) {
   rows.width = look_.resolution.x;
   rows.height = band.front().height;
   rows.values.resize(std::size_t(4) * rows.width * rows.height);
-  for (const Tile& tile : band) drawTile(tile, &rows);
+  for (const Tile& tile : band) drawTile(tile, rows.values.data());
+}
+
+Image Renderer::Picture::drawAll() {
+  Image image{look_.resolution.x, look_.resolution.y, {}};
+  image.values.resize(std::size_t(4) * image.width * image.height);
+  for (; nextBand_ < layout_.bands.size(); ++nextBand_)
+    for (const Tile& tile : layout_.bands[nextBand_]) drawTile(tile, image.row(tile.y));
+  return image;
 }
 
 void Renderer::Picture::redraw() {
@@ -280,7 +280,7 @@ void Renderer::Picture::redraw() {
     for (const Tile& tile : band) drawTile(tile, nullptr);
 }
 
-void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
+void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
   RenderTarget& target = *renderer_.target_;
   const int width = tile.width * layout_.scale, height = tile.height * layout_.scale;
   {
@@ -352,9 +352,15 @@ void Renderer::Picture::drawTile(const Tile& tile, Image* rows) {
   }
   if (!rows) return;
   const Stopwatch time(times_.read);
-  scratch_.resize(std::size_t(4) * target.width() * height);
-  target.readRows(scratch_.data(), 0, height);
-  copyRows(scratch_.data(), target.width(), layout_.scale, tile, *rows);
+  float* const to = rows + std::size_t(4) * tile.x;
+  if (layout_.scale == 1) {
+    target.read(to, width, height, look_.resolution.x);
+  } else {
+    std::vector<float>& all = renderer_.scratch_;
+    all.resize(std::size_t(4) * width * height);
+    target.read(all.data(), width, height, width);
+    average(all.data(), layout_.scale, to, tile.width, tile.height, look_.resolution.x);
+  }
   checkGl("read");
 }
 
@@ -398,15 +404,11 @@ void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
 }
 
 Image Renderer::draw(GpuScene& scene, const Bounds& bounds, const Look& look) {
-  Picture picture = begin(scene, makeDrawList(scene.scene(), bounds, look), look);
-  Image image{look.resolution.x, look.resolution.y, {}};
-  image.values.reserve(std::size_t(4) * image.width * image.height);
-  Image band;
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
+  return draw(scene, makeDrawList(scene.scene(), bounds, look), look);
+}
+
+Image Renderer::draw(GpuScene& scene, DrawList list, const Look& look) {
+  return begin(scene, std::move(list), look).drawAll();
 }
 
 }  // namespace glint

@@ -41,6 +41,8 @@ class Renderer {
     /// The next band's rows: linear, premultiplied by alpha over the background, before exposure.
     /// The image is reused if it has room.
     void drawBand(Image& rows);
+    /// All bands.
+    Image drawAll();
     /// Draws the whole picture once more without reading it back, and does not wait: what is
     /// measured of a frame until glFinish. The bands stay as they are.
     void redraw();
@@ -52,8 +54,8 @@ class Renderer {
    private:
     friend class Renderer;
     Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
-    /// Without `rows` nothing is read back.
-    void drawTile(const Tile& tile, Image* rows);
+    /// `rows` are those of the tile's band; without them nothing is read back.
+    void drawTile(const Tile& tile, float* rows);
     /// In the order of other indices, if there are any.
     void drawCall(std::size_t call, const Buffer* indices = nullptr);
     /// What is blended, from this call on, layer by layer from the back.
@@ -78,7 +80,6 @@ class Renderer {
     const Program* used_ = nullptr;                        ///< by the call before
     glm::mat4 projection_{1};                              ///< of the tile being drawn
     glm::ivec2 tilePixels_{0};
-    std::vector<float> scratch_;
     RenderTimes times_;
   };
 
@@ -98,8 +99,9 @@ class Renderer {
   /// Whether depth is 1 at the near plane and 0 at the far one; else 0 and 1.
   bool reversedDepth() const { return clipControl_; }
 
-  /// Draws a whole picture at once.
+  /// Draw a whole picture at once.
   Image draw(GpuScene&, const Bounds&, const Look&);
+  Image draw(GpuScene&, DrawList, const Look&);
 
  private:
   const Program& programFor(const Variant&, bool instanced);
@@ -127,6 +129,7 @@ class Renderer {
   std::map<bool, Program> layerPrograms_;  ///< by whether there are samples
   Query layerQuery_, countQuery_;
   int askedSamples_ = 0;
+  std::vector<float> scratch_;  ///< of ssaa; kept, since new memory costs more than its use
   VertexArray noVertices_;
   Buffer frame_;
   Buffer curve_;  ///< made when a texture is in sRGB

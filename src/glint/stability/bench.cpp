@@ -46,13 +46,7 @@ Image Bench::draw(const Scene& scene, const Look& look, const DecodedImages& ima
 
 Image Bench::draw(const Scene& scene, const Look& look, DrawList list) {
   GpuScene gpu(scene, {});
-  Renderer::Picture picture = renderer_.begin(gpu, std::move(list), look);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
+  return renderer_.draw(gpu, std::move(list), look);
 }
 
 Image Bench::reference(const Scene& scene, const Look& look, const DecodedImages& images) {

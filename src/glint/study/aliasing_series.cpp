@@ -55,7 +55,7 @@ class SmallPictures {
   explicit SmallPictures(const SeriesTools& tools) : tools_(tools) {}
 
   Image draw(const Look& look) {
-    return drawList(renderers_[antiAliasingText(look.antiAliasing)], tools_.gpu,
+    return renderers_[antiAliasingText(look.antiAliasing)].draw(tools_.gpu,
                     makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
   Image draw(Look look, const Way& way) {

@@ -32,7 +32,7 @@ glm::vec4 valueAt(const Image& image, std::size_t pixel) {
 Image attributeImage(Renderer& renderer, GpuScene& gpu, DrawList list, const Look& look,
                      PixelOutput output) {
   for (DrawItem& item : list.items) item.variant = attributeVariant(item.variant, output);
-  return drawList(renderer, gpu, std::move(list), look);
+  return renderer.draw(gpu, std::move(list), look);
 }
 
 /// Calls use(pixel's place in the mask, its attributes) for the pixels of the mask, in parallel.
@@ -79,7 +79,7 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
   StudyMask mask;
   for (const DrawItem& item : list.items)
     mask.sampledColors |= item.variant.colorTexture || item.variant.emissionTexture;
-  const Image drawn = drawList(renderer, gpu, list, look);
+  const Image drawn = renderer.draw(gpu, list, look);
   const auto output = [&](PixelOutput o) { return attributeImage(renderer, gpu, list, look, o); };
   const Image positions = output(PixelOutput::position), normals = output(PixelOutput::normal);
   Image colors, emissions;

@@ -39,15 +39,4 @@ ShadingParameters sphereMaterial() {
   return plastic;
 }
 
-Image drawList(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look) {
-  Renderer::Picture picture = renderer.begin(scene, std::move(list), look);
-  Image image{look.resolution.x, look.resolution.y, {}}, band;
-  image.values.reserve(std::size_t(4) * image.width * image.height);
-  for (int i = 0; i < picture.bandCount(); ++i) {
-    picture.drawBand(band);
-    image.values.insert(image.values.end(), band.values.begin(), band.values.end());
-  }
-  return image;
-}
-
 }  // namespace glint

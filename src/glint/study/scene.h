@@ -29,7 +29,4 @@ Scene sphereScene(int level, const ShadingParameters& shading);
 /// Of the built-in sphere: red plastic.
 ShadingParameters sphereMaterial();
 
-/// Draws a list as a whole picture.
-Image drawList(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
-
 }  // namespace glint

@@ -70,7 +70,7 @@ void SeriesDrawer::add(const std::string& name, double x, GpuScene& gpu, const S
   point.x = x;
   if (mask && truth) {
     const PictureError e =
-        errorOf(*truth, radiancesOf(drawList(tools_.renderer, gpu, list, look), *mask));
+        errorOf(*truth, radiancesOf(tools_.renderer.draw(gpu, list, look), *mask));
     point.max = e.max;
     point.rmse = e.rmse;
     point.relativeRmse = e.relativeRmse;

@@ -93,8 +93,8 @@ Specialisation compared(const SeriesTools& tools, const StudyScene& general, Gpu
   s.generalCompile = quantile(generalCompile, 0.5);
   s.generalFirst = quantile(generalFirst, 0.5);
 
-  const Image a = drawList(tools.renderer, tools.gpu, own, look);
-  const Image b = drawList(tools.renderer, generalGpu, all, allLook);
+  const Image a = tools.renderer.draw(tools.gpu, own, look);
+  const Image b = tools.renderer.draw(generalGpu, all, allLook);
   for (std::size_t i = 0; i < a.values.size(); ++i)
     s.difference = std::max(s.difference, std::abs(double(a.values[i]) - double(b.values[i])));
   Renderer::Picture ownPicture = tools.renderer.begin(tools.gpu, own, look);

@@ -110,7 +110,7 @@ class Study {
       pictures_.push_back(renderer_->begin(gpu_, std::move(list), v.variant.look));
       v.compile = pictures_.back().times().compile;
       v.firstFrame = timeOnce(pictures_.back());
-      Image picture = drawList(*renderer_, gpu_, pictures_.back().list(), v.variant.look);
+      Image picture = renderer_->draw(gpu_, pictures_.back().list(), v.variant.look);
       errorsOf(v, picture);
       if (options_.keepPictures) v.picture = std::move(picture);
     }
@@ -300,7 +300,7 @@ class Study {
       Renderer& renderer = renderers[antiAliasingText(way.look.antiAliasing)];
       const auto list = [&] { return makeDrawList(scene_.scene, scene_.bounds, way.look); };
       try {
-        const Image picture = drawList(renderer, gpu_, list(), way.look);
+        const Image picture = renderer.draw(gpu_, list(), way.look);
         way.error = wholeErrorOf(*truth, picture, result_.mask, exposure);
       } catch (const InputError&) {
         continue;  // a driver without so many samples or pixels
