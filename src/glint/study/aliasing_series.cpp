@@ -55,8 +55,8 @@ class SmallPictures {
   explicit SmallPictures(const SeriesTools& tools) : tools_(tools) {}
 
   Image draw(const Look& look) {
-    return renderers_[antiAliasingText(look.antiAliasing)].draw(tools_.gpu,
-                    makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
+    return renderers_[antiAliasingText(look.antiAliasing)].draw(
+        tools_.gpu, makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
   Image draw(Look look, const Way& way) {
     look.specularAntialiasing = way.filtered;
