@@ -291,7 +291,7 @@ def markdown(whole):
         "`x,y,z`; colours `r,g,b` in linear light, or `#rrggbb` in sRGB. The options of",
         "[a look](#a-look) are the keys of look files too, and the names by which C++ and Python set",
         "them.\n",
-        "`glint --help-json` and `glint-viewer --help-json` tell the same to programs.\n",
+        "`glint --help-json` and `glint-viewer --help-json` give the same to programs.\n",
     ]
     shared = None
     for command in whole["commands"]:

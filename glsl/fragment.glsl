@@ -22,7 +22,7 @@ void main() {
 #endif
   vec4 base = vec4(material.color, material.alpha);
 #if VERTEX_COLORS
-  base *= arrived(AT_PLACE(vColor));
+  base *= finiteOrZero(AT_PLACE(vColor));
 #endif
 #if COLOR_TEXTURE
   base *= TEXTURE_AT(colorTexture, COLOR_RULE, vColorTexcoord);

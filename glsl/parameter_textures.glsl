@@ -1,5 +1,5 @@
-// What textures of numbers make of the material, for the stage that adds the lights up. Each
-// ..._PLACE is where a texture is looked up.
+// The material's parameters where textures give some of them, for the stage that adds the lights up.
+// Each ..._PLACE is where a texture is looked up.
 #if METALLIC_ROUGHNESS_TEXTURE
 uniform sampler2D metallicRoughnessTexture;
 #endif
@@ -35,7 +35,7 @@ Parameters parametersHere() {
   p.diffuse = mix(1.0, METAL_DIFFUSE, metallic);
 #endif
 #if TEXTURED_EXPONENT || TEXTURED_SPECULAR
-  // Phong's exponent, as of src/glint/shading/pbr_conversion.h.
+  // Phong's exponent, as in src/glint/shading/pbr_conversion.h.
   float width = max(roughness, SMALLEST_ROUGHNESS), square = width * width;
   float exponent = max(0.5 / (square * square) - 0.5, 0.0);
 #endif

@@ -54,7 +54,7 @@ vec3 shade(vec4 base) {
 #else
   float metalness = material.metalness;
 #endif
-  return surfaceColor(LightSum(arrived(vec4(sum.diffuse, 0.0)).rgb, arrived(vec4(sum.specular, 0.0)).rgb),
+  return surfaceColor(LightSum(finiteOrZero(vec4(sum.diffuse, 0.0)).rgb, finiteOrZero(vec4(sum.specular, 0.0)).rgb),
                       base.rgb, metalness);
 }
 #endif

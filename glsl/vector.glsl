@@ -18,7 +18,7 @@ vec3 safeUnit(vec3 v) {
 
 // Light or a colour as it arrives at a pixel. Neither is negative; but in a triangle almost without
 // area, or with corners beyond all measure, a driver's interpolation may give anything, infinity and
-// what is no number too.
-vec4 arrived(vec4 value) {
+// NaN too.
+vec4 finiteOrZero(vec4 value) {
   return mix(vec4(0.0), min(value, 1e30), greaterThan(value, vec4(0.0)));
 }

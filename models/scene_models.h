@@ -10,7 +10,7 @@ namespace glint::models {
 /// throat ("Preview") on a flat base with round edges ("Base").
 std::string preview();
 
-/// Spheres of one mesh, to the right the exponent doubles, upwards the metalness grows; the
+/// Spheres of one mesh: the exponent doubles to the right, the metalness grows upwards; the
 /// materials are called "e10-m0.5".
 std::string chart();
 

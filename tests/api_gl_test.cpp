@@ -18,16 +18,8 @@
 #include "glint/glint.h"
 #include "glint/image/stored_image.h"
 
-namespace api_gl_test {
+namespace glint::test::api_gl_test {
 
-using glint::Arrays;
-using glint::Codes;
-using glint::Image;
-using glint::Model;
-using glint::Options;
-using glint::Session;
-using glint::test::Folder;
-using glint::test::runGlint;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -356,4 +348,4 @@ TEST(Api, SessionsLeaveNothing) {
   EXPECT_LT(glint::test::residentBytes() - before, 1e6);
 }
 
-}  // namespace api_gl_test
+}  // namespace glint::test::api_gl_test

@@ -11,16 +11,11 @@
 #include "command.h"
 #include "glint/image/picture_layers.h"
 #include "glint/image/read_image.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
-namespace batch_cli_test {
+namespace glint::test::batch_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -42,10 +37,9 @@ std::string listOf(const Folder& folder, const std::vector<std::string>& lines) 
   return folder / "list";
 }
 
-std::vector<Json> linesOf(const std::string& text) {
+std::vector<Json> jsonLines(const std::string& text) {
   std::vector<Json> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
+  for (const std::string& line : linesOf(text)) lines.push_back(Json::parse(line));
   return lines;
 }
 
@@ -208,7 +202,7 @@ TEST(List, EachLineIsAPictureAndALineOfJson) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(ran.err, IsEmpty());
   EXPECT_THAT(folder.names(), ElementsAre("0-sphere.png", "2-sphere.png", "list", "own.png"));
-  const auto lines = linesOf(ran.out);
+  const auto lines = jsonLines(ran.out);
   ASSERT_EQ(lines.size(), 3u);
   const std::string outputs[] = {"0-sphere.png", "own.png", "2-sphere.png"};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -229,7 +223,7 @@ TEST(List, AReportHasAllThatWasDrawn) {
   const Ran ran = runGlint(tiny(
       {"render", "--from-list", list, "-o", folder / "{n}.png", "--json", folder / "report.json"}));
   EXPECT_EQ(ran.status, 2);
-  EXPECT_EQ(linesOf(ran.out).size(), 3u);
+  EXPECT_EQ(jsonLines(ran.out).size(), 3u);
   const Json report = Json::parse(contents(folder / "report.json"));
   EXPECT_EQ(report["backend"], "osmesa");
   EXPECT_TRUE(report["gl"]["renderer"].is_string());
@@ -238,7 +232,7 @@ TEST(List, AReportHasAllThatWasDrawn) {
   // `--json -` is what stdout has in any case.
   const Ran lines =
       runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}.png", "--json", "-"}));
-  EXPECT_EQ(linesOf(lines.out).size(), 3u);
+  EXPECT_EQ(jsonLines(lines.out).size(), 3u);
 }
 
 TEST(List, AFailedModelDoesNotStopTheRest) {
@@ -260,7 +254,7 @@ TEST(List, AFailedModelDoesNotStopTheRest) {
     EXPECT_THAT(folder.names(), ElementsAre("0.png", "4.png", "broken.glb", "list"));
     if (!fromList) continue;
     std::vector<int> statuses;
-    for (const Json& line : linesOf(ran.out)) statuses.push_back(line["status"]);
+    for (const Json& line : jsonLines(ran.out)) statuses.push_back(line["status"]);
     EXPECT_THAT(statuses, ElementsAre(0, 2, 2, 2, 0));
   }
 }
@@ -319,7 +313,7 @@ TEST(Shard, PartsAreDisjointAndTogetherAll) {
     const Ran ran =
         runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}.png", "--shard", shard}));
     EXPECT_EQ(ran.status, 0) << ran.err;
-    const auto lines = linesOf(ran.out);
+    const auto lines = jsonLines(ran.out);
     EXPECT_EQ(lines.size(), shard == std::string("4/4") ? 2u : 3u);
     for (const Json& line : lines) drawn.insert(line["output"]);
   }
@@ -347,7 +341,7 @@ TEST(Resume, SkipsWhatIsDoneWithTheSameModelAndLook) {
     const Ran ran = runGlint(tiny(arguments));
     EXPECT_EQ(ran.status, 0) << ran.err;
     std::vector<bool> all;
-    for (const Json& line : linesOf(ran.out)) all.push_back(line.contains("skipped"));
+    for (const Json& line : jsonLines(ran.out)) all.push_back(line.contains("skipped"));
     return all;
   };
   EXPECT_THAT(skipped(), ElementsAre(false, false));
@@ -424,7 +418,7 @@ TEST(Resume, ABatchOfAThousandKilledInTheMiddleLosesAndRepeatsNothing) {
     const Ran rest = runGlint(command);
     EXPECT_EQ(rest.status, 0) << rest.err;
     std::set<std::string> skipped, drawn;
-    for (const Json& line : linesOf(rest.out))
+    for (const Json& line : jsonLines(rest.out))
       (line.contains("skipped") ? skipped : drawn).insert(line["output"]);
     EXPECT_EQ(skipped, there);
     EXPECT_EQ(drawn.size(), 1000 - there.size());
@@ -723,4 +717,4 @@ TEST(Batch, OptionsThatExcludeEachOther) {
   EXPECT_THAT(folder.names(), ElementsAre("list"));
 }
 
-}  // namespace batch_cli_test
+}  // namespace glint::test::batch_cli_test

@@ -12,9 +12,7 @@
 
 #include "glint/shading/bounds.h"
 
-namespace bounds_rounding_test {
-
-using namespace glint;
+namespace glint::bounds_rounding_test {
 
 int draws(int usual) {
   const char* more = std::getenv("GLINT_BOUND_DRAWS");
@@ -135,4 +133,4 @@ TEST(Bounds, OfRoundingCoverReflectancesInSinglePrecision) {
   EXPECT_GT(nearest, 0.2);
 }
 
-}  // namespace bounds_rounding_test
+}  // namespace glint::bounds_rounding_test

@@ -6,12 +6,7 @@
 #include "glint/reference/renderer.h"
 #include "stage.h"
 
-namespace camera_intrinsics_gl_test {
-
-using glint::Image;
-using glint::Look;
-using glint::Scene;
-using namespace glint::test;
+namespace glint::test::camera_intrinsics_gl_test {
 
 constexpr int left = 37, top = 11, width = 80, height = 60;  // the part, of 160 x 120
 
@@ -63,4 +58,4 @@ TEST_P(Intrinsics, SeeAPartOfALargerPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Intrinsics, softwareBackends(), nameOfBackend);
 
-}  // namespace camera_intrinsics_gl_test
+}  // namespace glint::test::camera_intrinsics_gl_test

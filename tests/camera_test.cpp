@@ -9,14 +9,7 @@
 #include "glint/scene/camera.h"
 #include "scenes.h"
 
-namespace camera_test {
-
-using glint::Bounds;
-using glint::Camera;
-using glint::cameraFor;
-using glint::Look;
-using glint::Scene;
-using glint::test::degrees;
+namespace glint::test::camera_test {
 
 // Double arithmetic of some ten operations on numbers of about 1.
 constexpr double tight = 1e-14;
@@ -438,4 +431,4 @@ TEST(TurnedLook, GoesRoundTheCentre) {
     }
 }
 
-}  // namespace camera_test
+}  // namespace glint::test::camera_test

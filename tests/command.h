@@ -3,7 +3,7 @@
 // Runs the glint binary as a user would: arguments, environment, what it wrote and how it ended.
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -13,14 +13,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "gltf_text.h"
+#include "files.h"
 
 namespace glint::test {
 
@@ -31,20 +29,8 @@ struct Ran {
   long peakKib = 0;  ///< the most memory that it held
   std::string out, err;
 
-  std::vector<std::string> errorLines() const {
-    std::vector<std::string> lines;
-    std::istringstream in(err);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-  }
+  std::vector<std::string> errorLines() const { return linesOf(err); }
 };
-
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 struct CommandOptions {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< an empty value unsets
@@ -117,33 +103,6 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
   return ran;
 }
 
-/// An empty folder of its own for one test.
-class Folder {
- public:
-  explicit Folder(const std::string& name) : path_(temporaryFolder() + "/" + name) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-  /// Names in it, hidden ones too, in order.
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
- private:
-  std::string path_;
-};
-
 inline const std::string shipped = GLINT_SOURCE_DIR "/models/";
 
 /// A small picture drawn fast.
@@ -152,6 +111,22 @@ inline std::vector<std::string> quick(std::vector<std::string> arguments) {
   if (std::find(arguments.begin(), arguments.end(), "--resolution") == arguments.end())
     arguments.insert(arguments.end(), {"--resolution", "40,30"});
   return arguments;
+}
+
+/// It ended well and without a word.
+inline void expectDone(const Ran& ran) {
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+}
+
+/// It ended with one line that says what is wrong, and gave nothing.
+inline void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
+  EXPECT_EQ(ran.status, status) << ran.err;
+  EXPECT_EQ(ran.signal, 0);
+  const auto lines = ran.errorLines();
+  ASSERT_EQ(lines.size(), 1u) << ran.err;
+  EXPECT_THAT(lines[0], testing::AllOf(testing::StartsWith("glint: "), testing::HasSubstr(part)));
+  EXPECT_EQ(ran.out, "");
 }
 
 }  // namespace glint::test

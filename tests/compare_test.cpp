@@ -13,17 +13,8 @@
 
 #include "glint/image/error.h"
 
-namespace compare_test {
+namespace glint::test::compare_test {
 
-using glint::AlphaUse;
-using glint::compare;
-using glint::CompareOptions;
-using glint::Comparison;
-using glint::Image;
-using glint::StoredImage;
-using glint::ValueSpace;
-using glint::test::codes;
-using glint::test::plain;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -318,4 +309,4 @@ TEST(StructuralSimilarity, ClosedCases) {
   }
 }
 
-}  // namespace compare_test
+}  // namespace glint::test::compare_test

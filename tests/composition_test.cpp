@@ -14,12 +14,8 @@
 #include "glint/render/glsl_builtin.h"
 #include "variants.h"
 
-namespace composition_test {
+namespace glint::test::composition_test {
 
-using glint::compose;
-using glint::ComposedProgram;
-using glint::GlslSources;
-using glint::Variant;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -279,4 +275,4 @@ TEST(GlslSources, AreThoseOfTheFolder) {
   }
 }
 
-}  // namespace composition_test
+}  // namespace glint::test::composition_test

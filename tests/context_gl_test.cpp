@@ -14,11 +14,10 @@
 #include "glint/gl/program.h"
 #include "glint/image/error.h"
 
-using glint::Backend;
 using testing::AllOf;
 using testing::HasSubstr;
 
-namespace context_gl_test {
+namespace glint::context_gl_test {
 
 TEST(NoContext, IsAnErrorInWords) {
   const auto open = [] { return glint::RenderTarget(8, 8, 1); };
@@ -288,4 +287,4 @@ TEST(Contexts, ProbeReportsEachBackend) {
   }
 }
 
-}  // namespace context_gl_test
+}  // namespace glint::context_gl_test

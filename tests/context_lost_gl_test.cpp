@@ -7,11 +7,7 @@
 
 #include "stage.h"
 
-namespace context_lost_gl_test {
-
-using glint::Backend;
-using glint::Error;
-using namespace glint::test;
+namespace glint::test::context_lost_gl_test {
 
 constexpr GLenum contextLost = 0x0507;
 
@@ -71,4 +67,4 @@ TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Render, ContextLost, softwareBackends(), nameOfBackend);
 
-}  // namespace context_lost_gl_test
+}  // namespace glint::test::context_lost_gl_test

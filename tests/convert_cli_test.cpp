@@ -6,16 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
-namespace convert_cli_test {
+namespace glint::test::convert_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -25,12 +20,7 @@ using Json = nlohmann::json;
 const std::string edit =
     "ambient=0.7,diffuse=0.9,specular=0.6,exponent=33.3,metalness=0.25,ior=1.7,color=0.1,0.4,0.9";
 
-void expectDone(const Ran& ran) {
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_THAT(ran.err, IsEmpty());
-}
-
-void expectRefusal(const Ran& ran, const std::string& part) {
+void expectRefusalBesideWarnings(const Ran& ran, const std::string& part) {
   EXPECT_EQ(ran.status, 2);
   std::vector<std::string> lines = ran.errorLines();
   std::erase_if(lines, [](const std::string& line) { return line.starts_with("glint: warning"); });
@@ -144,7 +134,8 @@ TEST(Convert, FilesBesideTheModelGoWithIt) {
   EXPECT_EQ(runGlint({"convert", in, out, "--material", edit}).status, 0);
   std::ofstream(other / "model.bin") << "something else";
   std::filesystem::remove(out);
-  expectRefusal(runGlint({"convert", in, out, "--material", edit}), "is another file");
+  expectRefusalBesideWarnings(runGlint({"convert", in, out, "--material", edit}),
+                              "is another file");
   EXPECT_EQ(contents(other / "model.bin"), "something else");
   EXPECT_THAT(other.names(), ElementsAre("model.bin"));
   // Names that lead out of the folder are not followed.
@@ -152,8 +143,9 @@ TEST(Convert, FilesBesideTheModelGoWithIt) {
   std::string text = contents(in);
   replace(text, "\"model.bin\"", "\"../model.bin\"");
   std::ofstream(folder / "inner/model.gltf") << text;
-  expectRefusal(runGlint({"convert", folder / "inner/model.gltf", out, "--material", edit}),
-                "outside of its folder");
+  expectRefusalBesideWarnings(
+      runGlint({"convert", folder / "inner/model.gltf", out, "--material", edit}),
+      "outside of its folder");
   EXPECT_THAT(other.names(), ElementsAre("model.bin"));
 }
 
@@ -162,8 +154,9 @@ TEST(Convert, TheModelItselfOnlyIfAsked) {
   const std::string in = folder / "a.glb";
   std::filesystem::copy_file(shipped + "sphere.glb", in);
   const std::string before = contents(in);
-  expectRefusal(runGlint({"convert", in, in, "--material", edit}), "--in-place");
-  expectRefusal(runGlint({"convert", in, folder / "../convert_in_place/a.glb"}), "--in-place");
+  expectRefusalBesideWarnings(runGlint({"convert", in, in, "--material", edit}), "--in-place");
+  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "../convert_in_place/a.glb"}),
+                              "--in-place");
   EXPECT_EQ(contents(in), before);
   expectDone(runGlint({"convert", in, in, "--in-place", "--material", edit}));
   EXPECT_EQ(drawn(folder, in), drawn(folder, shipped + "sphere.glb", {"--material", edit}));
@@ -172,14 +165,19 @@ TEST(Convert, TheModelItselfOnlyIfAsked) {
 TEST(Convert, WhatCannotBe) {
   Folder folder("convert_wrong");
   const std::string in = shipped + "sphere.glb";
-  expectRefusal(runGlint({"convert", in, folder / "a.gltf", "--material", edit}), ".glb");
-  expectRefusal(runGlint({"convert", in, folder / "a.png", "--material", edit}), ".glb");
-  expectRefusal(runGlint({"convert", in, folder / "a.glb", "--material", "shine=1"}), "shine");
-  expectRefusal(runGlint({"convert", in, folder / "a.glb", "--material", "Nobody:ior=2"}),
-                "Nobody");
-  expectRefusal(runGlint({"convert", folder / "none.glb", folder / "a.glb"}), "none.glb");
-  expectRefusal(runGlint({"convert", in, "/proc/none/a.glb", "--material", edit}), "/proc/none");
-  expectRefusal(runGlint({"convert", in}), "OUT");
+  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.gltf", "--material", edit}),
+                              ".glb");
+  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.png", "--material", edit}),
+                              ".glb");
+  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.glb", "--material", "shine=1"}),
+                              "shine");
+  expectRefusalBesideWarnings(
+      runGlint({"convert", in, folder / "a.glb", "--material", "Nobody:ior=2"}), "Nobody");
+  expectRefusalBesideWarnings(runGlint({"convert", folder / "none.glb", folder / "a.glb"}),
+                              "none.glb");
+  expectRefusalBesideWarnings(runGlint({"convert", in, "/proc/none/a.glb", "--material", edit}),
+                              "/proc/none");
+  expectRefusalBesideWarnings(runGlint({"convert", in}), "OUT");
   EXPECT_THAT(folder.names(), IsEmpty());
   const Ran nothing = runGlint({"convert", in, folder / "a.glb"});
   EXPECT_EQ(nothing.status, 0);
@@ -187,4 +185,4 @@ TEST(Convert, WhatCannotBe) {
   EXPECT_EQ(contents(in), contents(folder / "a.glb"));
 }
 
-}  // namespace convert_cli_test
+}  // namespace glint::test::convert_cli_test

@@ -8,13 +8,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
-namespace diff_cli_test {
+namespace glint::test::diff_cli_test {
 
-using glint::Image;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -38,10 +33,6 @@ void write(const std::string& path, int differing = 0, float more = 0.25f, int w
   writer->finish();
 }
 
-void writeFile(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 /// Pictures that the tests compare, in a folder of their own to run in.
 class Pictures : public Folder {
  public:
@@ -55,8 +46,8 @@ class Pictures : public Folder {
     write(*this / "b.pfm", 3);
     write(*this / "infinite.pfm", 1, INFINITY);
     write(*this / "nan.pfm", 1, NAN);
-    writeFile(*this / "damaged.png", contents(*this / "a.png").substr(0, 60));
-    writeFile(*this / "text.png", "no picture\n");
+    writeText(*this / "damaged.png", contents(*this / "a.png").substr(0, 60));
+    writeText(*this / "text.png", "no picture\n");
   }
   Ran diff(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "diff");
@@ -141,7 +132,7 @@ TEST(DiffStatus, Table) {
       {{"a.png", "b.png", "--jobs", "0"}, 2, "--jobs"},
       {{"a.png", "b.png", "--difference", "heat"}, 2, "flip, absolute or side-by-side"},
       {{"a.png", "b.png", "-o", "a.png"}, 2, "would overwrite what is read"},
-      {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending tells no known format"},
+      {{"a.png", "b.png", "-o", "x.gif"}, 2, "x.gif: the ending is that of no known format"},
       {{"a.png", "b.png", "--json", "-", "--junit", "-"}, 2, "goes to stdout already"},
       {{"a.png", "b.png", "--json", "/proc/none/a.json"}, 2, "/proc/none"},
       // No baseline.
@@ -238,7 +229,7 @@ TEST(DiffFolders, MissingExtraAndSummary) {
     write(pictures / ("x/" + std::string(name)));
   for (const char* name : {"one.png", "extra.png"}) write(pictures / ("y/" + std::string(name)));
   write(pictures / "y/sub/two.png", 3);
-  writeFile(pictures / "y/notes.txt", "no picture");
+  writeText(pictures / "y/notes.txt", "no picture");
   const Ran ran = pictures.diff({"x", "y", "--json", "r.json", "--jobs", "3"});
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.out, HasSubstr("extra.png: no baseline: accept it with --update\n"));
@@ -353,4 +344,4 @@ TEST(DiffJobs, DoNotChangeTheResult) {
   EXPECT_THAT(pages[0], Not(HasSubstr("https:")));
 }
 
-}  // namespace diff_cli_test
+}  // namespace glint::test::diff_cli_test

@@ -10,14 +10,8 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 
-namespace diff_files_cli_test {
+namespace glint::test::diff_files_cli_test {
 
-using glint::ExrLayer;
-using glint::Image;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
@@ -34,10 +28,6 @@ void write(const std::string& path, const Image& image) {
   const auto writer = glint::openPictureWriter(path, image.width, image.height);
   writer->write(image);
   writer->finish();
-}
-
-void writeFile(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 class Files : public Folder {
@@ -183,19 +173,19 @@ TEST(DiffConditions, OfPairsByAFile) {
     write(files / ("x/" + std::string(name)), grey);
     write(files / ("y/" + std::string(name)), b);
   }
-  writeFile(files / "x/glint-diff.txt", "# pattern and options\nloose --max-pixels 1\n*.png\n");
+  writeText(files / "x/glint-diff.txt", "# pattern and options\nloose --max-pixels 1\n*.png\n");
   Ran ran = files.diff({"x", "y"});
   EXPECT_THAT(ran.out, HasSubstr("3 pairs: 0 same, 3 differ"));  // the last line counts
-  writeFile(files / "x/glint-diff.txt", "*.png\n\nloose --max-pixels 1\r\n");
+  writeText(files / "x/glint-diff.txt", "*.png\n\nloose --max-pixels 1\r\n");
   ran = files.diff({"x", "y"});
   EXPECT_THAT(ran.out, HasSubstr("3 pairs: 1 same, 2 differ"));
-  writeFile(files / "other.txt", "*o.png --metric max --threshold 1\n");
+  writeText(files / "other.txt", "*o.png --metric max --threshold 1\n");
   EXPECT_THAT(files.diff({"x", "y", "--conditions", "other.txt"}).out,
               HasSubstr("3 pairs: 1 same, 2 differ"));
-  writeFile(files / "other.txt", "\n*o.png --metric most\n");
+  writeText(files / "other.txt", "\n*o.png --metric most\n");
   ran = files.diff({"x", "y", "--conditions", "other.txt"});
   EXPECT_EQ(ran.status, 2);
-  writeFile(files / "other.txt", "\n*o.png --threshold 1\n");
+  writeText(files / "other.txt", "\n*o.png --threshold 1\n");
   EXPECT_THAT(files.diff({"x", "y", "--conditions", "other.txt"}).err, HasSubstr("other.txt:2: "));
   // What is updated, by a folder and by a pattern; what is pruned.
   EXPECT_THAT(files.diff({"x", "y", "--update", "strict"}).err,
@@ -219,14 +209,14 @@ TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
   }
   write(files / "x/masks/clock.png", mask);
   // The mask in A is neither missing nor pruned; a name stands for itself before it is a pattern.
-  writeFile(files / "x/glint-diff.txt",
+  writeText(files / "x/glint-diff.txt",
             "[o]ne.png --mask masks/clock.png\none.png --max-pixels 1\nnone.png --max-pixels 3\n");
   Ran ran = files.diff({"x", "y", "--prune"});
   EXPECT_EQ(ran.status, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("2 pairs: 2 same"));
   EXPECT_EQ(ran.err, "glint: x/glint-diff.txt:3: none.png: names no pair: check the pattern\n");
   EXPECT_EQ(contents(files / "x/masks/clock.png").substr(1, 3), "PNG");
-  writeFile(files / "none.txt", "");
+  writeText(files / "none.txt", "");
   EXPECT_EQ(
       files.diff({"x", "y", "--mask", "x/masks/clock.png", "--conditions", "none.txt"}).status, 0);
   // So it is with --update.
@@ -317,7 +307,7 @@ TEST(DiffSizes, LargePagesAreNotHeld) {
   expectSmall(ran);
   // What is damaged becomes no baseline, wherever the damage is met.
   const std::string whole = contents(files / "b.png");
-  writeFile(files / "cut.png", whole.substr(0, whole.size() - 20));
+  writeText(files / "cut.png", whole.substr(0, whole.size() - 20));
   EXPECT_EQ(files.diff({"a.png", "cut.png", "--update"}).status, 2);
   EXPECT_EQ(files.diff({"cut.png", "cut.png", "--update"}).status, 2);
   ran = files.diff({"new.png", "cut.png", "--update"});
@@ -410,4 +400,4 @@ TEST(DiffReports, PicturesBesideThePage) {
   EXPECT_EQ(files.diff({"x", "y", "--pictures-beside"}).status, 2);
 }
 
-}  // namespace diff_files_cli_test
+}  // namespace glint::test::diff_files_cli_test

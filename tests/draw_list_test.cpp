@@ -12,15 +12,7 @@
 #include "glint/render/draw_list.h"
 #include "scenes.h"
 
-namespace draw_list_test {
-
-using glint::DrawItem;
-using glint::DrawList;
-using glint::FaceSide;
-using glint::Light;
-using glint::Look;
-using glint::Scene;
-using glint::test::degrees;
+namespace glint::test::draw_list_test {
 
 constexpr double half = 1.0 / (1 << 24);  // rounding to float: half an ulp, relative
 
@@ -428,4 +420,4 @@ TEST(Frame, EnvironmentTurnsAboutY) {
   EXPECT_NEAR(seen.x, 0, half);
 }
 
-}  // namespace draw_list_test
+}  // namespace glint::test::draw_list_test

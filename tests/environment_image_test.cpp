@@ -11,10 +11,8 @@
 #include "glint/render/environment_image.h"
 #include "gltf_text.h"
 
-namespace environment_image_test {
+namespace glint::test::environment_image_test {
 
-using glint::EnvironmentImage;
-using glint::makeEnvironmentImage;
 constexpr double pi = std::numbers::pi;
 
 EnvironmentImage::Level makeLevel(int width, int height, auto value) {
@@ -191,4 +189,4 @@ TEST(EnvironmentImage, IsReadOnceAndOnlyWhereItShows) {
   }
 }
 
-}  // namespace environment_image_test
+}  // namespace glint::test::environment_image_test

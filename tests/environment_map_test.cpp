@@ -8,10 +8,8 @@
 #include <numbers>
 #include <random>
 
-namespace environment_map_test {
+namespace glint::environment_map_test {
 
-using glint::BuiltinEnvironment;
-using glint::environmentRadiance;
 using glm::dvec3;
 
 constexpr BuiltinEnvironment all[] = {BuiltinEnvironment::white, BuiltinEnvironment::sky,
@@ -158,4 +156,4 @@ TEST(EnvironmentMap, IsTotalAndAsksForNoUnitDirection) {
   }
 }
 
-}  // namespace environment_map_test
+}  // namespace glint::environment_map_test

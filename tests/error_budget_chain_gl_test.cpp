@@ -19,10 +19,7 @@
 #include "random.h"
 #include "stage.h"
 
-namespace error_budget_chain_gl_test {
-
-using namespace glint;
-using namespace glint::test;
+namespace glint::test::error_budget_chain_gl_test {
 
 class BudgetOfTheWholeChain : public OnStage {};
 
@@ -183,4 +180,4 @@ TEST_P(BudgetOfTheWholeChain, KeepsItsBound) {
 INSTANTIATE_TEST_SUITE_P(Software, BudgetOfTheWholeChain, testing::Values(Backend::osmesa),
                          nameOfBackend);
 
-}  // namespace error_budget_chain_gl_test
+}  // namespace glint::test::error_budget_chain_gl_test

@@ -32,9 +32,7 @@
 #include "random.h"
 #include "scenes.h"
 
-namespace error_budget_dear_test {
-
-using namespace glint;
+namespace glint::test::error_budget_dear_test {
 
 // Of the bounds of forms; tests/bounds_test.cpp: 1.002 for lobes, 1.25 for reflectances.
 constexpr double form = 1.25;
@@ -350,4 +348,4 @@ TEST(ErrorBudgetIsNotDear, WithBlinnPhong) { compare(Shading::blinnPhong, 62, 50
 TEST(ErrorBudgetIsNotDear, WithStudioAndSky) { compare(Shading::environment, 64, 25, 2.5); }
 TEST(ErrorBudgetIsNotDear, WithAWhiteEnvironment) { compare(Shading::environment, 63, 35, 1); }
 
-}  // namespace error_budget_dear_test
+}  // namespace glint::test::error_budget_dear_test

@@ -14,10 +14,7 @@
 #include "random.h"
 #include "scenes.h"
 
-namespace error_budget_sequence_test {
-
-using namespace glint;
-using namespace glint::test;
+namespace glint::test::error_budget_sequence_test {
 
 TEST(ErrorBudgetInCodes, KeepsEveryCodeWithinThem) {
   Random r(11);
@@ -133,4 +130,4 @@ TEST(LobeTurnBound, HoldsForEveryTurn) {
   }
 }
 
-}  // namespace error_budget_sequence_test
+}  // namespace glint::test::error_budget_sequence_test

@@ -22,9 +22,7 @@
 #include "random.h"
 #include "scenes.h"
 
-namespace error_budget_test {
-
-using namespace glint;
+namespace glint::test::error_budget_test {
 
 int draws(int usual) { return test::drawsOf("GLINT_BUDGET_DRAWS", usual); }
 
@@ -448,4 +446,4 @@ TEST(ActiveIntensity, CountsOnlyLightsThatOneNormalSees) {
   }
 }
 
-}  // namespace error_budget_test
+}  // namespace glint::test::error_budget_test

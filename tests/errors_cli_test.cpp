@@ -7,13 +7,8 @@
 #include "command.h"
 #include "scenes.h"
 
-namespace errors_cli_test {
+namespace glint::test::errors_cli_test {
 
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -21,15 +16,6 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 const std::string sphere = shipped + "sphere.glb";
-
-void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
-  EXPECT_EQ(ran.status, status) << ran.err;
-  EXPECT_EQ(ran.signal, 0);
-  const auto lines = ran.errorLines();
-  ASSERT_EQ(lines.size(), 1u) << ran.err;
-  EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
-  EXPECT_THAT(ran.out, IsEmpty());
-}
 
 TEST(Usage, CommandsAndOptionsThatDoNotExist) {
   expectRefusal(runGlint({}), "see glint --help");
@@ -401,4 +387,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, FakeDrivers,
                            return name;
                          });
 
-}  // namespace errors_cli_test
+}  // namespace glint::test::errors_cli_test

@@ -10,11 +10,7 @@
 #include "glint/render/face_mesh.h"
 #include "scenes.h"
 
-namespace face_mesh_test {
-
-using glint::FaceMesh;
-using glint::makeFaceMesh;
-using glint::Mesh;
+namespace glint::test::face_mesh_test {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -102,4 +98,4 @@ TEST(FaceMesh, KeepsTinyAndHugeFacesNormals) {
 
 TEST(FaceMesh, OfNothingIsNothing) { EXPECT_TRUE(makeFaceMesh(Mesh{}).indices.empty()); }
 
-}  // namespace face_mesh_test
+}  // namespace glint::test::face_mesh_test

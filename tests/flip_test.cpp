@@ -11,12 +11,7 @@
 #include "flip_reference.h"
 #include "glint/image/error.h"
 
-namespace flip_test {
-
-using glint::FlipOptions;
-using glint::FlipResult;
-using glint::PixelRows;
-using glint::test::Rgb;
+namespace glint::test::flip_test {
 
 struct Picture {
   int width, height;
@@ -277,4 +272,4 @@ TEST(HdrFlip, IsTheLargestOverExposures) {
   EXPECT_EQ(glint::hdrFlip(black.rows(), black.rows()).mean, 0);
 }
 
-}  // namespace flip_test
+}  // namespace glint::test::flip_test

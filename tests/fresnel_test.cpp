@@ -10,9 +10,8 @@
 #include <random>
 #include <vector>
 
-namespace fresnel_test {
+namespace glint::fresnel_test {
 
-using glint::fresnelExact;
 using glm::dvec3;
 
 using Real = boost::multiprecision::cpp_dec_float_100;
@@ -359,4 +358,4 @@ TEST(Refraction, FollowsSnellInUnitLength) {
   EXPECT_EQ(glint::refract(I, dvec3(0, 1, 0), 1.5, 1.5), I);  // K1
 }
 
-}  // namespace fresnel_test
+}  // namespace glint::fresnel_test

@@ -6,13 +6,8 @@
 
 #include "command.h"
 
-namespace full_disk_cli_test {
+namespace glint::test::full_disk_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -149,4 +144,4 @@ TEST(FullDisk, UnderAReportOfAListIsNoReaderThatWentAway) {
   EXPECT_THAT(ran.err, Not(HasSubstr("went away")));
 }
 
-}  // namespace full_disk_cli_test
+}  // namespace glint::test::full_disk_cli_test

@@ -5,10 +5,8 @@
 #include "glint/gl/backends.h"
 #include "glint/gl/context.h"
 
-namespace gl_failure_test {
+namespace glint::gl_failure_test {
 
-using glint::Backend;
-using glint::ContextError;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -146,4 +144,4 @@ TEST(GlFailure, BackendNames) {
   EXPECT_THROW(glint::backendFromName("vulkan"), glint::InputError);
 }
 
-}  // namespace gl_failure_test
+}  // namespace glint::gl_failure_test

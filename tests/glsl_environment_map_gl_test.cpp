@@ -9,9 +9,7 @@
 #include "glint/shading/environment_map.h"
 #include "glsl_probe.h"
 
-namespace glsl_environment_map_gl_test {
-
-using namespace glint;
+namespace glint::glsl_environment_map_gl_test {
 
 struct Map {
   const char* name;
@@ -177,4 +175,4 @@ TEST_P(GlslEnvironmentMap, HuntedWorstInput) {
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslEnvironmentMap);
 
-}  // namespace glsl_environment_map_gl_test
+}  // namespace glint::glsl_environment_map_gl_test

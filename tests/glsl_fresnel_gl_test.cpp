@@ -11,9 +11,7 @@
 #include "glint/shading/fresnel.h"
 #include "glsl_probe.h"
 
-namespace glsl_fresnel_gl_test {
-
-using namespace glint;
+namespace glint::glsl_fresnel_gl_test {
 
 struct Indices {
   double n1, n2;
@@ -341,4 +339,4 @@ TEST_P(GlslFresnel, HuntedWorstInput) {
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslFresnel);
 
-}  // namespace glsl_fresnel_gl_test
+}  // namespace glint::glsl_fresnel_gl_test

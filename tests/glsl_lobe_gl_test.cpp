@@ -12,9 +12,7 @@
 #include "glint/shading/lobe.h"
 #include "glsl_probe.h"
 
-namespace glsl_lobe_gl_test {
-
-using namespace glint;
+namespace glint::glsl_lobe_gl_test {
 
 constexpr double exponents[] = {0, 0.5, 1, 2, 10, 40, 100, 1e3, 1e4, 1e5, 1e6};
 
@@ -396,4 +394,4 @@ TEST_P(GlslLobe, Gaussian) {
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslLobe);
 
-}  // namespace glsl_lobe_gl_test
+}  // namespace glint::glsl_lobe_gl_test

@@ -9,10 +9,9 @@
 #include "glint/image/error.h"
 #include "glsl_probe.h"
 
-namespace glsl_probe_gl_test {
+namespace glint::glsl_probe_gl_test {
 
 using testing::HasSubstr;
-using namespace glint;
 
 class GlslProbe : public GlslTest {};
 
@@ -157,4 +156,4 @@ TEST(ProbeSearch, OrdersFloats) {
   EXPECT_EQ(stepFloat(3e38f, 1 << 30), INFINITY);
 }
 
-}  // namespace glsl_probe_gl_test
+}  // namespace glint::glsl_probe_gl_test

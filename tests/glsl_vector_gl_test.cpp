@@ -9,9 +9,7 @@
 #include "glint/shading/safe.h"
 #include "glsl_probe.h"
 
-namespace glsl_vector_gl_test {
-
-using namespace glint;
+namespace glint::glsl_vector_gl_test {
 
 // The square of the length is off by 3 roundings of 2^-24, relative, its root by half as much and
 // one of its own, the quotient by one more: 3.5 roundings or 2.1e-7 where the driver rounds
@@ -114,4 +112,4 @@ TEST_P(GlslVector, HuntedWorstInput) {
 
 GLINT_ON_SOFTWARE_BACKENDS(GlslVector);
 
-}  // namespace glsl_vector_gl_test
+}  // namespace glint::glsl_vector_gl_test

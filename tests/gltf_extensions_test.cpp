@@ -9,9 +9,8 @@
 #include "glint/image/texture.h"
 #include "gltf_sample.h"
 
-namespace gltf_extensions_test {
+namespace glint::gltf_extensions_test {
 
-using glint::FileExtension;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -148,4 +147,4 @@ TEST(GltfExtensions, NamesOfTargetsOfAnyFormAreSuffered) {
   }
 }
 
-}  // namespace gltf_extensions_test
+}  // namespace glint::gltf_extensions_test

@@ -6,13 +6,12 @@
 
 #include "gltf_sample.h"
 
-namespace gltf_geometry_test {
+namespace glint::gltf_geometry_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = Sample::Json;
-using glint::Topology;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -336,4 +335,4 @@ TEST(GltfGeometry, MoreVerticesThanFloatCanCount) {
   EXPECT_EQ(mesh.positions.at(2), glm::vec3(7, 8, 9));
 }
 
-}  // namespace gltf_geometry_test
+}  // namespace glint::gltf_geometry_test

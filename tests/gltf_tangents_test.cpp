@@ -8,9 +8,8 @@
 #include "gltf_sample.h"
 #include "scenes.h"
 
-namespace gltf_tangents_test {
+namespace glint::test::gltf_tangents_test {
 
-using glint::Mesh;
 using glint::gltf::makeTangents;
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -174,4 +173,4 @@ TEST(TextureTransform, MovesTurnsAndScalesCoordinates) {
   EXPECT_THAT(sample.error(), HasSubstr("KHR_texture_transform.scale"));
 }
 
-}  // namespace gltf_tangents_test
+}  // namespace glint::test::gltf_tangents_test

@@ -2,27 +2,14 @@
 
 // glTF files that tests write into the folder for temporary files.
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "files.h"
 #include "glint/scene/scene.h"
 
 namespace glint::test {
-
-/// A folder of this process alone; made when first asked for, left to the system.
-inline std::string temporaryFolder() {
-  static const std::string folder = [] {
-    std::string name = testing::TempDir() + "glint_tests_" + std::to_string(getpid());
-    std::filesystem::create_directories(name);
-    return name;
-  }();
-  return folder;
-}
 
 /// Writes the mesh's triangles as FOLDER/NAME.gltf with FOLDER/NAME.bin; `change` may edit the
 /// document. Returns the path.

@@ -24,6 +24,7 @@ HEAVY = {
         "src/glint/api/arrays.cpp",
         "src/glint/budget/cost_file.cpp", "src/glint/stability/document.cpp",
         "src/glint/stability/attributes.cpp", "src/glint/stability/exponents.cpp",
+        "src/glint/stability/geometry.cpp",
         "src/glint/stability/lights.cpp", "src/glint/stability/limits.cpp",
         "src/glint/stability/plots.cpp", "src/glint/stability/profile.cpp",
         "src/glint/stability/search.cpp", "src/glint/stability/suite.cpp",

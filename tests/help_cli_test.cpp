@@ -7,12 +7,8 @@
 
 #include "command.h"
 
-namespace help_cli_test {
+namespace glint::test::help_cli_test {
 
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -22,13 +18,6 @@ const std::vector<std::string> commands{"render",  "view", "diff",        "study
                                         "convert", "info", "environment", "backends"};
 const std::vector<std::pair<std::string, std::string>> noDisplay{{"DISPLAY", ""},
                                                                  {"WAYLAND_DISPLAY", ""}};
-
-std::vector<std::string> linesOf(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 std::string helpOf(const std::string& command) {
   const Ran ran = runGlint({command, "--help"});
@@ -175,4 +164,4 @@ TEST(Help, ATypoIsAnsweredEvenWhereSomethingElseIsMissing) {
   EXPECT_THAT(answer({"rendre", "a.glb", "-o", "a.png"}), HasSubstr("did you mean 'render'?"));
 }
 
-}  // namespace help_cli_test
+}  // namespace glint::test::help_cli_test

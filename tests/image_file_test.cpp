@@ -7,54 +7,28 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
+#include "files.h"
 #include "glint/image/error.h"
 
-namespace image_file_test {
+namespace glint::test::image_file_test {
 
 namespace fs = std::filesystem;
-using glint::OutputFile;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::span<const std::byte> bytesOf(std::string_view text) {
-  return std::as_bytes(std::span(text.data(), text.size()));
-}
 
 std::string textOf(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const glint::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 /// A folder of its own for each test and each way of staging.
 class File : public ::testing::TestWithParam<OutputFile::Staging> {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "glint-file-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string in(const std::string& name) const { return folder_ / name; }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-  void put(const std::string& name, const std::string& text) const {
-    std::ofstream(in(name)) << text;
-  }
+  std::size_t entries() const { return folder_.names().size(); }
+  void put(const std::string& name, const std::string& text) const { writeText(in(name), text); }
 
-  fs::path folder_;
+  const Folder folder_{"file"};
 };
 
 INSTANTIATE_TEST_SUITE_P(Staging, File,
@@ -131,7 +105,7 @@ TEST_P(File, HasThePermissionsThatTheUmaskLeaves) {
 
 TEST_P(File, NamesWithoutAFolderAreOfTheCurrentOne) {
   const fs::path before = fs::current_path();
-  fs::current_path(folder_);
+  fs::current_path(folder_.path());
   OutputFile file("plain", GetParam());
   file.write(bytesOf("x"));
   file.commit();
@@ -141,7 +115,7 @@ TEST_P(File, NamesWithoutAFolderAreOfTheCurrentOne) {
 
 TEST_P(File, FoldersAreMadeAndStayWithWhatIsInThem) {
   { OutputFile file(in("new/deep/a"), GetParam()); }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
   {
     OutputFile kept(in("new/deep/a"), GetParam());
     kept.write(bytesOf("x"));
@@ -162,8 +136,8 @@ TEST_P(File, FilesInPlaceOfFoldersAndFoldersAreRefused) {
   std::ofstream(in("file")) << "x";
   EXPECT_EQ(messageOf([&] { OutputFile file(in("file/a"), GetParam()); }),
             in("file/a") + ": Not a directory: a part of its path is a file: write elsewhere");
-  EXPECT_EQ(messageOf([&] { OutputFile file(folder_, GetParam()); }),
-            folder_.string() + ": Is a directory: give the name of a file");
+  EXPECT_EQ(messageOf([&] { OutputFile file(folder_.path(), GetParam()); }),
+            folder_.path() + ": Is a directory: give the name of a file");
   EXPECT_THAT(messageOf([&] { OutputFile file("", GetParam()); }), HasSubstr("No such file"));
 }
 
@@ -185,7 +159,7 @@ class AsNobody {
 
 TEST_P(File, ProtectedFileAndFolderAreRefused) {
   put("a", "kept");
-  const AsNobody nobody({folder_.string(), in("a")});
+  const AsNobody nobody({folder_.path(), in("a")});
   fs::permissions(in("a"), fs::perms::owner_read);
   EXPECT_THAT(messageOf([&] { OutputFile file(in("a"), GetParam()); }),
               HasSubstr("Permission denied"));
@@ -218,7 +192,7 @@ TEST_P(File, ReadingRefusesWhatIsNotARegularFile) {
   EXPECT_EQ(messageOf([&] { glint::readFile(in("fifo")); }),
             in("fifo") + ": not a regular file: save it to a file first");
   EXPECT_THAT(messageOf([&] { glint::readFile("/dev/zero"); }), HasSubstr("not a regular file"));
-  EXPECT_THAT(messageOf([&] { glint::readFile(folder_); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(messageOf([&] { glint::readFile(folder_.path()); }), HasSubstr("Is a directory"));
   EXPECT_EQ(messageOf([&] { glint::readFile(in("none")); }),
             in("none") + ": No such file or directory: check the path");
 }
@@ -234,4 +208,4 @@ TEST_P(File, MessagesStayOneLine) {
               ::testing::AllOf(HasSubstr("a\\nb\\x1b[1m"), Not(HasSubstr("\n"))));
 }
 
-}  // namespace image_file_test
+}  // namespace glint::test::image_file_test

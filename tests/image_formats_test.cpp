@@ -12,39 +12,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <glm/glm.hpp>
 
 #include "damaged_pictures.h"
+#include "files.h"
 #include "glint/image/error.h"
 #include "glint/image/exr_writer.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 #include "glint/image/stored_image.h"
-#include "gltf_text.h"
 
-namespace image_formats_test {
+namespace glint::test::image_formats_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Bytes = std::vector<std::byte>;
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const glint::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 std::string in(const std::string& name) { return glint::test::temporaryFolder() + "/" + name; }
-
-Bytes bytesOf(std::string_view text) {
-  const auto span = std::as_bytes(std::span(text.data(), text.size()));
-  return {span.begin(), span.end()};
-}
 
 /// Values that name their pixel, channel and layer.
 glint::Image numbered(int width, int height, float offset) {
@@ -322,4 +307,4 @@ TEST(Formats, DamagedFilesAreSurvived) {
   glint::test::expectHdrSurvived(200);
 }
 
-}  // namespace image_formats_test
+}  // namespace glint::test::image_formats_test

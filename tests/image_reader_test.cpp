@@ -6,35 +6,21 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <functional>
 #include <random>
 // jpeglib.h needs FILE declared before it.
 #include <jpeglib.h>
 
+#include "files.h"
 #include "glint/image/error.h"
 #include "glint/image/read_image.h"
 #include "glint/image/srgb.h"
 #include "glint/image/texture.h"
 
-namespace image_reader_test {
+namespace glint::test::image_reader_test {
 
 using Bytes = std::vector<std::byte>;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Bytes bytesOf(std::string_view text) {
-  const auto span = std::as_bytes(std::span(text.data(), text.size()));
-  return {span.begin(), span.end()};
-}
-
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const glint::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void append32(std::string& out, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift);
@@ -303,4 +289,4 @@ TEST(Image, DamagedPfmIsRefused) {
   EXPECT_THAT(message("PF\n4000000000 4000000000\n-1\n"), HasSubstr("too many"));
 }
 
-}  // namespace image_reader_test
+}  // namespace glint::test::image_reader_test

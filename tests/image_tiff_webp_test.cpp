@@ -9,10 +9,8 @@
 #include "glint/image/error.h"
 #include "glint/image/picture_layers.h"
 
-namespace image_tiff_webp_test {
+namespace glint::image_tiff_webp_test {
 
-using glint::PictureLayers;
-using glint::StoredImage;
 using std::string;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -227,4 +225,4 @@ TEST(WebpFile, LosslessCodesAndAlpha) {
               ElementsAre(77, 20, 5, 128, 77, 210, 5, 128, 77, 210, 5, 128, 77, 20, 5, 128));
 }
 
-}  // namespace image_tiff_webp_test
+}  // namespace glint::image_tiff_webp_test

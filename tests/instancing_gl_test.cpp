@@ -7,15 +7,7 @@
 #include "random.h"
 #include "stage.h"
 
-namespace instancing_gl_test {
-
-using glint::drawCalls;
-using glint::DrawList;
-using glint::Image;
-using glint::Look;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::instancing_gl_test {
 
 // Spheres in a row in depth, so that places and normals of each count.
 Scene crowd(int count) {
@@ -94,4 +86,4 @@ TEST_P(Instancing, LooksAsPieceByPiece) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Instancing, softwareBackends(), nameOfBackend);
 
-}  // namespace instancing_gl_test
+}  // namespace glint::test::instancing_gl_test

@@ -20,9 +20,7 @@
 #include "random.h"
 #include "scenes.h"
 
-namespace interpolation_bound_test {
-
-using namespace glint;
+namespace glint::test::interpolation_bound_test {
 
 int draws(int usual) { return test::drawsOf("GLINT_BOUND_DRAWS", usual); }
 
@@ -419,4 +417,4 @@ TEST(InterpolationBound, IsInfiniteWithNormalMaps) {
     EXPECT_EQ(boundOf(d, program), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace interpolation_bound_test
+}  // namespace glint::test::interpolation_bound_test

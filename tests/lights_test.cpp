@@ -11,12 +11,8 @@
 #include "gltf_sample.h"
 #include "scenes.h"
 
-namespace lights_test {
+namespace glint::test::lights_test {
 
-using glint::FileLight;
-using glint::Light;
-using glint::Look;
-using glint::Scene;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -206,4 +202,4 @@ TEST(FileLights, TheScaleIsThatOfTheRestPoseAtEveryTime) {
   EXPECT_EQ(late.lightScale, rest.lightScale);
 }
 
-}  // namespace lights_test
+}  // namespace glint::test::lights_test

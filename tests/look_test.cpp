@@ -17,17 +17,12 @@ namespace glint {
 void PrintTo(const Look& look, std::ostream* out) { *out << saveLook(look); }
 }  // namespace glint
 
-using glint::AntiAliasing;
-using glint::Light;
-using glint::Look;
-using glint::Parameter;
-using glint::SpecularAntialiasing;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-namespace look_test {
+namespace glint::test::look_test {
 
 const Parameter& parameter(const std::string& name) {
   for (const Parameter& p : glint::lookParameters())
@@ -707,4 +702,4 @@ TEST(MaterialEdits, OfMaterialsThatDoNotExistAreRefused) {
               AllOf(HasSubstr("'B'"), HasSubstr("use one of 'a'")));
 }
 
-}  // namespace look_test
+}  // namespace glint::test::look_test

@@ -10,11 +10,7 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
-namespace models_assets_test {
-
-using glint::Image;
-using glint::test::Folder;
-using glint::test::Ran;
+namespace glint::test::models_assets_test {
 
 std::string asset(const std::string& name) {
   const char* folder = std::getenv("GLINT_ASSETS");
@@ -88,4 +84,4 @@ TEST(AssetPictures, CamerasOfTheFileServe) {
   EXPECT_EQ(glint::test::runGlint({"render", model, "-o", "-", "--camera-index", "7"}).status, 2);
 }
 
-}  // namespace models_assets_test
+}  // namespace glint::test::models_assets_test

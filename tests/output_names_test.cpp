@@ -5,9 +5,8 @@
 #include "../src/cli/output_names.h"
 #include "glint/image/error.h"
 
-namespace output_names_test {
+namespace glint::output_names_test {
 
-using glint::OutputPattern;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -81,4 +80,4 @@ TEST(OutputNames, UnknownOrOpenBracesAreRefused) {
   EXPECT_THAT(failure("a{model.png"), HasSubstr("'{' without '}'"));
 }
 
-}  // namespace output_names_test
+}  // namespace glint::output_names_test

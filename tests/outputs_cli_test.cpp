@@ -10,15 +10,8 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
-namespace outputs_cli_test {
+namespace glint::test::outputs_cli_test {
 
-using glint::readImage;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -35,16 +28,9 @@ Ran render(const std::string& out, Arguments more = {}) {
   return runGlint(quick(all));
 }
 
-void expectRefused(const Ran& ran, const std::string& part) {
-  EXPECT_EQ(ran.status, 2) << ran.err;
-  ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr(part));
-}
-
-std::vector<Json> linesOf(const std::string& text) {
+std::vector<Json> jsonLines(const std::string& text) {
   std::vector<Json> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
+  for (const std::string& line : linesOf(text)) lines.push_back(Json::parse(line));
   return lines;
 }
 
@@ -98,11 +84,11 @@ TEST(Formats, JpegAndWebpAreThePicture) {
   EXPECT_EQ(readImage(folder / "b.webp").values, png.values);
   EXPECT_EQ(render(folder / "b.jpg", {"--quality", "5"}).status, 0);
   EXPECT_LT(contents(folder / "b.jpg").size(), contents(folder / "a.jpg").size());
-  expectRefused(render(folder / "c.png", {"--quality", "50"}), "--quality: of JPEG and WebP alone");
-  expectRefused(render(folder / "c.jpg", {"--quality", "0"}), "--quality");
-  expectRefused(render(folder / "c.jpg", {"--bit-depth", "16"}), "--bit-depth: of PNG alone");
-  expectRefused(render(folder / "c.jpg", {"--resume"}), "--resume");
-  expectRefused(render(folder / "c.png", {"--output-format", "gif"}), "png, jpg, webp");
+  expectRefusal(render(folder / "c.png", {"--quality", "50"}), "--quality: of JPEG and WebP alone");
+  expectRefusal(render(folder / "c.jpg", {"--quality", "0"}), "--quality");
+  expectRefusal(render(folder / "c.jpg", {"--bit-depth", "16"}), "--bit-depth: of PNG alone");
+  expectRefusal(render(folder / "c.jpg", {"--resume"}), "--resume");
+  expectRefusal(render(folder / "c.png", {"--output-format", "gif"}), "png, jpg, webp");
   EXPECT_FALSE(std::filesystem::exists(folder / "c.png"));
 }
 
@@ -139,7 +125,7 @@ TEST(Formats, AreAPngWhereTheEndingTellsNone) {
   EXPECT_THAT(ran.err, IsEmpty());
   EXPECT_EQ(render(folder / "other", {"--output-format", "jpg"}).status, 0);
   EXPECT_EQ(contents(folder / "other").substr(0, 2), "\xFF\xD8");
-  expectRefused(render(folder / "a.tif"), "TIFF is not written");
+  expectRefusal(render(folder / "a.tif"), "TIFF is not written");
 }
 
 TEST(Raw, IsTheFloatsOfThePfm) {
@@ -179,8 +165,8 @@ TEST(Raw, SeveralFollowEachOther) {
       ASSERT_EQ(pictures[k].values[3 * i], frame.values[4 * i]);
   }
   // What stands on stdout without telling its end is one picture.
-  expectRefused(render("-", turning), "{frame}");
-  expectRefused(render("-", {"--output-format", "exr"}), "needs a regular file");
+  expectRefusal(render("-", turning), "{frame}");
+  expectRefusal(render("-", {"--output-format", "exr"}), "needs a regular file");
 }
 
 TEST(ListOfJson, LinesHaveLooksOfTheirOwn) {
@@ -216,7 +202,7 @@ TEST(ListOfJson, LinesHaveLooksOfTheirOwn) {
   // Nothing is made again, as each has its own look.
   const Ran again = runGlint(quick({"render", "--from-list", folder / "list", "-o",
                                     folder / "{n}.png", "--shading", "blinn-phong", "--resume"}));
-  for (const Json& line : linesOf(again.out)) EXPECT_TRUE(line.value("skipped", false));
+  for (const Json& line : jsonLines(again.out)) EXPECT_TRUE(line.value("skipped", false));
 }
 
 TEST(ListOfJson, WhatIsSaidOfAModelBeatsTheRunsLook) {
@@ -273,7 +259,7 @@ TEST(ListOfJson, WrongLinesFailAlone) {
   const Ran ran =
       runGlint(quick({"render", "--from-list", folder / "list", "-o", folder / "{n}.png"}));
   EXPECT_EQ(ran.status, 2);
-  const auto told = linesOf(ran.out);
+  const auto told = jsonLines(ran.out);
   ASSERT_EQ(told.size(), std::size(lines) + 1);
   for (std::size_t i = 0; i < std::size(lines); ++i) {
     EXPECT_EQ(told[i]["status"], 2) << lines[i].first;
@@ -321,4 +307,4 @@ TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
   }
 }
 
-}  // namespace outputs_cli_test
+}  // namespace glint::test::outputs_cli_test

@@ -14,19 +14,7 @@
 #include "stage.h"
 #include "variants.h"
 
-namespace picture_terms_gl_test {
-
-using glint::AntiAliasing;
-using glint::Bounds;
-using glint::GpuScene;
-using glint::Image;
-using glint::Light;
-using glint::Look;
-using glint::Material;
-using glint::PictureTerm;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::picture_terms_gl_test {
 
 class Terms : public OnStage {
  protected:
@@ -229,4 +217,4 @@ TEST_P(Terms, AreListedByTheLook) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Terms, testing::Values(glint::Backend::osmesa), nameOfBackend);
 
-}  // namespace picture_terms_gl_test
+}  // namespace glint::test::picture_terms_gl_test

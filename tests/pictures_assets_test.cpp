@@ -10,14 +10,9 @@
 #include "command.h"
 #include "glint/image/read_image.h"
 
-namespace pictures_assets_test {
+namespace glint::test::pictures_assets_test {
 
 namespace fs = std::filesystem;
-using glint::Image;
-using glint::test::CommandOptions;
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::Ran;
 
 constexpr const char* programNames[] = {"flat", "gouraud", "phong", "blinn-phong", "environment"};
 
@@ -180,4 +175,4 @@ TEST(DamagedFiles, AreRefusedByInfoAsByRender) {
   }
 }
 
-}  // namespace pictures_assets_test
+}  // namespace glint::test::pictures_assets_test

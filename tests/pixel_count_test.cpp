@@ -8,15 +8,8 @@
 #include "code_pictures.h"
 #include "glint/image/compare.h"
 
-namespace pixel_count_test {
+namespace glint::test::pixel_count_test {
 
-using glint::compare;
-using glint::CompareOptions;
-using glint::Comparison;
-using glint::PixelDistance;
-using glint::StoredImage;
-using glint::test::codes;
-using glint::test::plain;
 using testing::ElementsAre;
 
 /// A disc with anti-aliased edges, by 4 x 4 samples; centre and radius in eighths of a pixel.
@@ -162,4 +155,4 @@ TEST(PixelCount, NumberAndShareAllowed) {
   EXPECT_TRUE(compare(a, b, options).same);
 }
 
-}  // namespace pixel_count_test
+}  // namespace glint::test::pixel_count_test

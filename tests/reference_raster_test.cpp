@@ -7,10 +7,9 @@
 
 #include "reference_scenes.h"
 
-namespace reference_raster_test {
+namespace glint::reference_raster_test {
 
 using namespace scenes;
-using glint::Material;
 
 // Twice the area of (a, b, p), in quarters of a pixel, exact.
 long cross(glm::ivec2 a, glm::ivec2 b, glm::ivec2 p) {
@@ -285,4 +284,4 @@ TEST(ReferenceSupersampling, IsTheMeanOfTheSamples) {
     }
 }
 
-}  // namespace reference_raster_test
+}  // namespace glint::reference_raster_test

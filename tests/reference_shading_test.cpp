@@ -9,11 +9,9 @@
 #include "glint/image/error.h"
 #include "reference_scenes.h"
 
-namespace reference_shading_test {
+namespace glint::reference_shading_test {
 
 using namespace scenes;
-using glint::Material;
-using glint::Shading;
 
 // Of a pixel's float, not of the double behind it.
 constexpr double floatRounding = 1.2e-7;
@@ -329,4 +327,4 @@ TEST(ReferenceUsage, RefusesNumbersOfSamplesWithoutAPattern) {
   }
 }
 
-}  // namespace reference_shading_test
+}  // namespace glint::reference_shading_test

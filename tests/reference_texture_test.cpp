@@ -9,14 +9,9 @@
 #include "glint/image/mipmaps.h"
 #include "reference_scenes.h"
 
-namespace reference_texture_test {
+namespace glint::reference_texture_test {
 
 using namespace scenes;
-using glint::ByteImage;
-using glint::Filter;
-using glint::MipFilter;
-using glint::Sampler;
-using glint::Wrap;
 using glint::reference::TextureSampler;
 
 // The sRGB curve from its definition.
@@ -253,4 +248,4 @@ TEST(ReferenceTexture, IsNotReadWithoutCoordinates) {
   EXPECT_EQ(glm::dvec3(pixel(draw(scene, look), 1, 1)), plain.shading.color);
 }
 
-}  // namespace reference_texture_test
+}  // namespace glint::reference_texture_test

@@ -14,15 +14,7 @@
 #include "stage.h"
 #include "variants.h"
 
-namespace render_backends_gl_test {
-
-using glint::AntiAliasing;
-using glint::Backend;
-using glint::Image;
-using glint::Light;
-using glint::Look;
-using glint::Scene;
-using namespace glint::test;
+namespace glint::test::render_backends_gl_test {
 
 class Programs : public OnStage {};
 
@@ -168,4 +160,4 @@ TEST(Backends, GiveTheSameBitsInTilesAndAgain) {
   }
 }
 
-}  // namespace render_backends_gl_test
+}  // namespace glint::test::render_backends_gl_test

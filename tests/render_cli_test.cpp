@@ -9,16 +9,11 @@
 #include "glint/image/srgb.h"
 #include "glint/image/stored_image.h"
 #include "glint/options/parameters.h"
+#include "gltf_text.h"
 #include "scenes.h"
 
-namespace render_cli_test {
+namespace glint::test::render_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -27,11 +22,6 @@ using testing::Not;
 using testing::StartsWith;
 
 const std::string sphere = shipped + "sphere.glb", torus = shipped + "torus.glb";
-
-void expectDone(const Ran& ran) {
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_THAT(ran.err, IsEmpty());
-}
 
 // Draws the sphere with the arguments; the bytes of the picture.
 std::string picture(const Folder& folder, std::vector<std::string> arguments,
@@ -559,4 +549,4 @@ TEST(Backends, AreListedInTextAndJson) {
   }
 }
 
-}  // namespace render_cli_test
+}  // namespace glint::test::render_cli_test

@@ -14,15 +14,7 @@
 #include "gltf_text.h"
 #include "stage.h"
 
-namespace render_convergence_gl_test {
-
-using glint::GlslSources;
-using glint::Image;
-using glint::Look;
-using glint::Mesh;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::render_convergence_gl_test {
 
 // The finest sphere's triangles are 0.016 long: 8 pixels of 1024 over 2.2.
 constexpr int size = 1024;
@@ -267,4 +259,4 @@ TEST_P(Convergence, DiffuseLightNeedsRenormalisedNormals) {
 INSTANTIATE_TEST_SUITE_P(Render, Convergence, testing::Values(glint::Backend::osmesa),
                          nameOfBackend);
 
-}  // namespace render_convergence_gl_test
+}  // namespace glint::test::render_convergence_gl_test

@@ -8,16 +8,7 @@
 #include "glint/shading/environment_map.h"
 #include "stage.h"
 
-namespace render_environment_gl_test {
-
-using glint::Environment;
-using glint::Image;
-using glint::Look;
-using glint::Material;
-using glint::Mesh;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::render_environment_gl_test {
 
 Look mirrorLook(const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 3) {
   Look look = parallelLook(toViewer, pixels);
@@ -271,4 +262,4 @@ TEST_P(EnvironmentProgram, StandsBehindTheModelOnlyWhenAsked) {
 
 INSTANTIATE_TEST_SUITE_P(Render, EnvironmentProgram, softwareBackends(), nameOfBackend);
 
-}  // namespace render_environment_gl_test
+}  // namespace glint::test::render_environment_gl_test

@@ -10,16 +10,7 @@
 #include "stage.h"
 #include "variants.h"
 
-namespace render_sum_gl_test {
-
-using glint::Image;
-using glint::Light;
-using glint::Look;
-using glint::Material;
-using glint::Mesh;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::render_sum_gl_test {
 
 // A square that faces `toViewer`, with the normal `normal` at each corner.
 Mesh facing(const glm::dvec3& toViewer, const glm::dvec3& normal) {
@@ -385,4 +376,4 @@ TEST_P(Sum, EachPixelHasItsOwnVectors) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Sum, softwareBackends(), nameOfBackend);
 
-}  // namespace render_sum_gl_test
+}  // namespace glint::test::render_sum_gl_test

@@ -11,17 +11,7 @@
 #include "stage.h"
 #include "variants.h"
 
-namespace render_surface_gl_test {
-
-using glint::AntiAliasing;
-using glint::Image;
-using glint::Light;
-using glint::Look;
-using glint::Material;
-using glint::Mesh;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::render_surface_gl_test {
 
 class Surface : public OnStage {};
 
@@ -446,4 +436,4 @@ TEST_P(Surface, TrianglesThroughTheNearPlaneAreFinite) {  // G4, G9
 
 INSTANTIATE_TEST_SUITE_P(Render, Surface, softwareBackends(), nameOfBackend);
 
-}  // namespace render_surface_gl_test
+}  // namespace glint::test::render_surface_gl_test

@@ -12,17 +12,7 @@
 #include "stage.h"
 #include "variants.h"
 
-namespace render_transforms_gl_test {
-
-using glint::AntiAliasing;
-using glint::Image;
-using glint::Light;
-using glint::Look;
-using glint::Material;
-using glint::Mesh;
-using glint::Scene;
-using glint::Shading;
-using namespace glint::test;
+namespace glint::test::render_transforms_gl_test {
 
 class Transforms : public OnStage {};
 
@@ -261,4 +251,4 @@ TEST_P(Transforms, VerticesFarFromTheirOriginAreWhereTheyWouldBeNearIt) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Transforms, softwareBackends(), nameOfBackend);
 
-}  // namespace render_transforms_gl_test
+}  // namespace glint::test::render_transforms_gl_test

@@ -26,9 +26,7 @@ namespace glint {
 void PrintTo(const Look& look, std::ostream* out);  // look_test.cpp
 }  // namespace glint
 
-namespace roundtrip_test {
-
-using namespace glint;
+namespace glint::test::roundtrip_test {
 
 /// Texts of every parameter of the table, over their whole ranges.
 class Texts : public test::Random {
@@ -355,4 +353,4 @@ TEST(RoundTrip, OfALookThatChangesUnderEdits) {
   EXPECT_TRUE(merged.light->empty());
 }
 
-}  // namespace roundtrip_test
+}  // namespace glint::test::roundtrip_test

@@ -13,12 +13,8 @@
 #include "glint/image/png_bytes.h"
 #include "gltf_text.h"
 
-namespace rows_test {
+namespace glint::test::rows_test {
 
-using glint::CompareOptions;
-using glint::Comparison;
-using glint::Image;
-using glint::StoredImage;
 using Bytes = std::vector<std::byte>;
 
 /// More rows than are kept.
@@ -142,4 +138,4 @@ TEST(Rows, DamageIsFound) {
   }
 }
 
-}  // namespace rows_test
+}  // namespace glint::test::rows_test

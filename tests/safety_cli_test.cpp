@@ -10,13 +10,8 @@
 #include "glint/image/read_image.h"
 #include "gltf_sample.h"
 
-namespace safety_cli_test {
+namespace glint::test::safety_cli_test {
 
-using glint::test::contents;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -64,12 +59,6 @@ Ran draw(const fs::path& model, const fs::path& out, std::vector<std::string> mo
   return runGlint(quick(more));
 }
 
-void expectRefused(const Ran& ran, const std::string& part) {
-  EXPECT_EQ(ran.status, 2) << ran.err;
-  ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(StartsWith("glint: "), HasSubstr(part)));
-}
-
 /// The command line under a shell, where descriptors are closed and limits are set.
 Ran underShell(const std::string& prefix, const std::vector<std::string>& arguments,
                const std::string& suffix, const std::string& folder) {
@@ -100,7 +89,7 @@ TEST(NoOutput, IsAFileThatIsRead) {
   const std::string before = contents(texture), bin = contents((folder / "sample.bin").string());
   for (const char* name : {"{model}.png", "hard.png", "soft.png", "./tree.png"}) {
     SCOPED_TRACE(name);
-    expectRefused(draw(model, folder / name), "would be lost");
+    expectRefusal(draw(model, folder / name), "would be lost");
     EXPECT_EQ(contents(texture), before);
   }
   // Whatever is written, and whatever is read.
@@ -153,14 +142,14 @@ TEST(DeepNesting, IsRefusedInOneLineAndTheOtherModelsAreDrawn) {
   std::ofstream(folder / "m.gltf") << R"({"asset": {"version": "2.0"}, "extras": )" << deep;
   std::ofstream(folder / "l.json") << R"({"glint-look": 1, "material": )" << deep;
   std::ofstream(folder / "c.json") << R"({"glint-costs": 1, "noise": )" << deep;
-  expectRefused(draw(folder / "m.gltf", folder / "a.png"), "nested");
-  expectRefused(runGlint({"info", (folder / "m.gltf").string()}), "nested");
-  expectRefused(runGlint({"convert", (folder / "m.gltf").string(), (folder / "n.gltf").string()}),
+  expectRefusal(draw(folder / "m.gltf", folder / "a.png"), "nested");
+  expectRefusal(runGlint({"info", (folder / "m.gltf").string()}), "nested");
+  expectRefusal(runGlint({"convert", (folder / "m.gltf").string(), (folder / "n.gltf").string()}),
                 "nested");
-  expectRefused(
+  expectRefusal(
       draw(shipped + "torus.glb", folder / "a.png", {"--look", (folder / "l.json").string()}),
       "nested");
-  expectRefused(draw(shipped + "torus.glb", folder / "a.png",
+  expectRefusal(draw(shipped + "torus.glb", folder / "a.png",
                      {"--max-error", "0.1", "--cost-table", (folder / "c.json").string()}),
                 "nested");
   std::ofstream(folder / "list") << (folder / "m.gltf").string() << "\n"
@@ -249,11 +238,11 @@ TEST(Decoding, KeepsToALimitForTheSum) {
   EXPECT_EQ(tight.status, 0);
   ASSERT_EQ(tight.errorLines().size(), 3u) << tight.err;
   EXPECT_THAT(tight.err, HasSubstr("2048 x 2048 pixels is shown with 1024 x 1024 pixels"));
-  expectRefused(draw(model, sample.folder() / "b.png", {"--decode-limit", "15.9"}),
+  expectRefusal(draw(model, sample.folder() / "b.png", {"--decode-limit", "15.9"}),
                 "make it smaller or raise --decode-limit");
   EXPECT_FALSE(fs::exists(sample.folder() / "b.png"));
   // A large picture shows all of them.
-  expectRefused(draw(model, out, {"--decode-limit", "17", "--resolution", "1025,4"}),
+  expectRefusal(draw(model, out, {"--decode-limit", "17", "--resolution", "1025,4"}),
                 "take 64 MiB, more than 17 MiB");
 }
 
@@ -361,7 +350,7 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
   // The model too may be a link that leads out.
   fs::rename(inner / "m.gltf", folder / "m.gltf");
   fs::create_symlink("../m.gltf", inner / "m.gltf");
-  expectRefused(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "lies outside");
+  expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "lies outside");
 }
 
 TEST(Converting, TakesATimeThatGrowsWithTheFile) {
@@ -396,4 +385,4 @@ TEST(Names, DoNotReachATerminalAsTheyAre) {
   EXPECT_THAT(ran.out, HasSubstr(R"(\x1b[2J\nred)"));
 }
 
-}  // namespace safety_cli_test
+}  // namespace glint::test::safety_cli_test

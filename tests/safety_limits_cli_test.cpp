@@ -9,14 +9,8 @@
 #include "command.h"
 #include "gltf_sample.h"
 
-namespace safety_limits_cli_test {
+namespace glint::test::safety_limits_cli_test {
 
-using glint::test::contents;
-using glint::test::Folder;
-using glint::test::quick;
-using glint::test::Ran;
-using glint::test::runGlint;
-using glint::test::shipped;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -319,4 +313,4 @@ TEST(Threads, OfALimitedAddressSpaceToo) {
   }
 }
 
-}  // namespace safety_limits_cli_test
+}  // namespace glint::test::safety_limits_cli_test

@@ -8,10 +8,8 @@
 
 #include "glint/shading/safe.h"
 
-namespace shading_sum_test {
+namespace glint::shading_sum_test {
 
-using glint::LightTerms;
-using glint::SumParameters;
 using glm::dvec3;
 
 constexpr double u = 0x1p-53;
@@ -215,4 +213,4 @@ TEST(SafeNormalize, IsRightForEveryLength) {  // A1 to A8, C12
   expectNear(glint::safeNormalize(dvec3(1.7e308)), dvec3(std::sqrt(1.0 / 3.0)), 4 * u);
 }
 
-}  // namespace shading_sum_test
+}  // namespace glint::shading_sum_test

@@ -8,10 +8,7 @@
 
 #include "cli/model_list.h"
 
-namespace shard_test {
-
-using glint::membersOf;
-using glint::Shard;
+namespace glint::shard_test {
 
 // The cost of each shard; fails where a model is in none or in two.
 std::vector<double> loadsOf(const std::vector<double>& costs, std::size_t of) {
@@ -66,4 +63,4 @@ TEST(Shards, MoreThanModelsLeaveSomeEmpty) {
   EXPECT_EQ(std::ranges::count(loads, 0.0), 4);
 }
 
-}  // namespace shard_test
+}  // namespace glint::shard_test

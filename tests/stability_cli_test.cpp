@@ -7,11 +7,8 @@
 
 #include "command.h"
 
-namespace stability_cli_test {
+namespace glint::test::stability_cli_test {
 
-using glint::test::Folder;
-using glint::test::Ran;
-using glint::test::runGlint;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -21,14 +18,6 @@ Ran stability(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "stability");
   arguments.insert(arguments.end(), {"--rendering-backend", "osmesa"});
   return runGlint(arguments);
-}
-
-void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
-  EXPECT_EQ(ran.status, status) << ran.err;
-  const auto lines = ran.errorLines();
-  ASSERT_EQ(lines.size(), 1u) << ran.err;
-  EXPECT_THAT(lines[0], AllOf(StartsWith("glint: "), HasSubstr(part)));
-  EXPECT_THAT(ran.out, IsEmpty());
 }
 
 TEST(StabilityCommand, ListsTheWholeCatalogue) {
@@ -109,4 +98,4 @@ TEST(StabilityCommand, NoContextIsStatus3) {
   expectRefusal(runGlint({"stability", "--rendering-backend", "egl-software"}, options), "egl", 3);
 }
 
-}  // namespace stability_cli_test
+}  // namespace glint::test::stability_cli_test

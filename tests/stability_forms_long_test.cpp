@@ -7,9 +7,7 @@
 #include "glint/stability/search.h"
 #include "glint/stability/suite.h"
 
-namespace stability_forms_long_test {
-
-using namespace glint;
+namespace glint::stability_forms_long_test {
 
 struct Forms {
   const char *highlight, *fresnel;
@@ -32,4 +30,4 @@ TEST_P(StabilityOfForm, PassesEveryCase) {
 
 INSTANTIATE_TEST_SUITE_P(Forms, StabilityOfForm, testing::Values(Forms{"exact", "schlick"}));
 
-}  // namespace stability_forms_long_test
+}  // namespace glint::stability_forms_long_test

@@ -11,9 +11,7 @@
 #include "glint/stability/suite.h"
 #include "glsl_probe.h"
 
-namespace stability_gl_test {
-
-using namespace glint;
+namespace glint::stability_gl_test {
 
 class Stability : public GlslTest {};
 
@@ -69,4 +67,4 @@ TEST_P(Stability, TheDriversProfileIsComplete) {
 
 GLINT_ON_SOFTWARE_BACKENDS(Stability);
 
-}  // namespace stability_gl_test
+}  // namespace glint::stability_gl_test

@@ -12,9 +12,7 @@
 #include "glint/stability/suite.h"
 #include "gltf_text.h"
 
-namespace stability_mutation_long_test {
-
-using namespace glint;
+namespace glint::test::stability_mutation_long_test {
 
 struct Guard {
   const char *file, *text, *without;
@@ -243,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(Guards, Mutation, testing::ValuesIn(guards),
                                                         : std::string("_equivalent"));
                          });
 
-}  // namespace stability_mutation_long_test
+}  // namespace glint::test::stability_mutation_long_test

@@ -7,12 +7,7 @@
 
 #include "glint/render/tiles.h"
 
-namespace tiles_test {
-
-using glint::AntiAliasing;
-using glint::Tile;
-using glint::TileLayout;
-using glint::tilesFor;
+namespace glint::tiles_test {
 
 const AntiAliasing antiAliasings[] = {
     {AntiAliasing::Mode::none, 1}, {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::msaa, 64},
@@ -91,4 +86,4 @@ TEST(Tiles, AreTheDocumentedOnes) {
   EXPECT_EQ(heights({1920, 1080}, antiAliasings[1]), std::pair(std::size_t(4), 270));
 }
 
-}  // namespace tiles_test
+}  // namespace glint::tiles_test

@@ -9,11 +9,7 @@
 
 #include "glint/scene/camera.h"
 
-namespace triangle_runs_test {
-
-using glint::Mesh;
-using glint::RunView;
-using glint::TriangleRun;
+namespace glint::triangle_runs_test {
 
 Mesh bumpySphere(int rows, double bump) {
   Mesh mesh;
@@ -115,4 +111,4 @@ TEST(TriangleRuns, ShowWhatCannotBePlaced) {
   }
 }
 
-}  // namespace triangle_runs_test
+}  // namespace glint::triangle_runs_test

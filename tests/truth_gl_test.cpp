@@ -21,10 +21,7 @@
 #include "random.h"
 #include "stage.h"
 
-namespace truth_gl_test {
-
-using namespace glint;
-using namespace glint::test;
+namespace glint::test::truth_gl_test {
 
 class Truth : public OnStage {
  protected:
@@ -384,4 +381,4 @@ TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Software, Truth, softwareBackends(), nameOfBackend);
 
-}  // namespace truth_gl_test
+}  // namespace glint::test::truth_gl_test

@@ -10,15 +10,6 @@
 #include "glint/scene/look_text.h"
 #include "variants.h"
 
-using glint::AlphaMode;
-using glint::AntiAliasing;
-using glint::Light;
-using glint::Shading;
-using glint::SpecularAntialiasing;
-using glint::Topology;
-using glint::Variant;
-using glint::test::VariantInputs;
-
 namespace glint {
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << shadingName(v.program) << (v.multisampled ? " multisampled" : "");
@@ -26,11 +17,7 @@ void PrintTo(const Variant& v, std::ostream* out) {
 }
 }  // namespace glint
 
-namespace variant_test {
-
-using glint::test::everyShading;
-using glint::test::lightOf;
-using glint::test::plainInputs;
+namespace glint::test::variant_test {
 
 bool computesPixels(Shading s) {
   return s == Shading::phong || s == Shading::blinnPhong || s == Shading::environment;
@@ -646,4 +633,4 @@ TEST(Lights, AreTheGivenOnesElseTheDefaultUnlessThereAreNone) {
   EXPECT_TRUE(glint::lightsOf(look).empty());
 }
 
-}  // namespace variant_test
+}  // namespace glint::test::variant_test

@@ -35,8 +35,6 @@ class History {
   /// To be called after every frame. While `gesture` is true nothing becomes a step yet.
   void settle(const Document& now, bool gesture, bool playing = false);
 
-  bool canUndo() const { return !undo_.empty(); }
-  bool canRedo() const { return !redo_.empty(); }
   std::size_t undoSteps() const { return undo_.size(); }
 
   /// Takes back the last step; an edit that is not settled yet is one. False if there is none.

@@ -11,7 +11,7 @@
 
 namespace glint::viewer {
 
-/// A texture of a material, as the panel tells of it.
+/// A texture of a material, as the panel describes it.
 struct MaterialTexture {
   std::string name, drives;  ///< "base colour"; "multiplies color"
   int image = 0;             ///< of the scene

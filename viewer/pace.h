@@ -25,7 +25,8 @@ class Pace {
   /// change.
   double rest() const;
 
-  /// What is drawn while something moves is of another kind now: times tell nothing any more.
+  /// What is drawn while something moves is of another kind now: former times mean nothing any
+  /// more.
   void learnAnew();
 
   /// A whole picture took so long; at rest sizes are learnt anew. `cold`: shaders were compiled for

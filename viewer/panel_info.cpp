@@ -254,7 +254,7 @@ void drawInfoTab(PanelContext& context) {
       ImGui::CollapsingHeader("Shaders and why", ImGuiTreeNodeFlags_DefaultOpen))
     variantRows(session.model->scene, *context.picture);
   if (ImGui::CollapsingHeader("Log", ImGuiTreeNodeFlags_DefaultOpen)) {
-    if (session.log.empty()) ImGui::TextDisabled("nothing to tell");
+    if (session.log.empty()) ImGui::TextDisabled("no messages");
     for (const std::string& line : session.log) ImGui::TextWrapped("%s", line.c_str());
   }
 }

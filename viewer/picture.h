@@ -34,7 +34,7 @@ std::optional<DrawnPicture> drawPicture(Renderer&, GpuScene&, const Bounds&, con
                                         const std::atomic<bool>& stop);
 
 /// Chooses what the look leaves open, draws it and writes it band by band, as `glint render` does;
-/// `model` is the model's file, of which the picture tells. Throws InputError.
+/// `model` is the model's file, which the picture names in its text. Throws InputError.
 void writePicture(Renderer&, GpuScene&, const Bounds&, const Look& asked, const std::string& model,
                   const std::string& path);
 

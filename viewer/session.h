@@ -37,7 +37,7 @@ struct Model {
 /// Reads a model; throws InputError.
 std::unique_ptr<Model> loadModel(const std::filesystem::path&, const PoseRequest& = {});
 
-/// When a file was last written, and how long it is: what tells that it has changed.
+/// When a file was last written, and how long it is: by which a change is noticed.
 struct FileState {
   std::filesystem::file_time_type time{};
   std::uintmax_t size = 0;

@@ -266,7 +266,7 @@ bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
       const bool open = now == ParameterValue(), ticked = p.name == "max-error";
       if (ticked) changed = tick(p, look);
       const char* format = ticked && open                   ? "off"
-                           : ticked && look.maxErrorInCodes ? "%.4g codes"
+                           : ticked && look.maxErrorInCodes ? "codes: %.4g"
                                                             : "%.4g";
       double value = open ? p.unset : std::get<double>(now);
       if (slider(id.c_str(), value, p.slider, p.min, p.max, format)) next = value;

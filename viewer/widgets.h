@@ -75,7 +75,7 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
 
 /// The widget for one parameter of a look, by its kind. `shown` is what stands where the look
 /// leaves it open; `scene`, which may be null, says what a text can be chosen from and what has no
-/// effect, which is grey and tells why. True if the look changed; an error of a typed text is
+/// effect, which is grey and says why. True if the look changed; an error of a typed text is
 /// thrown as InputError.
 bool parameter(const Parameter& p, Look& look, const Scene* scene,
                const std::optional<glm::dvec3>& shown = {});

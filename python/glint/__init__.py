@@ -385,7 +385,7 @@ def compare(a: PictureLike, b: PictureLike, *, metrics: Iterable[str] = (), tole
     A file beside a Picture, and uint8 beside float, are compared as codes of 8 bits: what a PNG of
     it would hold. limits: the largest value of each metric that counts as the same, with _ for -
     (psnr, ssim: the smallest): max, mean, rmse, relative_rmse, psnr, pixels, ssim, flip, hdr_flip.
-    Without any the pictures must be equal. metrics: to be told beside those. tolerance: of "pixels".
+    Without any the pictures must be equal. metrics: to be reported beside those. tolerance: of "pixels".
     """
     rules = ([(name.replace("_", "-"), float(limit)) for name, limit in limits.items()],
              list(metrics), tolerance, ignore_alpha)

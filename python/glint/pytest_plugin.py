@@ -26,7 +26,7 @@ _SCRIPT = pathlib.Path(__file__).with_name("image_test.sh")
 
 
 class ImageBaseline(Protocol):
-    """What the fixture is."""
+    """The type of the fixture."""
 
     def __call__(self, picture: Any, name: str | None = None, *, ending: str = ".png",
                  max_pixels: str | int | None = None, options: list[str] | None = None,
@@ -72,7 +72,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def _file_of(name: str) -> str:
-    """A name as a file's, one to one."""
+    """A file's name for a test's; no two have the same."""
     text = "".join(chr(b) if re.match(rb"[A-Za-z0-9_-]", bytes([b])) or (b == 46 and i) else
                    "%%%02X" % b for i, b in enumerate(name.encode()))
     return text

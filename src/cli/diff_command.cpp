@@ -113,7 +113,7 @@ Command addDiff(CLI::App& app) {
           ->expected(0, 1 << 20);
   command->add_flag(
       "--prune", request.pruning,
-      "remove baselines without a picture (with --run: that no test uses); tells each");
+      "remove baselines without a picture (with --run: that no test uses); prints each");
   text("--run", request.testRun, "FOLDER",
        "instead of A and B: report what the tests of glint_add_image_test() left in this folder");
   command->add_flag(

@@ -21,7 +21,7 @@ std::vector<DiffEntry> pairsOf(const DiffRequest& request,
 DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairConditions>& conditions,
                          const std::string& name);
 
-/// Tells the lines of the conditions that name no pair.
+/// Prints the lines of the conditions that name no pair.
 void tellUnused(const std::vector<PairConditions>& conditions,
                 const std::vector<DiffEntry>& entries);
 

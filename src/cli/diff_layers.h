@@ -33,7 +33,7 @@ LayerPairs matchLayers(const PictureLayers& a, const PictureLayers& b, DiffEntry
 
 /// Compares two layers and adds the result to the entry. What is no colour is judged by the
 /// conditions on values (max, mean, rmse, relative-rmse, psnr); a difference that none of them
-/// judges is told, and is a failure where no colours are judged either.
+/// judges is reported, and is a failure where no colours are judged either.
 void addLayer(const LayerPair& pair, const CompareOptions& options, bool first, bool besideColours,
               DiffEntry& entry);
 

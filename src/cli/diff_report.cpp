@@ -253,7 +253,7 @@ std::string diffLine(const Json& pair) {
   if (same && countOf(pair, "differing") == 0 && layers == 0) {
     line += ", equal in every pixel";
   } else if (pair.contains("metrics")) {
-    // What differs is told: the main picture, or the first layer that does.
+    // What differs is reported: the main picture, or the first layer that does.
     const Json* told = &pair;
     if (shownOnly)
       for (const Json& layer : pair["layers"])

@@ -316,7 +316,7 @@ Command addInfo(CLI::App& app) {
         *model, [&](const std::string& path) { return loadGltf(path, poseOf(look)); });
     if (isStdin(*model)) scene.name = "stdin";
     checkMaterialNames(scene, look);
-    // Whether what may blend does is told by its texels.
+    // Whether what may blend does, its texels say.
     const auto blends = [](const Material& m) { return m.alphaMode == AlphaMode::blend; };
     if (std::ranges::any_of(scene.materials, blends)) decodeImages(scene, look);
     const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);

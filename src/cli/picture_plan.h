@@ -18,7 +18,7 @@ struct PlannedPicture {
   std::string output;
   std::string reference;  ///< to compare with; empty: none
   std::size_t frame = 0;
-  std::string variation;  ///< what tells it from the others of its model, for its key
+  std::string variation;  ///< what distinguishes it from the others of its model, for its key
 };
 
 /// Which pictures a run makes and how they are called.

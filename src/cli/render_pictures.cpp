@@ -166,7 +166,7 @@ class ModelDrawing {
     const PictureFormat& format = *pictureOptions(run_.options, planned.output).format;
     if (run_.options.formatName.empty() && planned.output != "-" &&
         !pictureFormatOf(planned.output))
-      remarks.push_back("its ending tells no format of pictures: this is a " +
+      remarks.push_back("its ending is that of no picture format: this is a " +
                         std::string(format.name));
     // Who writes PFM wants three numbers a pixel.
     if (look.noBackground && !format.hasAlpha && !format.isFloat)

@@ -85,7 +85,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
         "--rendering-backend reference: a study measures GL against the reference: "
         "give another");
   const Backend backend = backendFromName(given.backend);
-  // Before the work, so that what cannot be written is told at once.
+  // Before the work, so that what cannot be written is reported at once.
   std::optional<OutputFile> jsonFile, markdownFile;
   if (!given.json.empty()) jsonFile.emplace(given.json);
   if (!given.markdown.empty()) markdownFile.emplace(given.markdown);

@@ -23,7 +23,7 @@ struct CompareRules {
   /// pixels, ssim, flip, hdr-flip (docs/image-tests.md; psnr and ssim: at least, others: at most).
   /// Without any the pictures must be equal.
   std::vector<std::pair<std::string, double>> limits = {};
-  std::vector<std::string> metrics = {};  ///< to be told beside those
+  std::vector<std::string> metrics = {};  ///< to be reported beside those
   double tolerance = 0.1;                 ///< of "pixels": pixelmatch's threshold, [0, 1]
   bool ignoreAlpha = false;
 };

@@ -1,5 +1,4 @@
 #include "glint/gltf/mesh.h"
-#include "glint/scene/material_parameters.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +13,7 @@
 #include "glint/gltf/tangents.h"
 #include "glint/gltf/topology.h"
 #include "glint/image/task.h"
+#include "glint/scene/material_parameters.h"
 
 namespace glint::gltf {
 namespace {
@@ -39,24 +39,6 @@ bool fitsFloat(const Vector& v) {
     if (!std::isfinite(static_cast<float>(v[k]))) return false;
   }
   return true;
-}
-
-/// Brings each to length 1; gives how many have none.
-std::size_t normaliseEach(std::vector<glm::vec3>& normals) {
-  std::size_t broken = 0;
-  for (glm::vec3& normal : normals) {
-    const glm::dvec3 unit = direction(glm::dvec3(normal));
-    if (!(glm::dot(unit, unit) > 0.5)) ++broken;
-    normal = glm::vec3(unit);
-  }
-  return broken;
-}
-
-template <typename Value>
-void select(std::vector<Value>& values, const VertexList& list) {
-  if (values.empty() || list.all) return;
-  for (std::size_t i = 0; i < list.count; ++i) values[i] = values[list.ids[i]];  // ids ascend
-  values.resize(list.count);
 }
 
 class Builder {

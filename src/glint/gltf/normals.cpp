@@ -60,6 +60,16 @@ void makeFlat(Mesh& mesh) {
   }
 }
 
+std::size_t normaliseEach(std::vector<glm::vec3>& normals) {
+  std::size_t broken = 0;
+  for (glm::vec3& normal : normals) {
+    const glm::dvec3 unit = direction(glm::dvec3(normal));
+    if (!(glm::dot(unit, unit) > 0.5)) ++broken;
+    normal = glm::vec3(unit);
+  }
+  return broken;
+}
+
 std::size_t mendNormals(Mesh& mesh) {
   std::vector<std::uint32_t> broken;
   std::mutex adding;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "glint/scene/scene.h"
 
@@ -18,6 +19,9 @@ glm::dvec3 areaVector(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c
 /// Gives each triangle of a mesh its own three vertices, with the face's normal, as the standard
 /// says for meshes without normals. Faces without area get (0, 0, 1): nothing of them is seen.
 void makeFlat(Mesh& mesh);
+
+/// Brings each to length 1, those without direction to 0; gives how many these are.
+std::size_t normaliseEach(std::vector<glm::vec3>& normals);
 
 /// Normalises the normals of a triangle mesh. Those without direction become the mean of the
 /// adjacent faces' normals weighted by area, or a face's where that mean cancels. Returns how many

@@ -32,4 +32,12 @@ Elements listElements(int mode, std::vector<std::uint32_t> indices);
 /// there are: a file may draw a large accessor in many small pieces.
 VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCount);
 
+/// Leaves of each vertex's values those of the list.
+template <typename Value>
+void select(std::vector<Value>& values, const VertexList& list) {
+  if (values.empty() || list.all) return;
+  for (std::size_t i = 0; i < list.count; ++i) values[i] = values[list.ids[i]];  // ids ascend
+  values.resize(list.count);
+}
+
 }  // namespace glint::gltf

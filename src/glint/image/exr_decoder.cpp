@@ -5,15 +5,13 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfRgbaFile.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <mutex>
 
 #include "glint/image/decoders.h"
+#include "glint/image/exr_header.h"
 #include "glint/image/exr_layers.h"
 
 namespace glint::detail {
@@ -38,49 +36,6 @@ class MemoryStream : public Imf::IStream {
   std::span<const std::byte> bytes_;
   std::uint64_t at_ = 0;
 };
-
-/// How many bytes one of the file can become, at most.
-std::uint64_t largestExpansion(Imf::Compression compression) {
-  switch (compression) {
-    case Imf::NO_COMPRESSION:
-      return 1;
-    case Imf::DWAA_COMPRESSION:
-    case Imf::DWAB_COMPRESSION:
-      return 1032 * 64;  // one deflated coefficient for a block of 8 x 8
-    default:
-      return 1032;  // deflate's; the others make less
-  }
-}
-
-std::map<std::string, std::string> textOf(const Imf::Header& header) {
-  std::map<std::string, std::string> all;
-  for (auto i = header.begin(); i != header.end(); ++i) {
-    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
-    if (text && std::strcmp(i.name(), "name") != 0 && std::strcmp(i.name(), "type") != 0)
-      all[i.name()] = text->value();
-  }
-  return all;
-}
-
-/// Whether colours are said to be of other primaries or another white than sRGB's.
-bool hasOtherPrimaries(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return false;
-  const Imf::Chromaticities c = Imf::chromaticities(header), srgb;
-  const auto far = [](const Imath::V2f& a, const Imath::V2f& b) {
-    return (a - b).length() > 2e-3f;
-  };
-  return far(c.red, srgb.red) || far(c.green, srgb.green) || far(c.blue, srgb.blue) ||
-         far(c.white, srgb.white);
-}
-
-std::string primariesText(const Imf::Header& header) {
-  const Imf::Chromaticities c = Imf::chromaticities(header);
-  char text[160];
-  std::snprintf(text, sizeof text, "red %.4g,%.4g green %.4g,%.4g blue %.4g,%.4g white %.4g,%.4g",
-                double(c.red.x), double(c.red.y), double(c.green.x), double(c.green.y),
-                double(c.blue.x), double(c.blue.y), double(c.white.x), double(c.white.y));
-  return text;
-}
 
 class ExrReader {
  public:
@@ -352,31 +307,6 @@ bool isExr(std::span<const std::byte> bytes) {
 }
 
 namespace {
-
-/// The library makes room for an attribute of two gigabytes before it finds that the file ends:
-/// false where one is said to be longer than what is left.
-bool attributesFit(std::span<const std::byte> bytes) {
-  std::size_t at = 8;  // magic and version
-  const bool hasParts = bytes.size() > 5 && (bytes[5] & std::byte(0x10)) != std::byte(0);
-  const auto endOfText = [&] {
-    while (at < bytes.size() && bytes[at] != std::byte(0)) ++at;
-    return ++at <= bytes.size();
-  };
-  for (std::size_t header = at; at < bytes.size();) {
-    if (bytes[at] == std::byte(0)) {  // the end of a header; of several, an empty one is the last
-      if (!hasParts || at == header) return true;
-      header = ++at;
-      continue;
-    }
-    if (!endOfText() || !endOfText() || bytes.size() - at < 4) return false;
-    std::uint32_t size = 0;
-    for (std::size_t i = 0; i < 4; ++i) size |= std::uint32_t(bytes[at + i]) << (8 * i);
-    at += 4;
-    if (size > bytes.size() - at) return false;
-    at += size;
-  }
-  return false;
-}
 
 /// Runs `read`, whose errors of the library become ours.
 template <class Read>

@@ -1,6 +1,5 @@
 #include "glint/image/metrics.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +13,7 @@ double peakSignalToNoise(const ValueSums& s) {
   return rmse == 0 ? std::numeric_limits<double>::infinity() : 0 - 20 * std::log10(rmse);
 }
 
-constexpr std::array<MetricRow, 9> metrics{{
+constexpr MetricRow metrics[] = {
     {"max", [](const ValueSums& s) { return s.count > 0 ? s.largest : std::nan(""); }},
     {"mean", [](const ValueSums& s) { return s.absolute / double(s.count); }},
     {"rmse", [](const ValueSums& s) { return rootOfMean(s.square, s.count); }},
@@ -24,7 +23,7 @@ constexpr std::array<MetricRow, 9> metrics{{
     {"ssim", nullptr, true},
     {"flip"},
     {"hdr-flip"},
-}};
+};
 
 }  // namespace
 

@@ -24,7 +24,7 @@ struct PictureFormat {
 std::span<const PictureFormat> pictureFormats();
 const PictureFormat& pictureFormat(PictureFormat::Id);
 
-/// The format that the ending of a file's name tells, in any case; null if it tells none.
+/// The format by the ending of a file's name, in upper or lower case; null if there is none.
 const PictureFormat* pictureFormatOf(std::string_view path);
 
 /// The format that the first bytes of a file are of, of those that are read; null if of none.

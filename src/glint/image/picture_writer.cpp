@@ -50,7 +50,7 @@ void checkPictureName(const std::string& path, const PictureOptions& options) {
   if (format && format->isWritten) return;
   throw InputError(name + ": " +
                    (format ? std::string(format->name) + " is not written"
-                           : "the ending tells no known format") +
+                           : "the ending is that of no known format") +
                    ": use " + writtenEndings());
 }
 

@@ -15,8 +15,8 @@ std::uint32_t bigEndian(const std::byte* p) {
          std::uint32_t(p[3]);
 }
 
-/// The compressed pixels of a PNG whose chunks are all whole, those before the pixels known to
-/// change no code.
+/// Finds the compressed pixels of a PNG: `pixels`, joined in `joined` where they lie in several
+/// chunks. False where a chunk is damaged or would change what the codes mean (tRNS).
 bool gather(std::span<const std::byte> png, std::vector<std::byte>& joined,
             std::span<const std::byte>& pixels) {
   bool ended = false;

@@ -18,7 +18,7 @@
 namespace glint::detail {
 namespace {
 
-// How filters and levels do on 1024 x 1024 RGB, one thread (ms, kB): a Phong-shaded sphere with
+// What filters and levels cost on 1024 x 1024 RGB, one thread (ms, kB): a Phong-shaded sphere with
 // a noisy quarter on a flat background, and the same sphere textured and noisy all over. 16-bit:
 // the first picture. Shading quantised to 8 bits has equal neighbours, which filters break up; the
 // lower bytes of 16 bits are noise unless the row above is taken off.
@@ -190,7 +190,7 @@ class PngWriter : public PictureWriter {
     }
   }
 
-  /// The library's way out; exceptions must not pass through it.
+  /// What the library hands its output to; exceptions must not pass through it.
   static int take(spng_ctx*, void* user, void* bytes, std::size_t length) {
     auto* self = static_cast<PngWriter*>(user);
     try {

@@ -23,7 +23,7 @@ std::uint64_t mixed(std::uint64_t state, std::uint64_t word) {
   return state ^ (state >> 29);
 }
 
-/// Of a regular file; empty for others and where there is none.
+/// The key of a regular file; empty where there is none, or something else.
 std::optional<std::uint64_t> fileKey(int folder, const char* path, int flags) {
   struct statx status {};
   if (::statx(folder, path, flags, STATX_BASIC_STATS | STATX_BTIME, &status) != 0) return {};

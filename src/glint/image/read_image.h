@@ -10,7 +10,7 @@
 
 namespace glint {
 
-/// Reads a picture to linear light; the format is told by the file's first bytes.
+/// Reads a picture to linear light; the format is found by the file's first bytes.
 ///
 /// PNG: all colour types and depths, text chunks. JPEG, WebP: as decodeTexture(). PPM and PGM
 /// (binary), BMP, TGA, TIFF (its first page). Colours of all these are taken as sRGB whatever the

@@ -20,7 +20,7 @@ struct ByteImage {
 /// Whether this build reads WebP.
 bool canDecodeWebp();
 
-/// What the first bytes of a picture tell of it, before memory is spent on its pixels.
+/// What the first bytes of a picture say of it, before memory is spent on its pixels.
 struct TextureHeader {
   int width = 0;
   int height = 0;
@@ -35,7 +35,7 @@ TextureHeader textureHeader(std::span<const std::byte> bytes, const std::string&
 
 /// Decodes a PNG (all colour types and depths; 16 bits lose the lower 8) or a JPEG (grey, YCbCr,
 /// RGB, CMYK and YCCK by the usual naive conversion); or a WebP,
-/// where canDecodeWebp(); the format is told by the first bytes. `name`
+/// where canDecodeWebp(); the format is found by the first bytes. `name`
 /// stands in the messages. Nothing is printed.
 ///
 /// With `halvings` it is made smaller as rows are read (RowReducer); `isData`: its values are

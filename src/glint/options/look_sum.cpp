@@ -62,7 +62,7 @@ Look lookFrom(const GivenOptions& options) {
   }
   mergeMaterials(look, materials);
   if (!look.hdriFile.empty()) noteReadFile(look.hdriFile);
-  costTableFor(look);  // so that a broken one is told at once, and where nothing is chosen, too
+  costTableFor(look);  // so that a broken one is reported at once, and where nothing is chosen, too
   return look;
 }
 

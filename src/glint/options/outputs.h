@@ -22,8 +22,8 @@ bool isSameFile(const std::string& a, const std::string& b);
 /// has been noted before (glint/image/read_files.h). The inputs are noted.
 void checkOutputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
 
-/// The folder of --output, made before the work, so that what cannot be made is told at once. What
-/// it had to make is gone again with it where nothing was written there.
+/// The folder of --output, made before the work, so that what cannot be made is reported at once.
+/// What it had to make is gone again with it where nothing was written there.
 class OutputFolder {
  public:
   /// Throws InputError.

@@ -15,12 +15,12 @@ struct PictureOrigin {
   std::string modelHash;        ///< of modelHash(); empty where it is not known
   std::optional<GlStrings> gl;  ///< of the driver; the reference has none
   int bitDepth = 8;
-  /// What else tells it from other pictures of the model and the look: "turntable 3/36". Empty for
-  /// a plain picture.
+  /// What else distinguishes it from other pictures of the model and the look: "turntable 3/36".
+  /// Empty for a plain picture.
   std::string variation;
 };
 
-/// What tells whether a picture is already there: a hash of the program's version, the look, the
+/// By which a picture is known to be there already: a hash of the program's version, the look, the
 /// model's hash, the bit depth, the variation, and whether the reference drew it. The driver does
 /// not count.
 std::string pictureKey(const Look& look, const PictureOrigin&);

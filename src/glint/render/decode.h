@@ -22,24 +22,24 @@ struct DecodedImage {
 using DecodedImages = std::map<int, DecodedImage>;
 
 /// Textures are this long a side at most; longer ones are halved while they are read, so that every
-/// way of drawing has the same ones. Drivers of today have textures of this size.
+/// way of drawing has the same ones. Today's drivers support that size.
 inline constexpr int maxTextureSide = 16384;
 
 /// Whether some material's sampler reads an image's smaller levels.
 bool readsMipLevels(const Scene&, int image);
 
-/// The most bytes that the textures of one model may take decoded, for the whole process; 0 is the
-/// rule that stands otherwise: 256 MiB, or 128 times their bytes in the file where that is more.
+/// The most bytes that the textures of one model may take decoded, for the whole process; 0 for
+/// the usual rule: 256 MiB, or 128 times their bytes in the file where that is more.
 void limitDecoding(std::uint64_t bytes);
 
-/// The limit that stands, for pictures of so many bytes in their files.
+/// The limit in force, for pictures of so many bytes in their files.
 std::uint64_t decodeLimit(std::uint64_t encoded);
 
 /// Decodes the images that the look reads, in as many threads as there are processors. A broken one
 /// becomes a warning of the scene and its materials lose the texture; of meshes whose materials
 /// blend it finds out whether all texels that they show are opaque.
 ///
-/// What they will take is told by their headers before anything is decoded. Where that is more than
+/// Their headers say how much they will take before anything is decoded. Where that is more than
 /// the limit, textures that are larger than the look's picture can show (twice its longer side, and
 /// 1024 at least) are halved while they are read, the largest first, with a warning; where that is
 /// not enough, an InputError names the largest. Warns of texels of

@@ -41,7 +41,7 @@ struct Variant {
   HighlightForm highlight;
   bool specularAntialiasing = false;  ///< the exponent is filtered, pixel by pixel
   bool toksvig = false;               ///< by the normal map's levels, not by how normals turn
-  /// Lights that have another form, the same as ever from a light of each type on.
+  /// A form of dimmer lights: it holds from one light of each type on, up to where the next begins.
   struct Dimmer {
     HighlightForm form;
     int directional = 0, point = 0, spot = 0;  ///< the first of them, counted by type
@@ -57,7 +57,7 @@ struct Variant {
   bool normalTexture = false;  ///< per-pixel programs where light or environment reads the normal
   bool emission = false, emissionTexture = false;
   bool alphaMask = false, alphaBlend = false;
-  /// How those that are read are looked up: of colour, emission, normals, and the four textures of
+  /// How the textures that are read are sampled: colour, emission, normals, then the four of
   /// parameters in their order.
   std::array<Sampler, 7> samplers{};
   /// Parameters that come from textures, as bits of namespace textured: those that the program
@@ -71,7 +71,7 @@ struct Variant {
   /// The highlight is normalised in the shader, since a texture gives what that depends on;
   /// otherwise the material's numbers hold the factor.
   bool normalized = false;
-  Normalization normalization = Normalization::none;  ///< of that
+  Normalization normalization = Normalization::none;  ///< the one that the shader computes
   // The program environment alone:
   Environment environment = Environment::studio;
   Fresnel fresnel = Fresnel::exact;
@@ -81,7 +81,7 @@ struct Variant {
   bool multisampled = false;  ///< shaded where the triangle covers samples
   PixelOutput output = PixelOutput::radiance;
 
-  /// For what is not shaded.
+  /// Take out what only shading, or only the picture itself, reads.
   void dropParameterTextures();
   void dropEmission();
 

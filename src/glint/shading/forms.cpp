@@ -37,14 +37,14 @@ double textbookRounding(double n1, double n2, double) {
   return n2 > n1 ? std::min(1e-6 + 1e-7 / ((n2 - n1) / n1), 1.0) : 1.0;
 }
 
-constexpr std::array<ShadingRow, 6> shadings{{
+constexpr ShadingRow shadings[] = {
     {Shading::flat, "flat", false, false},
     {Shading::gouraud, "gouraud", false, false},
     {Shading::phong, "phong", true, false},
     {Shading::blinnPhong, "blinn-phong", true, true},
     {Shading::environment, "environment", true, true},
     {Shading::automatic, "auto", true, false},
-}};
+};
 
 // What the forms cost, as costs.h says; it ships with the project.
 constexpr double exactCosts[] = {100};
@@ -59,7 +59,7 @@ constexpr double tableCosts[] = {84, 84, 84, 84, 84, 84, 84};
 // Missing initialisers are meant: a row says what is not the default.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-constexpr std::array<HighlightRow, 10> highlights{{
+constexpr HighlightRow highlights[] = {
     {.form = Highlight::exact,
      .name = "exact",
      .atZero = true,
@@ -149,12 +149,12 @@ constexpr std::array<HighlightRow, 10> highlights{{
      .value = [](double, double, int) { return 0.0; },
      .formulaBound = [](double, int) { return 1.0; },
      .rounding = [](double, int) { return 0.0; }},
-}};
+};
 #pragma GCC diagnostic pop
 
 constexpr auto usualRounding = [](double, double, double) { return 1e-6; };
 
-constexpr std::array<FresnelRow, 5> fresnels{{
+constexpr FresnelRow fresnels[] = {
     {Fresnel::exact, "exact", "fresnelExact(cosine, boundary)",
      [](double c, const ReflectanceInput& i) { return fresnelExact(c, i.constants); }, false,
      usualRounding, &ReflectanceCosts::exact},
@@ -175,7 +175,7 @@ constexpr std::array<FresnelRow, 5> fresnels{{
        return schlickRational(c, i.constants, i.rationalSlope);
      },
      true, [](double, double, double) { return 1.5e-6; }, &ReflectanceCosts::rational},
-}};
+};
 
 }  // namespace
 

@@ -14,15 +14,22 @@
 namespace glint::stability {
 namespace {
 
-/// A scene of the program `environment` in a white room whose only light is what is reflected.
-PointScene boundaryScene(Bench& bench, double mediumIor, double ior, bool twoSided = false) {
+/// The program `environment` in a white room whose only light is what is reflected.
+Look whiteRoom(Bench& bench, double mediumIor = 1, bool twoSided = false) {
   Look look = bench.look(Shading::environment);
   look.noLights = true;
   look.mediumIor = mediumIor;
   look.twoSided = twoSided;
+  return look;
+}
+
+/// What shows only its surroundings, a metal or what lets light through.
+Material boundary(double ior, double transmission = 0, double metalness = 0,
+                  const glm::dvec3& color = glm::dvec3(1)) {
   Material material;
-  material.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
-  return {look, material};
+  material.shading = {0, 0, 0, 1, metalness, ior, color};
+  material.shading.transmission = transmission;
+  return material;
 }
 
 /// Driver and reference for light that comes from the index n1: entering, n1 is the medium's.
@@ -33,8 +40,8 @@ struct Reflected {
 
 Reflected reflected(Bench& bench, double n1, double n2, const std::vector<float>& cosines,
                     bool entering = true) {
-  const PointScene scene =
-      entering ? boundaryScene(bench, n1, n2) : boundaryScene(bench, n2, n1, true);
+  const PointScene scene(whiteRoom(bench, entering ? n1 : n2, !entering),
+                         boundary(entering ? n2 : n1));
   return {bench.programs().reflectance(scene, cosines, entering),
           referenceReflectance(scene, cosines, entering)};
 }
@@ -94,15 +101,10 @@ void k1(Bench& bench, Record& record) {
   const auto t = refract(i, {0, 0, 1}, 1.5, 1.5);
   record.that("the refracted direction is the incident one", t && *t == i);
   // A clear pane of equal index shows the room as if it were not there.
-  Look look = bench.look(Shading::environment);
-  look.noLights = true;
-  Material pane;
-  pane.shading = {0, 0, 0, 1, 0, 1.0, glm::dvec3(1)};
-  pane.shading.transmission = 1;
   Points points;
   points.add({0, 0, 1}, {0.9f, 0, -0.01f});
   record.near("radiance through a pane of equal index in a white room",
-              bench.programs().shade({look, pane}, points)[0].x, 1, 1e-6);
+              bench.programs().shade({whiteRoom(bench), boundary(1, 1)}, points)[0].x, 1, 1e-6);
 }
 
 void k2(Bench& bench, Record& record) {
@@ -163,13 +165,9 @@ void k8(Bench& bench, Record& record) {
   for (const auto& [a, b] : pairs)
     expectReflectance(bench, record, a, b, {-0.2f, -1, -1e-6f}, {1, 1, 1}, fresnelTolerance);
   // A metal's normal turned away: in a white room it is white, not brighter.
-  Look look = bench.look(Shading::environment);
-  look.noLights = true;
-  Material metal;
-  metal.shading = {0, 0, 0, 1, 1, 1.5, glm::dvec3(0.5, 0.25, 0)};
   Points points;
   points.add({0, 0, 1}, {0.6f, 0, 0.8f});
-  const PointScene scene(look, metal);
+  const PointScene scene(whiteRoom(bench), boundary(1.5, 0, 1, {0.5, 0.25, 0}));
   const glm::vec3 got = bench.programs().shade(scene, points)[0];
   for (int i = 0; i < 3; ++i) {
     record.near("a metal at cosine -0.8, component " + std::to_string(i), got[i], 1, 1e-6);
@@ -187,24 +185,22 @@ void k9(Bench& bench, Record& record) {
   }
 }
 
-/// Refraction along the surface, seen in an environment that depends on the direction.
-void expectFiniteRefraction(Bench& bench, Record& record, double ior) {
-  Look look = bench.look(Shading::environment);
-  look.environment = Environment::sky;
-  look.noLights = true;
-  look.twoSided = true;
-  Material clear;
-  clear.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
-  clear.shading.transmission = 1;
+/// Seen from inside a boundary, at cosines of incidence.
+Points fromInside(const std::vector<double>& cosines) {
   Points points;
   points.front = false;
-  const double critical = criticalCosine(ior, 1);
-  for (int i = -200; i <= 200; ++i) {
-    const double c = critical * (1 + 3e-8 * i);
-    points.add({0, 0, -1}, glm::vec3(std::sqrt((1 - c) * (1 + c)), 0, -c));
-  }
+  for (double c : cosines) points.add({0, 0, -1}, glm::vec3(std::sqrt((1 - c) * (1 + c)), 0, -c));
+  return points;
+}
+
+/// Refraction along the surface, seen in an environment that depends on the direction.
+void expectFiniteRefraction(Bench& bench, Record& record, double ior) {
+  Look look = whiteRoom(bench, 1, true);
+  look.environment = Environment::sky;
+  std::vector<double> cosines;
+  for (int i = -200; i <= 200; ++i) cosines.push_back(criticalCosine(ior, 1) * (1 + 3e-8 * i));
   int wrong = 0;
-  for (const glm::vec3& c : bench.programs().shade({look, clear}, points))
+  for (const glm::vec3& c : bench.programs().shade({look, boundary(ior, 1)}, fromInside(cosines)))
     wrong += !(c.x >= 0 && c.x <= 10 && c.y >= 0 && c.y <= 10 && c.z >= 0 && c.z <= 10);
   record.near("radiances around the critical angle of " + numberText(ior) +
                   " in the sky that are not finite",
@@ -230,33 +226,16 @@ void k10(Bench& bench, Record& record) {
 std::vector<glm::vec3> throughFromInside(Bench& bench, double ior,
                                          const std::vector<double>& cosines,
                                          std::vector<glm::dvec3>* reference = nullptr) {
-  Look look = bench.look(Shading::environment);
-  look.noLights = true;
-  look.twoSided = true;
-  Material clear;
-  clear.shading = {0, 0, 0, 1, 0, ior, glm::dvec3(1)};
-  clear.shading.transmission = 1;
-  Points points;
-  points.front = false;
-  for (double c : cosines) points.add({0, 0, -1}, glm::vec3(std::sqrt((1 - c) * (1 + c)), 0, -c));
-  const PointScene scene(look, clear);
+  const Points points = fromInside(cosines);
+  const PointScene scene(whiteRoom(bench, 1, true), boundary(ior, 1));
   if (reference) *reference = referenceShade(scene, points);
   return bench.programs().shade(scene, points);
 }
 
 /// Half a metal in total reflection: what is not reflected is not refracted either.
 void expectNoRefraction(Bench& bench, Record& record) {
-  Look look = bench.look(Shading::environment);
-  look.noLights = true;
-  look.twoSided = true;
-  Material half;
-  half.shading = {0, 0, 0, 1, 0.5, 1.5, glm::dvec3(0.5)};
-  half.shading.transmission = 1;
-  Points points;
-  points.front = false;
-  const double c = 0.5;
-  points.add({0, 0, -1}, glm::vec3(std::sqrt(1 - c * c), 0, -c));
-  const PointScene scene(look, half);
+  const Points points = fromInside({0.5});
+  const PointScene scene(whiteRoom(bench, 1, true), boundary(1.5, 1, 0.5, glm::dvec3(0.5)));
   // 1/2 of 1, and 1/2 of C + (1 - C)(1 - c)^5.
   const double expected = 0.5 + 0.5 * (0.5 + 0.5 * std::pow(0.5, 5));
   record.near("half a metal in total reflection", bench.programs().shade(scene, points)[0].x,
@@ -328,12 +307,9 @@ void k14(Bench& bench, Record& record) {
 
 void k15(Bench& bench, Record& record) {
   const float c = float(std::cos(40 * degrees));
-  Look look = bench.look(Shading::environment);
+  Look look = whiteRoom(bench, 1.5);
   look.fresnel = Fresnel::schlick;
-  look.noLights = true;
-  look.mediumIor = 1.5;
-  Material material;
-  material.shading = {0, 0, 0, 1, 0, 1.0, glm::dvec3(1)};
+  const Material material = boundary(1);
   const float got = bench.programs().reflectance({look, material}, {c}, true)[0];
   // From the denser side with the refracted cosine: 0.2456; with that of incidence it would be
   // 0.0407, while Fresnel's value is 0.2453.
