@@ -22,7 +22,7 @@ TEST(CostMeasurementOnGl, FillsATable) {
   const CostTable& t = measured.file.costs;
   EXPECT_EQ(t.lobe(Highlight::exact, 1), 100);
   // Each is what was measured, and not what ships.
-  EXPECT_EQ(measured.lobes.size(), 2 + 5 + 3 * 7 + 1u);
+  EXPECT_EQ(measured.lobes.size(), 2 + 5 + 3 * 7 + 1 + 7u);
   EXPECT_EQ(measured.reflectances.size(), 2 * 6u);
   for (const MeasuredCost& c : measured.lobes) EXPECT_GE(c.inTable, 1) << c.form;
   for (const MeasuredCost& c : measured.reflectances) EXPECT_GE(c.inTable, 0) << c.form;
