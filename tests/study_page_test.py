@@ -93,7 +93,7 @@ def test_draws_the_series(browser):
     assert names == ["exponent", "aliasing", "distance", "motion", "bumps", "bumps-motion", "ior", "incidence",
                      "fineness", "lights", "resolution"], names
     plots = browser.evaluate("[...document.querySelectorAll('.series')].map(s => s.querySelectorAll('svg').length)")
-    assert plots == [3, 2, 2, 2, 2, 2, 3, 3, 3, 3, 2], plots
+    assert plots == [3, 2, 3, 2, 3, 2, 3, 3, 3, 3, 2], plots
     assert not browser.evaluate("document.body.innerHTML.includes('NaN')")
     assert browser.evaluate("document.querySelectorAll('#specialisation tr').length") == 5
     # Exact and two cheap lobes of two models with and without the filter, the exact one of three
