@@ -54,7 +54,7 @@ constexpr double lyonCosts[] = {22, 24, 26, 27, 28, 29, 30};
 constexpr double lyonCrossCosts[] = {26, 27, 28, 29, 30, 32, 33};
 constexpr double padeCosts[] = {29, 30, 31, 32, 33, 35, 38};
 constexpr double gaussianCosts[] = {34};
-constexpr double tableCosts[] = {84, 84, 84, 84, 84, 84, 84};
+constexpr double tableCosts[] = {90, 90, 90, 90, 90, 90, 90};
 
 // Missing initialisers are meant: a row says what is not the default.
 #pragma GCC diagnostic push
