@@ -334,7 +334,7 @@ bool GpuScene::hasImage(int image, bool withNormalLengths) const {
   return shared_ && shared_->hasImage(image, withNormalLengths);
 }
 
-void GpuScene::addImages(DecodedImages images) {
+void GpuScene::addImages(DecodedImages&& images) {
   for (auto& [image, decoded] : images) {
     textures_.erase(image);
     images_.insert_or_assign(image, std::move(decoded));

@@ -55,7 +55,7 @@ class GpuScene {
   /// with the lengths of its normals.
   bool hasImage(int image, bool withNormalLengths) const;
   /// Those that are there already are replaced.
-  void addImages(DecodedImages images);
+  void addImages(DecodedImages&& images);
 
   const Scene& scene() const { return *scene_; }
 
