@@ -157,6 +157,16 @@ inline Parameter slider(Parameter p, double min, double max, bool logarithmic, d
   return p;
 }
 
+// A choice that is a switch too: its name alone, or true, says `on`, and false `off`.
+inline Parameter switchable(Parameter p, std::string off, std::string on) {
+  p.words = p.choices();
+  p.value.clear();
+  p.read = [=, read = std::move(p.read)](Look& look, const std::string& text) {
+    read(look, text == "true" ? on : text == "false" ? off : text);
+  };
+  return p;
+}
+
 // A row of which something else follows when it is set.
 inline Parameter then(Parameter p, void (*follow)(Look&)) {
   p.read = [=, read = std::move(p.read)](Look& look, const std::string& text) {

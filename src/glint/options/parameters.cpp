@@ -362,11 +362,14 @@ std::vector<Parameter> makeTable() {
                      },
                      [](const Look& look) { return Json(antiAliasingText(look.antiAliasing)); }),
                  &Look::antiAliasing),
-       choice("specular-antialiasing", specularAntialiasingNames, &Look::specularAntialiasing,
-              "widen highlights that are narrower than what a pixel sees of the normals, and dim "
-              "them to the same light, so that they do not flicker: kaplanyan by how far the "
-              "normals turn over the pixel, toksvig by how far those are apart that a smaller "
-              "level of the normal map stands for; of programs that shade pixels"),
+       switchable(
+           choice("specular-antialiasing", specularAntialiasingNames, &Look::specularAntialiasing,
+                  "widen highlights that are narrower than what a pixel sees of the normals, "
+                  "and dim them to the same light, so that they do not flicker: alone or "
+                  "=kaplanyan by how far the normals turn over the pixel, =toksvig by how far "
+                  "those are apart that a smaller level of the normal map stands for, =none "
+                  "not; of programs that shade pixels"),
+           "none", "kaplanyan"),
        color("background-color", &Look::backgroundColor, "colour behind the model"),
        flag("no-background", &Look::noBackground, "transparent background"),
        slider(number("exposure", "EV", -64, 64, &Look::exposure,

@@ -35,7 +35,9 @@ using ParameterValue = std::variant<std::monostate, double, bool, std::size_t, g
 struct Parameter {
   std::string name;     ///< of the option and of the key in a look file
   std::string section;  ///< heading in help and panel
-  std::string value;    ///< what stands for the value in help, such as "x,y,z"; empty for a flag
+  /// What stands for the value in help, such as "x,y,z"; empty for a flag and for a choice whose
+  /// name alone says one (--name, or --name=WORD).
+  std::string value;
   std::string help;
   bool repeatable = false;
   double min = 0.0, max = 0.0;  ///< of numbers and of each component; both 0 if it has none
