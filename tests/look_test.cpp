@@ -702,4 +702,13 @@ TEST(MaterialEdits, OfMaterialsThatDoNotExistAreRefused) {
               AllOf(HasSubstr("'B'"), HasSubstr("use one of 'a'")));
 }
 
+TEST(SpecularAntialiasingOption, AloneIsASwitch) {
+  const auto of = [](const std::string& text) {
+    return lookFrom({{"specular-antialiasing", text}}).specularAntialiasing;
+  };
+  EXPECT_EQ(of("true"), SpecularAntialiasing::kaplanyan);  // as the command line has a name alone
+  EXPECT_EQ(of("false"), SpecularAntialiasing::none);
+  EXPECT_EQ(of("toksvig"), SpecularAntialiasing::toksvig);
+}
+
 }  // namespace glint::test::look_test
