@@ -12,6 +12,7 @@
 #include "glint/gl/context.h"
 #include "glint/gl/framebuffer.h"
 #include "glint/gl/program.h"
+#include "glint/gl/queue_limit.h"
 #include "glint/image/error.h"
 
 using testing::AllOf;
@@ -172,6 +173,18 @@ TEST_P(OnBackend, ReadsAPartFromTheTop) {
             << x << "," << y;
   }
   GLINT_GLAD_GL_MESA_pack_invert = drivers;
+}
+
+TEST_P(OnBackend, QueueIsLeftForWholeTriangles) {
+  glint::QueueLimit queue;
+  const std::size_t most = queue.room();
+  for (const std::size_t indices : {std::size_t(1), std::size_t(100), std::size_t(2), most - 1}) {
+    queue.drawn(indices);
+    EXPECT_GT(queue.room(), 0u);
+    EXPECT_EQ(queue.room() % 3, 0u) << indices;
+  }
+  EXPECT_EQ(queue.room(), most);  // the portion was full, and another began
+  glint::checkGl("waiting");
 }
 
 TEST_P(OnBackend, RefusesMoreSamplesThanTheDriverHas) {

@@ -24,7 +24,7 @@ class QueueLimit {
   /// So many indices were drawn. Waits, where it was the last of a portion, until the portion
   /// before is drawn, so that there is always work.
   void drawn(std::size_t indices) {
-    queued_ += indices;
+    queued_ += (indices + 2) / 3 * 3;  // of points and lines too: what is left is whole triangles
     if (queued_ < most) return;
     queued_ = 0;
     const GLsync after = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
