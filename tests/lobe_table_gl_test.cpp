@@ -59,7 +59,9 @@ TEST_P(LobeTable, IsThatInDouble) {
         const Image exact = ReferenceRenderer(scene, {}, boundsOf(scene), look).draw();
         EXPECT_LE(largestDifference(truth, exact),
                   0.5 * 1.5 * lobeFormulaBound(Highlight::table, steps, n) + 1e-6);
-        if (tableBound(n, steps) > 0.1) EXPECT_GT(largestDifference(truth, exact), 0.001);
+        if (tableBound(n, steps) > 0.1) {
+          EXPECT_GT(largestDifference(truth, exact), 0.001);
+        }
       }
 }
 

@@ -14,7 +14,9 @@ namespace mediump_gl_test {
 TEST(Mediump, IsFoundOutByWhatIsLost) {
   const MediumpReport report = mediumpOfDriver();
   EXPECT_FALSE(report.renderer.empty());
-  if (report.renderer.starts_with("llvmpipe (LLVM 15")) EXPECT_FALSE(report.isHalf);
+  if (report.renderer.starts_with("llvmpipe (LLVM 15")) {
+    EXPECT_FALSE(report.isHalf);
+  }
   // OpenGL's own functions are loaded again by whoever comes next.
   const auto context = openContext(Backend::eglSoftware);
   context->makeCurrent();
