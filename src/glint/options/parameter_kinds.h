@@ -158,7 +158,7 @@ inline Parameter slider(Parameter p, double min, double max, bool logarithmic, d
 }
 
 // A choice that is a switch too: its name alone, or true, says `on`, and false `off`.
-inline Parameter switchable(Parameter p, std::string off, std::string on) {
+inline Parameter switchable(Parameter p, const std::string& off, const std::string& on) {
   p.words = p.choices();
   p.value.clear();
   p.read = [=, read = std::move(p.read)](Look& look, const std::string& text) {
