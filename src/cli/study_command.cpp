@@ -163,7 +163,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
     writeText(given.output + "/study.json", jsonText);
     writeText(given.output + "/study.csv", studyCsv(result));
     writeText(given.output + "/study.svg", studyPlot(json));
-    writeText(given.output + "/study.html", studyPage(json, result, options.look));
+    writeText(given.output + "/study.html", studyPage(json, result));
   }
   return done;
 }

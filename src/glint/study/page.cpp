@@ -1,130 +1,18 @@
 #include "glint/study/page.h"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "glint/image/flip.h"
-#include "glint/image/png_bytes.h"
 #include "glint/image/report_page.h"
-#include "glint/image/srgb.h"
-#include "glint/scene/look_text.h"
 
 namespace glint {
 
 extern const ReportPage studyPageText;  // study_page.html
 
-namespace {
-
-/// Larger pictures are made smaller by a whole factor.
-constexpr int mostPixels = 400;
-
-int shrinking(const Image& image) {
-  return (std::max(image.width, image.height) + mostPixels - 1) / mostPixels;
-}
-
-/// Calls use(place in the small picture, the pixels of the block that it stands for).
-template <class Use>
-void forBlocks(const Image& image, int factor, const Use& use) {
-  const int width = (image.width + factor - 1) / factor;
-  const int height = (image.height + factor - 1) / factor;
-  std::vector<std::size_t> block;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      block.clear();
-      for (int v = y * factor; v < std::min(image.height, (y + 1) * factor); ++v)
-        for (int u = x * factor; u < std::min(image.width, (x + 1) * factor); ++u)
-          block.push_back(std::size_t(v) * std::size_t(image.width) + std::size_t(u));
-      use(std::size_t(y) * std::size_t(width) + std::size_t(x), block);
-    }
-}
-
-/// The mean of each block, encoded.
-std::vector<std::byte> pngOfPicture(const Image& opaque, double exposure) {
-  const int factor = shrinking(opaque);
-  const int width = (opaque.width + factor - 1) / factor;
-  const int height = (opaque.height + factor - 1) / factor;
-  std::vector<std::uint8_t> rgb(std::size_t(3) * std::size_t(width) * std::size_t(height));
-  forBlocks(opaque, factor, [&](std::size_t at, const std::vector<std::size_t>& block) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0;
-      for (const std::size_t pixel : block) sum += double(opaque.values[4 * pixel + c]);
-      rgb[3 * at + c] = encodeSrgb8(float(exposure * sum / double(block.size())));
-    }
-  });
-  return pngOfRgb(rgb, width, height);
-}
-
-/// Decades of the error map: from 1e-7, rounding, to 1.
-constexpr double decades = 7;
-constexpr int shades = 64;
-
-/// The largest error of each block on a logarithmic scale; grey where nothing is compared.
-std::vector<std::byte> pngOfErrors(const Image& picture, const StudyMask& mask,
-                                   const Radiances& truth) {
-  std::vector<float> errors(picture.values.size() / 4, -1.0f);
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    const float* p = picture.values.data() + 4 * std::size_t(mask.pixels[i]);
-    double worst = 0;
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(double(p[c]) - truth[i][c]));
-    errors[mask.pixels[i]] = std::isnan(worst) ? 1.0f : float(worst);
-  }
-  std::vector<std::array<std::uint8_t, 3>> palette(shades + 1);
-  for (int i = 0; i < shades; ++i) magma(float(i) / (shades - 1), palette[std::size_t(i)].data());
-  palette[shades] = {96, 96, 96};
-  const int factor = shrinking(picture);
-  const int width = (picture.width + factor - 1) / factor;
-  const int height = (picture.height + factor - 1) / factor;
-  std::vector<std::uint8_t> indices(std::size_t(width) * std::size_t(height));
-  forBlocks(picture, factor, [&](std::size_t at, const std::vector<std::size_t>& block) {
-    float worst = -1;
-    for (const std::size_t pixel : block) worst = std::max(worst, errors[pixel]);
-    const double share = 1 + std::log10(std::max(double(worst), 1e-9)) / decades;
-    indices[at] = worst < 0 ? std::uint8_t(shades)
-                            : std::uint8_t(std::lround(std::clamp(share, 0.0, 1.0) * (shades - 1)));
-  });
-  return pngOfIndices(indices, width, height, palette);
-}
-
-const Radiances* truthOf(const StudyResult& result, Shading model) {
-  for (const auto& [program, values] : result.truths)
-    if (program == model) return &values;
-  return nullptr;
-}
-
-}  // namespace
-
-std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& result,
-                      const Look& look) {
-  const double exposure = std::exp2(look.exposure);
+std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& result) {
   std::string page(studyPageText.begin);
   page += jsonElement("data",
                       json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
-  for (const auto& [model, truth] : result.truths) {
-    // Whose pixels outside the mask are shown makes no difference: those of the exact form.
-    const auto found =
-        std::find_if(result.variants.begin(), result.variants.end(),
-                     [wanted = model](const VariantResult& v) {  // Clang 14 captures no binding
-                       return modelOf(v.variant.program) == wanted;
-                     });
-    if (found == result.variants.end() || found->picture.values.empty()) continue;
-    page += base64Element(
-        "truth-" + std::string(shadingName(model)),
-        pngOfPicture(overBackground(found->picture, look.backgroundColor, result.mask, &truth),
-                     exposure));
-  }
-  for (std::size_t i = 0; i < result.variants.size(); ++i) {
-    const VariantResult& v = result.variants[i];
-    if (v.picture.values.empty()) continue;
-    page += base64Element(
-        "picture-" + std::to_string(i),
-        pngOfPicture(overBackground(v.picture, look.backgroundColor, result.mask), exposure));
-    for (const VariantError& e : v.errors)
-      if (const Radiances* truth = truthOf(result, e.against))
-        page +=
-            base64Element("error-" + std::to_string(i) + "-" + std::string(shadingName(e.against)),
-                          pngOfErrors(v.picture, result.mask, *truth));
-  }
+  for (const PagePicture& picture : result.pictures) page += base64Element(picture.id, picture.png);
   return page.append(studyPageText.end);
 }
 

@@ -9,8 +9,7 @@ namespace glint {
 
 /// The report to be looked at: one HTML page that needs no other file. `json` is that of studyJson;
 /// the result has its pictures.
-std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& result,
-                      const Look& look);
+std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& result);
 
 /// The plot of time against the RMSE with the front, of the first model, as an SVG file.
 std::string studyPlot(const nlohmann::ordered_json& json);

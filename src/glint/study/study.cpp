@@ -10,6 +10,7 @@
 #include "glint/image/error.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
+#include "glint/study/page_pictures.h"
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
 
@@ -110,14 +111,33 @@ class Study {
       pictures_.push_back(renderer_->begin(gpu_, std::move(list), v.variant.look));
       v.compile = pictures_.back().times().compile;
       v.firstFrame = timeOnce(pictures_.back());
-      Image picture = renderer_->draw(gpu_, pictures_.back().list(), v.variant.look);
+      const Image picture = renderer_->draw(gpu_, pictures_.back().list(), v.variant.look);
       errorsOf(v, picture);
-      if (options_.keepPictures) v.picture = std::move(picture);
+      if (options_.keepPictures) keepPictures(v, number - 1, picture);
     }
-    if (options_.keepPictures)
-      for (const auto& [program, values] : truths_)
-        if (program == modelOf(program)) result_.truths.emplace_back(program, values);
     return true;
+  }
+
+  void keepPictures(const VariantResult& v, std::size_t number, const Image& picture) {
+    const auto id = [](const char* kind, const std::string& which) {
+      return std::string(kind) + "-" + which;
+    };
+    const auto keep = [&](std::string name, const Radiances* at) {
+      result_.pictures.push_back(
+          {std::move(name),
+           pagePng(overBackground(picture, options_.look.backgroundColor, result_.mask, at),
+                   std::exp2(options_.look.exposure))});
+    };
+    keep(id("picture", std::to_string(number)), nullptr);
+    for (const VariantError& e : v.errors)
+      result_.pictures.push_back(
+          {id("error", std::to_string(number) + "-" + std::string(shadingName(e.against))),
+           pageErrorPng(picture, result_.mask, truth(e.against))});
+    // Outside the mask the truth shows the pixels of the model's first variant.
+    const Shading model = modelOf(v.variant.program);
+    const std::string name = id("truth", std::string(shadingName(model)));
+    if (std::ranges::find(result_.pictures, name, &PagePicture::id) == result_.pictures.end())
+      keep(name, &truth(model));
   }
 
   void errorsOf(VariantResult& v, const Image& picture) {

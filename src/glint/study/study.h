@@ -53,7 +53,12 @@ struct VariantResult {
   /// not the normal.
   PictureError shading, interpolation;
   std::optional<WholeError> whole;  ///< against its own model, supersampled
-  Image picture;                    ///< if kept; premultiplied
+};
+
+/// A PNG file of the report's page: "picture-I" of a variant, "error-I-MODEL", "truth-MODEL".
+struct PagePicture {
+  std::string id;
+  std::vector<std::byte> png;
 };
 
 /// What a frame of the same target takes that shades nothing.
@@ -124,7 +129,7 @@ struct StudyResult {
   std::vector<StudyWay> ways;
   std::vector<FramePart> parts;       ///< of a frame of the look's model in the exact form
   std::vector<StudyFront> wayFronts;  ///< of `ways`, by the RMSE of the whole picture
-  std::vector<std::pair<Shading, Radiances>> truths;  ///< by model, if pictures are kept
+  std::vector<PagePicture> pictures;  ///< if they are kept
 
   /// Of the clock that decides.
   double spread() const { return noise[std::size_t(clock)].spread; }
