@@ -110,8 +110,7 @@ struct Comparison {
   std::size_t ignoredPixels = 0;         ///< ignored because of boxes and the mask
   std::size_t differing = 0;             ///< pixels with any difference at all
   std::size_t alphaDiffering = 0;        ///< pixels whose (straight) alphas differ
-  bool seenOverWhite = false;            ///< ssim and FLIP used white instead of black or the
-                                         ///< background
+  bool seenOverWhite = false;            ///< ssim and FLIP over white, not black or background
   std::size_t antiAliased = 0;           ///< over the tolerance, but excluded as anti-aliasing
   std::size_t nanA = 0, nanB = 0, infinityA = 0, infinityB = 0;  ///< pixels
   std::size_t infinityDiffering = 0;  ///< pixels whose infinity the other picture does not have

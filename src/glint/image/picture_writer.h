@@ -68,8 +68,8 @@ void checkPictureName(const std::string& path, const PictureOptions& options);
 ///     .pfm  "PF", 32-bit float, little-endian, linear, without exposure and alpha (the picture
 ///           over black), bottom row first; needs a regular file
 ///     raw (only through the options)  for programs: little-endian 32-bit words: the letters
-///           "GLNT", width, height, channels (3 or 4), then that many floats per pixel, rows from
-///           the top, linear, without exposure
+///           "GLNT", width, height, channels (3 or 4), then that many floats per pixel, rows
+///           from the top, linear, without exposure
 ///     "-"   standard output, PNG unless the options say otherwise
 ///
 /// Throws InputError for other extensions, for sizes below 1 and for a file that cannot be created.
