@@ -59,7 +59,7 @@ bool hasThreadsForMesa() {
 }
 
 /// Sets the environment variables that Mesa reads when a backend is opened; the user's own values
-/// take precedence. Otherwise Mesa's warnings, one for every driver it skips, go to stderr.
+/// take precedence. Otherwise Mesa's warnings, including one per driver it skips, go to stderr.
 void prepareEnvironment(Backend backend) {
   static std::mutex mutex;
   static bool softwareIsOurs = false;

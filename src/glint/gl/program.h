@@ -16,9 +16,9 @@ struct ShaderSource {
   std::string_view text;
 };
 
-/// Whether the driver's compiler accepts `#line N "file"`, given the line `#extension
-/// GL_ARB_shading_language_include : enable` after `#version`, so that its messages name files.
-/// Otherwise only `#line N NUMBER` works.
+/// Whether the driver's compiler accepts `#line N "file"`, given the line
+/// `#extension GL_ARB_shading_language_include : enable` after `#version`, so that its messages
+/// name files. Otherwise only `#line N NUMBER` works.
 bool fileNamesInLines();
 
 /// A linked program.

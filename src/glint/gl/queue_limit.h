@@ -21,7 +21,7 @@ class QueueLimit {
   /// Indices that may be drawn before the next call of drawn(): whole triangles, never 0.
   std::size_t room() const { return most - queued_; }
 
-  /// Records that so many indices were drawn. At the end of a batch, waits until the previous batch
+  /// Counts indices that have been drawn. At the end of a batch, waits until the previous batch
   /// is drawn, so that the driver always has work.
   void drawn(std::size_t indices) {
     queued_ += (indices + 2) / 3 * 3;  // also for points and lines: room() stays whole triangles

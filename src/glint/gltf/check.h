@@ -18,8 +18,8 @@ void checkDocument(Json& document, Messages& messages);
 /// The part that checks indices, offsets and counts; used again if those have changed.
 void checkStructure(Json& document, const Messages& messages);
 
-/// Bytes from an accessor's first element to the end of its last, with elements `stride` apart (0:
-/// tightly packed). The accessor must have been checked.
+/// Bytes from an accessor's first element to the end of its last, with elements `stride` apart
+/// (0: tightly packed). The accessor must have been checked.
 std::uint64_t spanOfElements(Cursor accessor, std::int64_t stride);
 /// Bytes per component of a glTF type such as 5126; 0 if unknown.
 std::int64_t componentBytes(std::int64_t componentType);

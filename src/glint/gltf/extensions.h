@@ -8,8 +8,8 @@
 
 namespace glint::gltf {
 
-/// How an extension is handled: the single table behind the loader's errors and warnings and `glint
-/// info`.
+/// How an extension is handled: the single table behind the loader's errors and warnings and
+/// `glint info`.
 FileExtension describeExtension(const std::string& name);
 
 /// The extensions that a document uses or requires, each once, in document order.

@@ -85,8 +85,8 @@ struct DifferingRegion {
 
 /// The metrics' names, in the order in which they are reported. `max` to `psnr` use the values
 /// compared; the others use what is visible: sRGB for `pixels` and `ssim`, linear light for FLIP.
-/// There, straight alpha is laid over black or, where the alphas differ and that shows more, over
-/// white (`pixels` counts a pixel that differs over either).
+/// In these, straight alpha is laid over black or, where the alphas differ and that shows more,
+/// over white (`pixels` counts a pixel that differs over either).
 ///
 ///   max            largest absolute difference of a channel
 ///   mean           mean absolute difference over channels and pixels

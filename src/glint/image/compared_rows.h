@@ -71,10 +71,10 @@ class ComparedRows {
   bool bothCodes_ = false;
 };
 
-/// Mean structural similarity (Wang et al. 2004): 11 x 11 Gaussian of 1.5 pixels, K1 = 0.01, K2 =
-/// 0.03, values in [0, 1], over the windows that lie entirely in the picture. If a side is shorter
-/// than 11 pixels, the window is as long as that side. Windows centred on ignored pixels are left
-/// out.
+/// Mean structural similarity (Wang et al. 2004): 11 x 11 Gaussian of 1.5 pixels, K1 = 0.01,
+/// K2 = 0.03, values in [0, 1], over the windows that lie entirely in the picture. If a side is
+/// shorter than 11 pixels, the window is as long as that side. Windows centred on ignored pixels
+/// are left out.
 double structuralSimilarity(const ComparedRows& rows);
 
 /// Counts the pixels that differ by more than a tolerance, as pixelmatch does: the distance in YIQ

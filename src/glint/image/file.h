@@ -22,7 +22,7 @@ std::string writeFailure(int error);
 /// written.
 enum class Noted { yes, no };
 
-/// Longer files are not read whole: bytes.
+/// The largest file that is read whole, in bytes.
 inline constexpr std::uint64_t maxFileBytes = std::uint64_t(4) << 30;
 
 /// The bytes of a regular file (symbolic links are followed).

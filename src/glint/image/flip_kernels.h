@@ -49,9 +49,9 @@ constexpr int flipBlock = 64;  ///< pixels filtered and compared together
 void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int begin, int end,
                    float* planes, std::size_t stride);
 
-/// Filters the columns [begin, end) along y and compares them. `reference` and `test` hold 2 *
-/// radius + 1 pointers to the planes of the rows around the current one. Writes errors[begin] to
-/// errors[end - 1].
+/// Filters the columns [begin, end) along y and compares them. `reference` and `test` hold
+/// 2 * radius + 1 pointers to the planes of the rows around the current one. Writes
+/// errors[begin] to errors[end - 1].
 void flipCompareRow(const FlipFilters& filters, const float* const* reference,
                     const float* const* test, int begin, int end, std::size_t stride,
                     float* errors);

@@ -44,8 +44,8 @@ bool gather(std::span<const std::byte> png, std::vector<std::byte>& joined,
   return !pixels.empty();
 }
 
-/// The PNG filter's Paeth predictor: left, above or upper left, whichever is nearest to left +
-/// above - upper left.
+/// The PNG filter's Paeth predictor: left, above or upper left, whichever is nearest to
+/// left + above - upper left.
 inline int paeth(int a, int b, int c) {
   const int pa = std::abs(b - c), pb = std::abs(a - c), pc = std::abs(a + b - 2 * c);
   const int other = pb <= pc ? b : c;

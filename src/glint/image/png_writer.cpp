@@ -19,8 +19,8 @@ namespace glint::detail {
 namespace {
 
 // The cost of filters and levels for 1024 x 1024 RGB on one thread (ms, kB): a Phong-shaded sphere
-// with a noisy quarter on a flat background, and the same sphere textured and noisy all over. 16
-// bits: the first picture. Shading quantised to 8 bits has equal neighbours, which filters break
+// with a noisy quarter on a flat background, and the same sphere textured and noisy all over.
+// 16-bit: the first picture. Shading quantised to 8 bits has equal neighbours, which filters break
 // up; the lower bytes of 16 bits are noise unless the row above is subtracted.
 //
 //     filter level   smooth      textured     16-bit

@@ -55,8 +55,8 @@ Image decodeImage(std::span<const std::byte> bytes, const std::string& name,
 
 /// The metadata text of a PNG or an EXR (text chunks before its pixels, string attributes), read
 /// without decoding the picture; empty for other formats. The file is not recorded as read
-/// (read_files.h), since this decides whether it must be written again. Throws InputError "PATH:
-/// what: what to do" if the file cannot be read or is damaged.
+/// (read_files.h), since this decides whether it must be written again.
+/// Throws InputError "PATH: what: what to do" if the file cannot be read or is damaged.
 std::map<std::string, std::string> readPictureText(const std::string& path);
 
 /// Whether the bytes start like a format from which readPictureText() can read text.

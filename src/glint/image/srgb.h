@@ -13,8 +13,8 @@ namespace glint {
 //
 //     code(x) = the number of thresholds that are <= x          (NaN gives 0, and is counted)
 //
-// Threshold k (k = 1..255) is the float nearest to the linear value where the curve reaches (k -
-// 0.5) / 255. Negative values give 0, values of 1 and more give 255; likewise the infinities.
+// Threshold k (k = 1..255) is the float nearest to the linear value where the curve reaches
+// (k - 0.5) / 255. Negative values give 0, values of 1 and more give 255; likewise the infinities.
 
 /// The thresholds in ascending order; threshold k at index k - 1.
 inline constexpr std::array<float, 255> srgbThresholds =

@@ -33,9 +33,9 @@ struct TextureHeader {
 /// Reads only the header. Throws InputError as decodeTexture() does.
 TextureHeader textureHeader(std::span<const std::byte> bytes, const std::string& name);
 
-/// Decodes a PNG (all colour types and depths; 16 bits lose the lower 8), a JPEG (grey, YCbCr, RGB,
-/// CMYK and YCCK by the usual naive conversion) or, if canDecodeWebp(), a WebP; the first bytes
-/// determine the format. `name` appears in the messages. Nothing is printed.
+/// Decodes a PNG (all colour types and depths; 16-bit samples lose their lower 8 bits), a JPEG
+/// (grey, YCbCr, RGB, CMYK and YCCK by the usual naive conversion) or, if canDecodeWebp(), a WebP;
+/// the first bytes determine the format. `name` appears in the messages. Nothing is printed.
 ///
 /// With `halvings` the picture is scaled down as rows are read (RowReducer); `isData`: its values
 /// are numbers, not sRGB.

@@ -19,7 +19,7 @@ std::string failureOf(const std::exception& error, const std::string& what);
 
 /// Runs a program and returns its exit status: parses the command line with `app`, then runs
 /// `body`; if --help-json is the only argument, prints helpJson() of `app` instead. Exceptions
-/// become one line on stderr; when memory runs out, it suggests making `smaller` smaller.
+/// become one line on stderr; if memory runs out, `smaller` names what to make smaller.
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
                const char* smaller);
 

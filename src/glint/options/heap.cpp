@@ -1,6 +1,6 @@
 #include "glint/options/heap.h"
 
-#include <cstdlib>  // tells which C library this is
+#include <cstdlib>  // for __GLIBC__
 
 #if defined(__GLIBC__)
 #include <malloc.h>

@@ -91,8 +91,8 @@ std::string usage(const CLI::App& app, const std::string& name) {
   return text + " [OPTIONS]\n";
 }
 
-/// The command's name for the user: "glint render"; the window program's name is already "glint
-/// view".
+/// The command's name for the user: "glint render"; the window program's name is already
+/// "glint view".
 std::string fullName(const CLI::App& app, const CLI::App& command) {
   return &app == &command ? app.get_name() : app.get_name() + " " + command.get_name();
 }

@@ -13,7 +13,7 @@ namespace glint {
 ///
 ///     {"name", "description", "footer", "arguments": [...], "options": [...], "commands": [...]}
 ///     an argument or option: {"names": ["-o", "--output"], "value", "help", "section",
-///                             "required", "many", "look", "choices": [words that it may be]}
+///                             "required", "many", "look", "choices": [allowed words]}
 ///
 /// `value` is the placeholder for the value in help, empty for a flag; `look` marks the options of
 /// a look, which several commands share; a command has the same form as the program, without

@@ -52,7 +52,7 @@ Look lookFrom(const GivenOptions& options) {
   bool lit = false;
   for (const auto& [name, text] : options) {
     if (name == "look") continue;
-    if (name == "light" && !lit) {  // replaces the file's lights, or its having none
+    if (name == "light" && !lit) {  // replaces the look file's lights or no-lights
       look.light.reset();
       look.noLights = false;
       lit = true;

@@ -74,7 +74,7 @@ void setParameter(Look&, std::string_view name, const std::string& text);
 void readLook(Look& look, const std::string& json, const std::string& source);
 
 /// The look file's text overrides everything in `look`, as options on the command line would: its
-/// lights replace those of the file, and an edit of all materials replaces edits by name. The key
+/// lights replace those of `look`, and an edit of all materials overrides edits by name. The key
 /// "glint-look" may be missing.
 void readLookOver(Look& look, const std::string& json, const std::string& source);
 

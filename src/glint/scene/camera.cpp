@@ -12,7 +12,7 @@
 namespace glint {
 namespace {
 
-// It is invisible: scaled to a point, or fully transparent.
+// Whether it is invisible: scaled to a point, or fully transparent.
 bool isUnseen(const Scene& scene, const Instance& instance) {
   const glm::dmat3 linear(instance.world);
   if (linear == glm::dmat3(0.0)) return true;

@@ -62,7 +62,7 @@ struct Light {
   Type type = Type::directional;
   glm::dvec3 position{0.0};   ///< world; point and spot
   glm::dvec3 direction{0.0};  ///< directional: TO the light (L), world;
-                              ///< camera: likewise, eye space; spot: along it
+                              ///< camera: likewise, eye space; spot: along the beam
   double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
   double outerAngle = 45.0;   ///< degrees from the spot's axis: zero outside
   glm::dvec3 intensity{1.0};  ///< I_m, linear RGB, components [0, 1e6]

@@ -70,8 +70,9 @@ struct Difference {
       case Highlight::gaussian:  // -beta + (a - 1) / (1 - x)
         return 1.0 - (alpha - 1.0) / beta;
       case Highlight::pade: {
-        // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1, t = 2
-        // - p x, b = 2 + m x: multiplied by t b (1 - x), a quadratic in x without constant term.
+        // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1,
+        // t = 2 - p x, b = 2 + m x: multiplied by t b (1 - x), a quadratic in x without constant
+        // term.
         const double p = 1.0 + beta, m = beta - 1.0, g = gamma;
         const double linear =
             -(g - 1) * p * (m - 2) + (g + 1) * m * (p + 2) + (alpha - 1) * 2 * (m - p);
@@ -178,9 +179,9 @@ double gaussianBound(double alpha) {
   return largestDifference({alpha, alpha + gaussianShift, 1, Highlight::gaussian});
 }
 
-// Between entries h = 1 / steps apart, the error of the chord is the mean of |f''| = a |a - 1| x^(a
-// - 2) weighted by a kernel that is the same in each step (Peano). So the error is largest in the
-// step where |f''| is largest: the last one for a >= 2, otherwise the first one, where f'' is
+// Between entries h = 1 / steps apart, the error of the chord is the mean of |f''| = a |a - 1|
+// x^(a - 2) weighted by a kernel that is the same in each step (Peano). So the error is largest in
+// the step where |f''| is largest: the last one for a >= 2, otherwise the first one, where f'' is
 // unbounded at 0. In a step from b to c the chord with slope m is farthest away where f' = m.
 double tableBound(double alpha, int steps) {
   const double h = 1.0 / std::max(steps, 1);
@@ -214,7 +215,8 @@ double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent) 
     const double t = (i + 0.5) / 256, c = scale * t / (1.0 - t + scale * t);
     s.largest = std::max(s.largest, std::abs(r.approximate(c) - fresnelExact(c, constants)));
   }
-  // At 0 both are 1 (for exponent 0 the limit from the right, where the form is 1 throughout).
+  // At 0 both are 1, and so are their limits from the right (for exponent 0 the form is 1
+  // everywhere).
   s.cover(0.0, 1.0, {1.0, 1.0}, fresnelPolarized(1.0, constants), 1.0, r.approximate(1.0), deepest);
   return std::min(1.25 * s.largest, 1.0);
 }

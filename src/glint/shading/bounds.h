@@ -37,8 +37,8 @@ double tableBound(double alpha, int steps);
 double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent = 5.0);
 
 // Rounding, with u = 2^-24. Additions and products are correctly rounded, as GLSL requires;
-// division, sqrt and exp2 are as in its precision table (2.5 ulp, derived from them, 3 + 2 |x|
-// ulp); log2 is within 2^-21 near 1. Tests on the driver hold the functions of glsl/ to these.
+// division, sqrt and exp2 are as in its precision table (2.5 ulp, inherited, 3 + 2 |x| ulp);
+// log2 is within 2^-21 near 1. Tests on the driver hold the functions of glsl/ to these.
 
 /// How much the exact lobe changes if the difference vector D is off by `turn`, as below.
 double lobeTurnBound(double alpha, bool blinn, double turn);

@@ -99,10 +99,9 @@ glm::dvec3 reflect(const glm::dvec3& incident, const glm::dvec3& normal);
 
 /// The refracted unit direction for a unit incident direction (which points to the surface), with
 /// the normal on the side it comes from; empty for total reflection, that is where fresnelExact
-/// gives 1 because g^2 <= 0. Computed in two parts: tangential (n1/n2)(i - (i.N) N), normal -sqrt(1
-/// -
-/// tangential|^2) N, so that the length is 1 regardless of rounding. Equal indices give the
-/// incident direction itself.
+/// gives 1 because g^2 <= 0. Computed in two parts: tangential (n1/n2)(i - (i.N) N), normal
+/// -sqrt(1 - |tangential|^2) N, so that the length is 1 regardless of rounding. Equal indices give
+/// the incident direction itself.
 std::optional<glm::dvec3> refract(const glm::dvec3& incident, const glm::dvec3& normal, double n1,
                                   double n2);
 

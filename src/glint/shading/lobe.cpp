@@ -23,8 +23,8 @@ int validGamma(int gamma) {
   return valid;
 }
 
-/// The edge cases that all forms share, and the form itself for the rest: lambda in [0, 2], alpha >
-/// 0.
+/// The edge cases that all forms share, and the form itself for the rest: lambda in [0, 2],
+/// alpha > 0.
 template <class Form>
 double lobeWith(double lambda, double alpha, Form form) {
   if (!(lambda < noLobe)) return 0.0;

@@ -26,7 +26,7 @@ inline constexpr double opposedLimit = 1e-12;
 /// |D|^2 / 2 with D = L + V - 2 (N.L) N = V - R; equals 1 - R.V for unit vectors.
 double phongLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V);
 
-/// N - H|^2 / 2 with H = (L + V) / |L + V|; equals 1 - N.H. noLobe if L = -V.
+/// |N - H|^2 / 2 with H = (L + V) / |L + V|; equals 1 - N.H. noLobe if L = -V.
 double blinnLambda(const glm::dvec3& N, const glm::dvec3& L, const glm::dvec3& V);
 
 /// max(1 - lambda, 0)^alpha as exp(alpha log1p(-lambda)): error at most 4 * 2^-53 for this lambda.

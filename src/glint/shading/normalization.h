@@ -22,8 +22,8 @@ namespace glint {
 ///
 /// `exact`: without N.L (Giesen 2009), (n + 1) / (2 pi) and (n + 2) / (4 pi (2 - 2^(-n/2))), here
 /// (n + 1) / 2 and (n + 2) / (4 (2 - 2^(-n/2))): along the normal the furnace shows m_s, and no
-/// direction shows more. Phong's lobe, up to half of which the horizon cuts off, shows at least m_s
-/// / 2; Blinn-Phong's, whose highlight narrows towards the horizon, about m_s N.V for large n.
+/// direction shows more. Phong's lobe, up to half of which the horizon cuts off, shows at least
+/// m_s / 2; Blinn-Phong's, whose highlight narrows towards the horizon, about m_s N.V for large n.
 enum class Normalization { none, simple, exact };
 
 /// For n in [0, 1e9]; values outside are clamped, NaN counts as 0. At least 1/2.

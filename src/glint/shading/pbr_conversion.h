@@ -80,11 +80,11 @@ MetalShare metalShare(const SpecularGlossiness&);
 
 /// The conversion to the notes' parameters, with C.
 ///
-/// A material with less diffuse than specular colour is a metal with the share mu = 1 -
-/// max(diffuse) / max(specular) (0 if specular is at most 0.04, as for every dielectric): m_sm =
-/// mu, and C goes from `diffuse` to `specular` with it. The rest is convertPbr() with metallic mu,
-/// roughness 1 - glossiness and the n whose reflectance at normal incidence is max(specular). A
-/// dielectric's coloured highlight becomes white.
+/// A material with less diffuse than specular colour is a metal with the share
+/// mu = 1 - max(diffuse) / max(specular) (0 if specular is at most 0.04, as for every dielectric):
+/// m_sm = mu, and C goes from `diffuse` to `specular` with it. The rest is convertPbr() with
+/// metallic mu, roughness 1 - glossiness and the n whose reflectance at normal incidence is
+/// max(specular). A dielectric's coloured highlight becomes white.
 std::pair<ConvertedParameters, glm::dvec3> convertSpecularGlossiness(const SpecularGlossiness&);
 
 }  // namespace glint

@@ -44,7 +44,7 @@ struct FilteredLobe {
 FilteredLobe filteredLobe(double exponent, bool blinn, double turn);
 
 // Toksvig, Mipmapping Normal Maps, Journal of Graphics Tools 10 (3), 2005: the mean N of unit
-// normals is the shorter the farther they are apart; for slopes that are normally distributed with
+// normals is shorter the farther apart they are; for slopes that are normally distributed with
 // variance v its length is about 1 / (1 + v), so that v = (1 - |N|) / |N|. Blinn-Phong's lobe with
 // exponent n becomes that of n' = n / (1 + n v), its peak (1 + n') / (1 + n) of what it was.
 // Phong's R turns twice as far as N: a becomes a / (1 + 4 a v), and the peak changes likewise,
