@@ -1,5 +1,5 @@
-// Arrays become a glTF file, so that one reader checks and mends what is drawn, whatever way it
-// comes.
+// Arrays are converted to a glTF file, so that a single reader checks and repairs everything that
+// is drawn, whatever its source.
 
 #include <algorithm>
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 
 using GlbJson = nlohmann::json;
 
-// The constants of glTF, which are OpenGL's.
+// glTF's constants, the same as OpenGL's.
 constexpr int glFloat = 5126, glUnsignedInt = 5125;
 
 class ArrayGlb {

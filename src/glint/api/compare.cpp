@@ -71,7 +71,7 @@ Differences compareFiles(const std::string& a, const std::string& b, const Compa
 }
 
 Codes encoded(const Image& picture, float scale) {
-  (void)storedOf(picture);  // or refused
+  (void)storedOf(picture);  // throws if invalid
   Codes codes{picture.width, picture.height, std::vector<std::uint8_t>(picture.values.size())};
   encodeSrgb8(picture.values.data(), picture.values.size() / 4, scale, codes.values.data());
   return codes;
@@ -80,7 +80,7 @@ Codes encoded(const Image& picture, float scale) {
 Image readPicture(const std::string& path) { return readImage(path); }
 
 void writePicture(const std::string& path, const Image& picture) {
-  (void)storedOf(picture);  // or refused
+  (void)storedOf(picture);  // throws if invalid
   bool opaque = true;
   for (std::size_t i = 3; i < picture.values.size(); i += 4)
     opaque = opaque && picture.values[i] >= 1;

@@ -10,7 +10,7 @@
 
 namespace glint {
 
-/// A file in memory under a name of /proc, from which models are read as from any other.
+/// A file in memory, accessible through a path in /proc, so that models are read from it as usual.
 class MemoryFile {
  public:
   /// Throws Error.
@@ -26,13 +26,13 @@ class MemoryFile {
 };
 
 struct Model::State {
-  /// Throws InputError. What a file in memory is called in messages is `name`.
+  /// Throws InputError. `name` is how messages refer to a file in memory.
   explicit State(const std::filesystem::path& path);
   State(std::span<const std::byte> bytes, std::string name);
 
-  /// Brings the scene into the pose of a look. To be called under `mutex`, as all below.
+  /// Poses the scene for a look. `mutex` must be held, as for everything below.
   void pose(const Look& look);
-  /// read(), whose InputErrors call a file in memory by its name.
+  /// Calls read(); InputErrors refer to a file in memory by its name.
   template <typename Read>
   auto named(Read read) const;
 
@@ -42,11 +42,11 @@ struct Model::State {
   std::optional<SceneFile> file;
   Scene scene;
   Bounds bounds, restBounds;
-  /// How often the scene has been posed; the meshes whose vertices the last time has changed.
+  /// How often the scene has been posed, and the meshes whose vertices the last pose changed.
   int posed = 0;
   std::vector<int> changed;
-  std::optional<PoseRequest> request;  ///< the pose that it has; none where posing failed
-  DecodedImages images;                ///< of the reference
+  std::optional<PoseRequest> request;  ///< the current pose; empty if posing failed
+  DecodedImages images;                ///< for the reference
 };
 
 template <typename Read>
@@ -63,7 +63,7 @@ auto Model::State::named(Read read) const {
   }
 }
 
-/// A binary glTF file of the arrays. Throws InputError for arrays that do not fit each other.
+/// Builds a binary glTF file from the arrays. Throws InputError for inconsistent arrays.
 std::vector<std::byte> glbOf(std::span<const Arrays> parts);
 
 }  // namespace glint

@@ -21,14 +21,14 @@ namespace {
 /// More programs than any one model needs.
 constexpr std::size_t mostPrograms = 256;
 
-/// One call at a time has OpenGL: its functions are global, and belong to the context that was made
-/// current last.
+/// Only one call at a time may use OpenGL: its functions are global and belong to the context that
+/// was made current last.
 std::mutex& glMutex() {
   static std::mutex mutex;
   return mutex;
 }
 
-/// The process that has opened OpenGL, 0 before. Drivers keep threads, which fork() does not copy.
+/// The process that opened OpenGL; 0 if none has. Drivers keep threads, which fork() does not copy.
 std::atomic<pid_t> glOwner = 0;
 
 void checkFork() {
@@ -41,7 +41,7 @@ void checkFork() {
         "\"reference\"");
 }
 
-/// Its context is current as long as this lives.
+/// Keeps a context current for its lifetime.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.makeCurrent(); }
@@ -72,7 +72,7 @@ struct Session::State {
 
   ~State() {
     if (!context) return;
-    if (glOwner != ::getpid()) {  // of the process that this one was forked from
+    if (glOwner != ::getpid()) {  // belongs to the process that this one was forked from
       (void)context.release();
       (void)renderer.release();
       for (auto& [key, each] : uploaded) (void)each.release();
@@ -84,17 +84,17 @@ struct Session::State {
       uploaded.clear();
       renderer.reset();
     } catch (const Error&) {
-      // The driver is gone, and what was in it with it.
+      // The driver is gone, and everything in it.
     }
     context.reset();
   }
 
   GpuScene& upload(const std::shared_ptr<Model::State>& model, const Look& look);
-  /// draw(look, GpuScene*) of the model in its pose; without OpenGL of none.
+  /// draw(look, GpuScene*) with the posed model's GpuScene, or null without OpenGL.
   template <typename Draw>
   auto with(const std::shared_ptr<Model::State>& model, const Options& options, Draw draw);
 
-  std::unique_ptr<Context> context;  ///< none: the reference
+  std::unique_ptr<Context> context;  ///< null: the reference
   std::unique_ptr<Renderer> renderer;
   std::map<Model::State*, std::unique_ptr<Uploaded>> uploaded;
   std::string description = "reference";
@@ -191,7 +191,7 @@ Codes Session::drawCodes(const Model& model, const Options& options) {
   }
   std::uint8_t* const out = codes.values.data();
   encodeSrgb8Opaque(picture.values.data(), pixels, scale, out);
-  for (std::size_t i = pixels; i-- > 0;) {  // from the end, where there is room
+  for (std::size_t i = pixels; i-- > 0;) {  // from the end, so that nothing is overwritten
     std::copy_backward(out + 3 * i, out + 3 * i + 3, out + 4 * i + 3);
     out[4 * i + 3] = 255;
   }

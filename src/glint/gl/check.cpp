@@ -38,7 +38,7 @@ std::string errorWords(GLenum code) {
 }  // namespace
 
 void checkGl(const char* where) {
-  // A driver may record several errors; one that is lost may report so for ever.
+  // A driver may record several errors; one with a lost context may report it forever.
   constexpr int most = 16;
   if (glGetError == nullptr) requireContext(where);
   std::string words;

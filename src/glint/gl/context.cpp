@@ -34,7 +34,7 @@ std::unique_ptr<Context> openSystemEgl(bool software) {
 }
 
 std::unique_ptr<Context> openSystemOsmesa() {
-  // Mesa has called it .so.8 since 2011; older builds and Debian's compatibility link are .so.6.
+  // Mesa has called it .so.8 since 2011; older builds and Debian's compatibility link use .so.6.
   const char* const sonames[] = {"libOSMesa.so.8", "libOSMesa.so.6"};
   return backends::openOsmesa(sonames);
 }
@@ -43,9 +43,9 @@ constexpr backends::Opener egl{"egl", [] { return openSystemEgl(false); }};
 constexpr backends::Opener eglSoftware{"egl-software", [] { return openSystemEgl(true); }};
 constexpr backends::Opener osmesa{"osmesa", openSystemOsmesa};
 
-/// Whether the system gives the threads that Mesa's software renderer starts: two kinds, one of
-/// each for every processor up to 16, and a few beside them for this program. A limit of addresses
-/// below 1 GiB counts as no: the driver and its compiler take most of that.
+/// Whether the system allows the threads that Mesa's software renderer starts: two kinds, one of
+/// each per processor up to 16, plus a few for this program. An address space limit below 1 GiB
+/// counts as no: the driver and its compiler take most of that.
 bool hasThreadsForMesa() {
   rlimit addresses{};
   if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur < (rlim_t(1) << 30)) return false;
@@ -58,14 +58,15 @@ bool hasThreadsForMesa() {
   return threads.size() == count;
 }
 
-/// Sets the environment variables that Mesa reads when a backend is opened; a user's own values
-/// stand. Mesa's warnings go to stderr otherwise, among them one for every driver it passes over.
+/// Sets the environment variables that Mesa reads when a backend is opened; the user's own values
+/// take precedence. Otherwise Mesa's warnings, including one per driver it skips, go to stderr.
 void prepareEnvironment(Backend backend) {
   static std::mutex mutex;
   static bool softwareIsOurs = false;
   const std::lock_guard lock(mutex);
   setenv("EGL_LOG_LEVEL", "fatal", 0);
-  // Mesa waits forever for a thread that could not be started; without any it draws by itself.
+  // Mesa waits forever for a thread that could not be started; with 0 threads it draws in the
+  // caller's.
   static const bool hasThreads = hasThreadsForMesa();
   if (!hasThreads) setenv("LP_NUM_THREADS", "0", 0);
   if (backend == Backend::eglSoftware && !std::getenv("LIBGL_ALWAYS_SOFTWARE")) {
@@ -77,7 +78,7 @@ void prepareEnvironment(Backend backend) {
   }
 }
 
-/// Whether the kernel shows a GPU: a render node of DRM, or NVIDIA's own driver.
+/// Whether the kernel exposes a GPU: a DRM device, or NVIDIA's own driver.
 bool hasGpu() {
   std::error_code error;
   return std::filesystem::exists("/dev/dri", error) ||

@@ -1,4 +1,4 @@
-// EGL without a window system: devices and Mesa's surfaceless platform. glad's header gives the
+// EGL without a window system: devices and Mesa's surfaceless platform. glad's header provides
 // types and constants; the functions are kept in a struct, so that a library is a value.
 
 #include <glad/egl.h>
@@ -31,7 +31,7 @@ struct EglFunctions {
   PFNEGLDESTROYSURFACEPROC destroySurface;
   PFNEGLMAKECURRENTPROC makeCurrent;
   PFNEGLGETCURRENTCONTEXTPROC getCurrentContext;
-  // Extensions: null where the library does not have them.
+  // Extension functions: null if the library does not have them.
   PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay;
   PFNEGLQUERYDEVICESEXTPROC queryDevices;
   PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString;
@@ -65,7 +65,7 @@ EglFunctions loadFunctions(std::span<const char* const> sonames) {
   return egl;
 }
 
-/// Whether a list of names separated by blanks (may be null) holds a name.
+/// Whether a list of names separated by blanks (may be null) contains a name.
 bool has(const char* list, std::string_view name) {
   const std::string_view all = list ? list : "";
   for (std::size_t at = all.find(name); at != all.npos; at = all.find(name, at + 1)) {
@@ -75,7 +75,7 @@ bool has(const char* list, std::string_view name) {
   return false;
 }
 
-/// The last EGL error in words; EGL's own, from its specification.
+/// The last EGL error as its name and a description from EGL's specification.
 std::string errorWords(const EglFunctions& egl) {
   const EGLint code = egl.getError();
   switch (code) {
@@ -110,8 +110,8 @@ std::string errorWords(const EglFunctions& egl) {
   }
 }
 
-/// What a context is made of; closes itself. The display stays initialised until the process ends:
-/// EGL does not count who uses it, so that eglTerminate would take it from other contexts.
+/// The parts of a context; releases them itself. The display stays initialised until the process
+/// ends: EGL does not count its users, so eglTerminate would take it from other contexts.
 struct Handles {
   Handles(const EglFunctions& functions, EGLDisplay ofDisplay, Api ofApi)
       : egl(functions), display(ofDisplay), api(ofApi) {}
@@ -122,7 +122,7 @@ struct Handles {
     if (surface) egl.destroySurface(display, surface);
   }
   bool bind() const {
-    // The API is a state of each thread.
+    // The bound API is per-thread state.
     return bindApi() && egl.makeCurrent(display, surface, surface, context);
   }
   bool bindApi() const { return egl.bindApi(api == Api::es3 ? EGL_OPENGL_ES_API : EGL_OPENGL_API); }
@@ -130,7 +130,7 @@ struct Handles {
     if (context && egl.getCurrentContext() == context)
       egl.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
-  /// A GL string with the context current on this thread for a moment; empty if that fails.
+  /// A GL string, read by making the context current on this thread briefly; empty if that fails.
   std::string glString(unsigned name) const {
     if (!bind()) return {};
     using GetString = const unsigned char* (*)(unsigned);
@@ -165,7 +165,7 @@ class EglContext final : public Context {
   std::unique_ptr<Handles> handles_;
 };
 
-/// A place to make a context: a device, or the surfaceless platform.
+/// Somewhere to create a context: a device, or the surfaceless platform.
 struct Place {
   std::string name;
   EGLenum platform;
@@ -173,7 +173,7 @@ struct Place {
   bool hardware;
 };
 
-/// All places, in the order of EGL.
+/// All places, in EGL's order.
 std::vector<Place> findPlaces(const EglFunctions& egl) {
   std::vector<Place> places;
   const char* client = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -201,7 +201,7 @@ std::vector<Place> findPlaces(const EglFunctions& egl) {
   return places;
 }
 
-/// As Mesa reads its own switch.
+/// Interprets the variable as Mesa does.
 bool softwareWanted() {
   const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
   if (!value || !*value) return false;
@@ -229,7 +229,7 @@ std::vector<Place> choosePlaces(const std::vector<Place>& all, bool software) {
   return chosen;
 }
 
-/// Makes the context, with a tiny surface where the driver cannot do without. Throws ContextError.
+/// Creates the context, with a tiny surface if the driver needs one. Throws ContextError.
 std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay display, Api api) {
   const auto fail = [&](const std::string& what) {
     throw ContextError(what + ": " + errorWords(egl));
@@ -260,8 +260,8 @@ std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay displ
     if (!handles->context) fail("eglCreateContext of OpenGL ES 3");
     return handles;
   }
-  // A context that tells of a reset of the device (GL_CONTEXT_LOST, see check.h), where the driver
-  // has such: without it a lost one may go on and draw nothing.
+  // A context that reports a device reset (GL_CONTEXT_LOST, see check.h), if the driver supports
+  // that: without it a lost context may carry on and draw nothing.
   const EGLint core33[] = {EGL_CONTEXT_MAJOR_VERSION,
                            3,
                            EGL_CONTEXT_MINOR_VERSION,
@@ -278,7 +278,7 @@ std::unique_ptr<Handles> createContext(const EglFunctions& egl, EGLDisplay displ
   handles->context = egl.createContext(display, config, EGL_NO_CONTEXT, plain.data());
   if (handles->context) return handles;
   const std::string reason = "eglCreateContext: " + errorWords(egl);
-  // What the driver gives when nothing is asked of it says more than the error.
+  // The version that the driver gives without any request is more informative than the error.
   handles->context = egl.createContext(display, config, EGL_NO_CONTEXT, nullptr);
   const std::string version = handles->context ? handles->glString(glVersion) : "";
   throw ContextError(

@@ -26,7 +26,8 @@ const char* statusWords(GLenum status) {
   }
 }
 
-/// One buffer of a framebuffer; 0 samples is no multisampling. Returns the samples that came.
+/// Storage for one buffer of a framebuffer; 0 samples means no multisampling. Returns the samples
+/// granted.
 int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height, int samples) {
   glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
@@ -35,11 +36,11 @@ int makeStorage(const Renderbuffer& buffer, GLenum format, int width, int height
   return given;
 }
 
-/// With samples a multisampled texture; without them one whose texels are read as they are.
+/// With samples, a multisampled texture; without, one whose texels are read unfiltered.
 int makeStorage(const TextureHandle& texture, GLenum format, int width, int height, int samples) {
   if (samples == 0) {
     const bool depth = format == GL_DEPTH_COMPONENT32F;
-    GLint before = 0;  // what the caller draws with stays bound
+    GLint before = 0;  // the caller's binding is restored
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
     glBindTexture(GL_TEXTURE_2D, texture.id());
     glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), width, height, 0,
@@ -64,7 +65,7 @@ void attach(GLenum point, const Renderbuffer& buffer) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.id());
 }
 
-/// The samples that a tiny target comes with, or 0 if the driver cannot make it.
+/// The samples that the driver gives a tiny target, or 0 if it cannot create one.
 int trySamples(int samples) {
   const TextureHandle color = TextureHandle::make();
   const TextureHandle depth = TextureHandle::make();

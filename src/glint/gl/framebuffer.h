@@ -8,67 +8,67 @@
 
 namespace glint {
 
-/// The most samples a pixel that the driver gives a picture with float colour and float depth: 1
-/// if it has no multisampling. It is tried, not believed: drivers announce counts whose
-/// framebuffers are incomplete. llvmpipe has 4 and no other (2 and 3 give 4).
+/// The most samples per pixel that the driver supports for float colour and float depth; 1 without
+/// multisampling. This is tested, because drivers announce counts whose framebuffers are
+/// incomplete. llvmpipe only has 4 (2 and 3 give 4).
 int maxSamples();
 
-/// Throws Error if what is bound cannot be drawn into.
+/// Throws Error if the bound framebuffer cannot be drawn to.
 void checkFramebuffer();
 
-/// A picture in the driver's memory: RGBA32F colour and DEPTH_COMPONENT32F, with more than one
-/// sample multisampled and beside it the colour with one sample.
+/// A picture in the driver's memory: RGBA32F colour and DEPTH_COMPONENT32F. With more than one
+/// sample both are multisampled, and there is a single-sample colour buffer as well.
 class RenderTarget {
  public:
-  /// Width and height in pixels, samples a pixel as asked for; the driver may give more
-  /// (samples()). Throws InputError if the driver has no such size or not as many samples, with
-  /// what to use instead; Error if it cannot make it. Leaves the target bound.
+  /// Width and height in pixels. `samples` per pixel is a request; the driver may give more
+  /// (samples()). Throws InputError, with what to use instead, if the driver does not support the
+  /// size or that many samples; Error if it cannot create the target. Leaves the target bound.
   RenderTarget(int width, int height, int samples);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// The samples a pixel that the driver gave, 1 without multisampling.
+  /// The samples per pixel that the driver gave; 1 without multisampling.
   int samples() const { return samples_; }
 
-  /// Where in a pixel the samples lie, from its lower left corner, 0 to 1; none without
+  /// The positions of the samples in a pixel, from its lower left corner, 0 to 1; empty without
   /// multisampling. Binds this target.
   std::vector<glm::vec2> samplePositions() const;
 
-  /// Makes it what is drawn into and sets the viewport to the whole of it.
+  /// Binds the target for drawing and sets the viewport to all of it.
   void bind() const;
 
-  /// Averages the samples of each pixel, in linear light, by a program of its own: the sum is then
-  /// the same on every driver, and it is compiled once for all (a software driver compiles the
-  /// program of glBlitFramebuffer anew in every process, 100 ms). Call it after drawing and before
-  /// read() or blitting; does nothing if there is one sample. Leaves other framebuffers bound and
-  /// state changed: bind() and set state before drawing more.
+  /// Averages the samples of each pixel, in linear light, with its own program: the sum is then the
+  /// same on every driver, and the program is compiled only once (a software driver recompiles the
+  /// one behind glBlitFramebuffer in every process, 100 ms). Call it after drawing and before
+  /// read() or blitting; it is a no-op with one sample. It leaves other framebuffers bound and GL
+  /// state changed: call bind() and set the state before drawing more.
   void resolve() const;
 
-  /// Copies the rectangle of width x height pixels in the lower left corner to rgba: four floats a
-  /// pixel, linear, as drawn; the top row first, as in a picture file, each `stride` pixels behind
-  /// the one before. Waits until drawing is done. Leaves the resolved picture bound for reading.
+  /// Copies the width x height pixels in the lower left corner to rgba: four floats per pixel,
+  /// linear, as drawn; top row first, as in a picture file, rows `stride` pixels apart. Waits until
+  /// drawing is done. Leaves the resolved picture bound for reading.
   void read(float* rgba, int width, int height, int stride) const;
 
-  /// The depths of each sample, as a texture to be read while nothing draws into them; and more of
-  /// the same kind (DepthLayers).
+  /// The depth of each sample, as a texture that may be read while nothing draws to it; and a
+  /// further texture of the same kind (for DepthLayers).
   const TextureHandle& depths() const { return depth_; }
   TextureHandle makeDepths() const;
-  /// Attach depths of that kind, or the colours, to the framebuffer that is bound.
+  /// Attach such a depth texture, or the colours, to the bound framebuffer.
   void attachDepths(const TextureHandle& depths) const;
   void attachColors() const;
   GLenum textureTarget() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
-  /// The framebuffer with the resolved picture, to be blitted from.
+  /// The framebuffer with the resolved picture, as a source for blitting.
   GLuint resolved() const { return samples_ > 1 ? single_.id() : drawn_.id(); }
 
  private:
   int width_, height_, samples_ = 1;
   Renderbuffer color_;
-  TextureHandle samplesColor_;  // in place of color_ where there are samples
+  TextureHandle samplesColor_;  // instead of color_ if multisampled
   TextureHandle depth_;
   Program resolve_;
   VertexArray noVertices_;
-  Framebuffer drawn_, single_;  // after the renderbuffers: deleted before them
+  Framebuffer drawn_, single_;  // after the renderbuffers, so destroyed before them
 };
 
 }  // namespace glint

@@ -8,9 +8,9 @@
 
 namespace glint {
 
-/// Owns the name of a GL object. Move-only; 0 is empty. It must die while the context that it was
-/// made in is current; an empty one may die at any time. glDelete* is called in this file only.
-/// Kind has static GLuint make(...) and static void destroy(GLuint).
+/// Owns the name of a GL object. Move-only; 0 is empty. It must be destroyed while the context in
+/// which it was created is current; an empty one may be destroyed at any time. glDelete* is called
+/// only in this file. Kind has static GLuint make(...) and static void destroy(GLuint).
 template <class Kind>
 class Handle {
  public:
@@ -25,7 +25,7 @@ class Handle {
     if (id_) Kind::destroy(id_);
   }
 
-  /// A new GL object; a shader takes its stage. Throws Error if no context is current.
+  /// Creates a GL object; shaders take their stage. Throws Error if no context is current.
   template <class... Arguments>
   static Handle make(Arguments... arguments) {
     requireContext("making a GL object");
@@ -41,7 +41,7 @@ class Handle {
   GLuint id_ = 0;
 };
 
-/// Objects that are made and deleted in arrays. The functions are pointers that change with the
+/// Objects that are created and deleted in arrays. The functions are pointers that change with the
 /// context, hence their addresses.
 template <auto* generate, auto* remove>
 struct ArrayKind {

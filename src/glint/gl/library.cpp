@@ -30,14 +30,14 @@ const char* resolve(void* library, std::span<const Symbol> symbols) {
 
 void openLibrary(std::span<const char* const> sonames, std::span<const Symbol> symbols,
                  const char* remedy) {
-  std::string absent;   // names that no library has
-  std::string reasons;  // why those found cannot be used
+  std::string absent;   // sonames not found
+  std::string reasons;  // why the libraries found cannot be used
   for (const char* soname : sonames) {
     void* library = dlopen(soname, RTLD_NOW | RTLD_LOCAL);
     std::string reason;
     if (!library) {
       reason = dlErrorText();
-      // The same words with another name in front mean that a library it needs is missing.
+      // The same words with another name in front mean that a dependency is missing.
       if (reason.starts_with(std::string(soname) + ": cannot open shared object file: No such")) {
         absent += (absent.empty() ? "" : " or ") + std::string(soname);
         continue;

@@ -14,7 +14,7 @@ void main() {
 }
 )";
 
-// Green if nothing is left of x.
+// Green if x was lost.
 constexpr const char* lossShader = R"(#version 300 es
 precision mediump float;
 uniform float x;

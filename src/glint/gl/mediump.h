@@ -6,15 +6,15 @@
 
 namespace glint {
 
-/// What a driver computes `mediump` numbers in, as phones and browsers ask for by OpenGL ES.
+/// The precision in which a driver computes `mediump`, which phones and browsers use in OpenGL ES.
 struct MediumpReport {
-  bool isHalf = false;   ///< 16 bits; otherwise more, as OpenGL ES allows
+  bool isHalf = false;   ///< 16 bits; otherwise more, which OpenGL ES allows
   std::string renderer;  ///< the driver's name
 };
 
-/// Finds it out in an OpenGL ES 3 context of EGL's, by (x + 1) - 1 of x = 2^-12, which halves lose.
-/// No context may be current on the calling thread; none is afterwards. Throws ContextError where
-/// there is no such context.
+/// Tests this in an OpenGL ES 3 context from EGL: (x + 1) - 1 with x = 2^-12, which is lost in
+/// halves. The calling thread must have no context current, and has none afterwards. Throws
+/// ContextError if there is no such context.
 MediumpReport mediumpOfDriver();
 
 }  // namespace glint

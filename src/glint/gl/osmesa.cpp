@@ -1,4 +1,4 @@
-// Mesa's off-screen library. Its header is not needed: five functions and a few constants.
+// Mesa's off-screen library. Its header is not needed for five functions and a few constants.
 
 #include <array>
 #include <string>
@@ -20,7 +20,7 @@ struct OsmesaFunctions {
   void (*(*getProcAddress)(const char* name))();
 };
 
-// Names and values of GL/osmesa.h; GL_RGBA and GL_UNSIGNED_BYTE of the colour buffer.
+// Names and values from GL/osmesa.h; GL_RGBA and GL_UNSIGNED_BYTE for the colour buffer.
 enum : int {
   osmesaFormat = 0x22,
   osmesaDepthBits = 0x30,
@@ -35,7 +35,7 @@ enum : int {
   glVersionName = 0x1F02,
 };
 
-/// GL_VERSION of the context that a driver without OpenGL 3.3 gives, empty if there is none.
+/// GL_VERSION of the context that a driver without OpenGL 3.3 provides; empty if there is none.
 std::string versionWithoutAttributes(const OsmesaFunctions& osmesa) {
   const int plain[] = {osmesaFormat, rgba, 0};
   const OsmesaHandle context = osmesa.createContextAttribs(plain, nullptr);
@@ -75,7 +75,7 @@ class OsmesaContext final : public Context {
 
   OsmesaFunctions osmesa_;
   OsmesaHandle context_;
-  std::array<unsigned char, 4> pixel_{};  // the colour buffer OSMesa insists on; nothing is drawn
+  std::array<unsigned char, 4> pixel_{};  // the colour buffer that OSMesa requires; not used
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ const char* stageName(GLenum stage) {
   }
 }
 
-/// The log without trailing blanks and the terminating zero, or a word in its place.
+/// The log without trailing blanks and the terminating zero, or a placeholder if it is empty.
 template <class GetParameter, class GetLog>
 std::string readLog(GLuint id, GetParameter getParameter, GetLog getLog) {
   GLint length = 0;
@@ -54,7 +54,7 @@ bool fileNamesInLines() {
 
 Program::Program(std::string_view name, std::span<const ShaderSource> sources)
     : program_(ProgramHandle::make()) {
-  // Nothing is asked before all is under way: drivers compile on threads of their own.
+  // Nothing is queried until all compilations have started: drivers compile on their own threads.
   std::vector<ShaderHandle> shaders;
   for (const ShaderSource& source : sources) {
     ShaderHandle shader = ShaderHandle::make(source.stage);

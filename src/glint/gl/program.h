@@ -9,15 +9,16 @@
 
 namespace glint {
 
-/// The text of one stage, `#version` line included. Several with one stage are linked together.
+/// The text of one stage, including its `#version` line. Several texts for one stage are linked
+/// together.
 struct ShaderSource {
   GLenum stage;  ///< GL_VERTEX_SHADER, GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER
   std::string_view text;
 };
 
-/// Whether the driver's compiler takes `#line N "file"`, with the line
+/// Whether the driver's compiler accepts `#line N "file"`, given the line
 /// `#extension GL_ARB_shading_language_include : enable` after `#version`, so that its messages
-/// name files. Without it `#line N NUMBER` is all there is.
+/// name files. Otherwise only `#line N NUMBER` works.
 bool fileNamesInLines();
 
 /// A linked program.
@@ -25,23 +26,23 @@ class Program {
  public:
   Program() = default;
 
-  /// Compiles and links. Throws Error: "NAME: fragment shader does not compile:" and, from the
-  /// next line on, the driver's log as it is, with its file names and line numbers. A compiler
-  /// message that is only a warning is dropped.
+  /// Compiles and links. Throws Error: "NAME: fragment shader does not compile:" followed, from the
+  /// next line on, by the driver's unmodified log with its file names and line numbers. Mere
+  /// warnings are dropped.
   Program(std::string_view name, std::span<const ShaderSource> sources);
 
   GLuint id() const { return program_.id(); }
   void use() const { glUseProgram(program_.id()); }
 
-  /// The place of a plain uniform, -1 if the program does not use it (glUniform* then does
+  /// The location of a plain uniform, -1 if the program does not use it (glUniform* then does
   /// nothing).
   GLint uniform(const char* name) const { return glGetUniformLocation(program_.id(), name); }
 
-  /// Connects a uniform block to a binding point; false if the program does not use it.
+  /// Assigns a uniform block to a binding point; false if the program does not use it.
   bool bindBlock(const char* name, GLuint binding) const;
 
-  /// Connects a sampler to a texture unit; false if the program does not use it. Leaves the
-  /// program in use.
+  /// Assigns a sampler to a texture unit; false if the program does not use it. Leaves the program
+  /// in use.
   bool bindSampler(const char* name, GLint unit) const;
 
  private:

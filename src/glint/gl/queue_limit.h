@@ -8,9 +8,9 @@
 
 namespace glint {
 
-/// Keeps short what the driver has taken and not drawn yet. A software driver transforms triangles
-/// faster than it fills them and keeps the difference: of ten million with four samples, 400 MB.
-/// Lives and dies in one current context.
+/// Limits how much work the driver has queued but not drawn. A software driver transforms triangles
+/// faster than it fills them and stores the backlog: 400 MB for ten million with four samples. Must
+/// be created and destroyed with the same context current.
 class QueueLimit {
  public:
   QueueLimit() { requireContext("drawing"); }
@@ -18,13 +18,13 @@ class QueueLimit {
   QueueLimit(const QueueLimit&) = delete;
   QueueLimit& operator=(const QueueLimit&) = delete;
 
-  /// Indices that may be drawn before drawn() is called next: of whole triangles, not 0.
+  /// Indices that may be drawn before the next call of drawn(): whole triangles, never 0.
   std::size_t room() const { return most - queued_; }
 
-  /// So many indices were drawn. Waits, where it was the last of a portion, until the portion
-  /// before is drawn, so that there is always work.
+  /// Counts indices that have been drawn. At the end of a batch, waits until the previous batch
+  /// is drawn, so that the driver always has work.
   void drawn(std::size_t indices) {
-    queued_ += (indices + 2) / 3 * 3;  // of points and lines too: what is left is whole triangles
+    queued_ += (indices + 2) / 3 * 3;  // also for points and lines: room() stays whole triangles
     if (queued_ < most) return;
     queued_ = 0;
     const GLsync after = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -36,7 +36,7 @@ class QueueLimit {
 
  private:
   static constexpr std::size_t most = 3 * 200'000;
-  static constexpr GLuint64 second = 1'000'000'000;  // nothing breaks where it takes longer
+  static constexpr GLuint64 second = 1'000'000'000;  // nothing breaks if it takes longer
 
   std::size_t queued_ = 0;
   GLsync before_ = nullptr;

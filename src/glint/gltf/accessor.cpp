@@ -13,7 +13,7 @@ std::size_t bytesOf(int componentType) {
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
 }
 
-/// Calls `use` with a value of the C++ type of a glTF component type.
+/// Calls `use` with a value of the C++ type that matches a glTF component type.
 template <typename Use>
 void withComponent(int componentType, const Use& use) {
   if (componentType == 5120) use(std::int8_t());
@@ -24,7 +24,7 @@ void withComponent(int componentType, const Use& use) {
   if (componentType == 5126) use(float());
 }
 
-/// The same for the types that indices have.
+/// The same for the types allowed for indices.
 template <typename Use>
 void withIndex(int componentType, const Use& use) {
   if (componentType == 5121) use(std::uint8_t());
@@ -39,7 +39,7 @@ Component load(const unsigned char* from) {
   return value;
 }
 
-/// Bytes from the first element to the end of the last, each of them having `bytes`.
+/// Bytes from the first element to the end of the last, with `bytes` per element.
 std::size_t spanOf(const AccessorView& view, std::size_t bytes) {
   return view.count > 0 ? (view.count - 1) * view.stride + bytes : 0;
 }
@@ -49,7 +49,7 @@ void readInto(void* to, const AccessorView& view, std::size_t size) {
     view.messages->fail(view.label + " cannot be read from its file", "check the disk");
 }
 
-/// Where the elements begin; `room` holds them if they come from a file. Null where there are none.
+/// The first element; `room` holds the data if they come from a file. Null if there are no data.
 const unsigned char* elementsOf(const AccessorView& view, std::size_t bytes,
                                 std::vector<unsigned char>& room) {
   if (view.data || !view.file) return view.data;
@@ -146,11 +146,11 @@ AccessorView openAccessor(const Document& document, int index, const std::string
 
 namespace {
 
-/// What a whole number is multiplied by: 1 or, as a fraction, that of its type.
+/// The factor for an integer: 1 or, for normalised values, the reciprocal of its type's maximum.
 template <typename Component>
 double scaleOf(const AccessorView& view, bool normalize) {
   if constexpr (!std::is_floating_point_v<Component>) {
-    // -128 and -127 both stand for -1.
+    // -128 and -127 both mean -1.
     if (normalize || view.normalized) return 1.0 / std::numeric_limits<Component>::max();
   }
   return 1;
@@ -165,7 +165,7 @@ std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices,
   std::vector<Vector> result(vertices.count, fallback);
   const int length = std::min<int>(Vector::length(), view.components);
   if (vertices.count == 0) return result;
-  // As they lie in the file: straight to where they are needed.
+  // If the layouts are equal, directly to the destination.
   if (std::is_same_v<Real, float> && view.componentType == 5126 && vertices.all &&
       view.components == Vector::length() && view.stride == sizeof(Vector)) {
     const std::size_t size = vertices.count * sizeof(Vector);

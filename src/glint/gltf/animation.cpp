@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t rotationWidth = 4;
 
-/// All numbers of an accessor, whole ones scaled where it or `normalize` says so.
+/// All numbers of an accessor; integers are scaled if it is normalised or `normalize` is set.
 std::vector<double> readNumbers(const Document& document, int accessor, bool normalize,
                                 const std::string& label, Budget& budget,
                                 const Messages& messages) {
@@ -70,7 +70,7 @@ class Reader {
   }
 
  private:
-  /// What the keys of a sampler are read as: rotations and weights in whole numbers are fractions.
+  /// A sampler and whether its integers are fractions, as for rotations and weights.
   using Use = std::pair<std::size_t, bool>;
 
   void readChannel(Cursor channel) {
@@ -84,7 +84,7 @@ class Reader {
     if (!path) {
       return leaveOut(channel, "moves \"" + printable(pathName, 40) + "\", which is not known");
     }
-    if (node < 0) return;  // by the standard: for extensions, ignored otherwise
+    if (node < 0) return;  // standard: for extensions, otherwise ignored
     Channel result;
     result.node = static_cast<std::size_t>(node);
     result.path = *path;
@@ -121,7 +121,7 @@ class Reader {
     return count;
   }
 
-  /// Without times where the keys cannot be played.
+  /// Without times if the keys cannot be played.
   Keys readKeys(Cursor sampler, bool fraction) {
     const std::size_t accessors = document_.model.accessors.size();
     const int input = sampler.required("input").index(accessors);
@@ -180,7 +180,7 @@ std::vector<double> slerp(const std::vector<double>& a, std::vector<double> b, d
     cosine = -cosine;
   }
   double shareA = 1 - t, shareB = t;
-  if (cosine < 1 - 1e-9) {  // else the sines have no digits left, and the chord is the arc
+  if (cosine < 1 - 1e-9) {  // otherwise the sines lose all digits, and the chord equals the arc
     const double angle = std::acos(cosine), sine = std::sin(angle);
     shareA = std::sin((1 - t) * angle) / sine;
     shareB = std::sin(t * angle) / sine;
@@ -226,7 +226,7 @@ Animation readAnimation(Document& document, std::size_t index, Budget& budget, M
 
 std::vector<double> valueAt(const Keys& keys, std::size_t width, bool rotation, double seconds) {
   const bool cubic = keys.interpolation == Interpolation::cubic;
-  // Number k of the triples of a cubic key: in-tangent, value, out-tangent.
+  // Part k of a cubic key: in-tangent, value, out-tangent.
   const auto part = [&](std::size_t key, std::size_t k) {
     const auto first =
         keys.values.begin() + static_cast<std::ptrdiff_t>((cubic ? 3 * key + k : key) * width);

@@ -9,10 +9,10 @@
 namespace glint::gltf {
 namespace {
 
-/// More bytes than any file holds, and few enough that sums of a few cannot overflow.
+/// More bytes than any file has, yet small enough that sums of a few cannot overflow.
 constexpr std::int64_t maxBytes = std::int64_t(1) << 48;
 
-/// "2.0" gives {2, 0}; {-1, 0} for what is not a version.
+/// "2.0" gives {2, 0}; {-1, 0} if it is not a version.
 std::pair<int, int> versionOf(const std::string& text) {
   int major = -1, minor = 0, used = 0;
   if (std::sscanf(text.c_str(), "%4d.%4d%n", &major, &minor, &used) != 2 ||
@@ -68,8 +68,8 @@ std::int64_t componentBytes(std::int64_t componentType) {
 
 namespace {
 
-/// Bytes of one element, the padding of matrix columns to four bytes included; 0 if unknown. What
-/// would follow the `last` column of all need not be there.
+/// Bytes of one element, including the padding of matrix columns to four bytes; 0 if unknown. For
+/// the `last` element the padding after its last column may be missing.
 std::int64_t elementBytes(const std::string& type, std::int64_t component, bool last = false) {
   const auto columns = [&](std::int64_t n) {
     const std::int64_t padded = (n * component + 3) / 4 * 4;
@@ -87,7 +87,7 @@ std::int64_t elementBytes(const std::string& type, std::int64_t component, bool 
 
 struct View {
   std::int64_t bytes = 0;
-  std::int64_t stride = 0;  ///< 0 where none is given
+  std::int64_t stride = 0;  ///< 0 if none is given
 };
 
 std::vector<View> checkViews(Cursor root) {
@@ -117,8 +117,8 @@ std::vector<View> checkViews(Cursor root) {
   return views;
 }
 
-/// `count` elements `stride` apart, the last of them of `bytes` bytes, from `offset` on: do they
-/// lie in the view?
+/// Checks that `count` elements starting at `offset`, `stride` apart, the last with `bytes` bytes,
+/// lie in the view.
 void checkSpan(Cursor where, const View& view, std::int64_t offset, std::int64_t count,
                std::int64_t bytes, std::int64_t stride) {
   if (count == 0) return;
@@ -179,7 +179,7 @@ void checkAttributes(Cursor attributes, std::size_t accessors) {
   attributes.forEachMember([&](Cursor attribute) { attribute.index(accessors); });
 }
 
-/// Each takes a kilobyte, be it an empty object; a model that somebody made has some hundreds.
+/// Each entry takes a kilobyte, even an empty object; genuine models have some hundreds.
 void checkCounts(Cursor root) {
   constexpr std::size_t most = 1 << 16;
   for (const char* list : {"materials", "textures", "images", "samplers", "animations", "skins"}) {
@@ -243,7 +243,7 @@ void checkNodes(Cursor root) {
       children[i].push_back(child);
     }
   }
-  // With one parent at most, a node that no root leads to is in a cycle or below one.
+  // Since nodes have at most one parent, a node that no root leads to is in a cycle or below one.
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < count; ++i) {
     if (parent[i] < 0) open.push_back(i);
@@ -267,7 +267,7 @@ void checkScenesAndSkins(Cursor root) {
     const Cursor list = scenes.item(i).member("nodes");
     for (std::size_t k = 0; k < list.size(); ++k) list.item(k).index(nodes);
   }
-  // A file without scenes is a library of parts; "scene" then has nothing to point at.
+  // A file without scenes is a library of parts; "scene" then has nothing to refer to.
   if (scenes.size() > 0) {
     root.member("scene").index(scenes.size());
   } else {

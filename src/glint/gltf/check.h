@@ -7,21 +7,21 @@
 namespace glint::gltf {
 
 /// The structural check of a glTF document, done before anything else reads it: the version, the
-/// extensions it requires, types, and that every index, offset and count stays within what it
-/// points into, in 64-bit arithmetic; that the nodes are trees, each with one parent at most.
-/// tinygltf checks none of this and crashes on it.
+/// required extensions, types, that every index, offset and count is within bounds, in 64-bit
+/// arithmetic, and that the nodes form trees, with at most one parent each. tinygltf checks none of
+/// this and crashes on violations.
 ///
-/// Sections that nothing here reads (animations, extras, extensions' objects) are not looked at.
-/// Fails with a message that names the place; warns of extensions that are used but not known.
+/// The contents of animations, extras and extension objects are not checked here. Fails with a
+/// message that gives the path; warns about extensions that are used but unknown.
 void checkDocument(Json& document, Messages& messages);
 
-/// The part of it that looks at indices, offsets and counts; once more where those have changed.
+/// The part that checks indices, offsets and counts; used again if those have changed.
 void checkStructure(Json& document, const Messages& messages);
 
-/// Bytes that the elements of an accessor span from its first to the end of its last one, `stride`
-/// apart (0: one behind the other); of an accessor that has been checked.
+/// Bytes from an accessor's first element to the end of its last, with elements `stride` apart
+/// (0: tightly packed). The accessor must have been checked.
 std::uint64_t spanOfElements(Cursor accessor, std::int64_t stride);
-/// Bytes of one component of a glTF type such as 5126; 0 if there is none.
+/// Bytes per component of a glTF type such as 5126; 0 if unknown.
 std::int64_t componentBytes(std::int64_t componentType);
 
 }  // namespace glint::gltf

@@ -11,7 +11,7 @@
 namespace glint::gltf {
 namespace {
 
-/// More than this for each compressed byte is an attack; the codecs' best is about a hundred.
+/// More than this per compressed byte is an attack; the codecs' best is about a hundred.
 constexpr std::uint64_t maxGrowth = 512;
 constexpr std::int64_t maxCompressedBytes = std::int64_t(1) << 32;
 
@@ -83,7 +83,7 @@ class Decompressor {
     }
   }
 
-  /// Adds an accessor over a buffer of its own.
+  /// Adds an accessor with its own buffer.
   std::size_t addAccessor(Json accessor, std::vector<unsigned char> bytes) {
     Json& views = document_.json["bufferViews"];
     const std::size_t size = bytes.size();

@@ -7,16 +7,17 @@
 
 namespace glint::gltf {
 
-/// Whether this build reads an extension that compresses geometry.
+/// Whether this build supports an extension for compressed geometry.
 bool readsCompression(const std::string& extension);
 
-/// Replaces compressed geometry by plain one, so that nothing behind this needs to know of it: what
-/// EXT_meshopt_compression and KHR_draco_mesh_compression hold is decoded into buffers of its own,
-/// and the document's buffer views, accessors and primitives point there. `document.buffers` is
-/// filled. True if anything was replaced; the document is then to be checked again.
+/// Replaces compressed geometry by uncompressed, so that later code need not know about it: the
+/// data of EXT_meshopt_compression and KHR_draco_mesh_compression are decoded into buffers of their
+/// own, to which the document's buffer views, accessors and primitives are redirected. Fills
+/// `document.buffers`. Returns true if anything was replaced; the document must then be checked
+/// again.
 ///
-/// Fails, naming the place, on data that are damaged, that unfold to more than 512 times their
-/// size, or that do not hold what the document says.
+/// Fails, giving the path, on data that are damaged, that expand to more than 512 times their size,
+/// or that do not match the document.
 bool decompress(Document& document, const Messages& messages);
 
 }  // namespace glint::gltf

@@ -11,7 +11,7 @@
 namespace glint::gltf {
 namespace {
 
-/// A longer stretch is read in pieces, each when it is needed.
+/// Longer stretches are read in pieces, each when it is needed.
 constexpr std::uint64_t maxHeldBytes = std::uint64_t(16) << 20;
 
 /// More than any GPU holds; many buffers may name the same large file.
@@ -38,7 +38,7 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
   } else if (index == 0 && container.binary) {
     source = *container.binary;
   } else if (readsCompression(meshopt) && buffer.member("extensions").member(meshopt).exists()) {
-    return ByteSource(std::vector<unsigned char>());  // stands for what is compressed
+    return ByteSource(std::vector<unsigned char>());  // a placeholder for the compressed data
   } else {
     absent = true;
     return source;
@@ -62,7 +62,7 @@ std::vector<ViewPlace> placeViews(Cursor root) {
   return views;
 }
 
-/// How far from its beginning accessors read each buffer view; 0: no accessor refers to it.
+/// How far from its beginning accessors read each buffer view; 0: no accessor uses it.
 std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
   std::vector<std::uint64_t> ends(count, 0);
   const auto use = [&](Cursor owner, std::uint64_t bytes) {
@@ -89,7 +89,7 @@ std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
     const Cursor indices = sparse.member("indices");
     use(indices, values * static_cast<std::uint64_t>(componentBytes(
                               indices.member("componentType").integer(0, 0, INT32_MAX))));
-    // An element of VEC4 or MAT4 has 64 bytes at most; the view's end cuts what is too much.
+    // An element of VEC4 or MAT4 has at most 64 bytes; any excess is cut at the view's end.
     use(sparse.member("values"), values * 64);
   }
   return ends;
@@ -102,13 +102,13 @@ std::vector<std::string> readVariants(Cursor root) {
   return names;
 }
 
-/// Whether more than one pose can be asked for: what its primitives read is then read again.
+/// Whether more than one pose can be requested, in which case primitives' data are read repeatedly.
 bool canMove(Cursor root, const Document& document) {
   return root.member("animations").size() > 0 || root.member("skins").size() > 0 ||
          !document.morphs.empty() || !readVariants(root).empty();
 }
 
-/// Finds of each buffer the stretch in which the views lie that accessors use, and reads it.
+/// Finds the stretch of each buffer that contains the views used by accessors, and reads it.
 void readGeometry(Cursor root, Document& document, const Messages& messages) {
   const std::vector<std::uint64_t> used = endsOfViews(root, document.views.size());
   document.stretches.resize(document.buffers.size());
@@ -150,8 +150,8 @@ std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
   return result;
 }
 
-/// The primitives' indices, one after another, which tinygltf refuses where they have no buffer
-/// view (-1: none): zeros and those that a sparse accessor puts in their place are valid.
+/// Removes the primitives' indices and returns them in order (-1: none). tinygltf refuses indices
+/// without a buffer view, but zeros and their replacements in a sparse accessor are valid.
 std::vector<int> takeIndices(Cursor root) {
   std::vector<int> result;
   const Cursor meshes = root.member("meshes");
@@ -166,7 +166,7 @@ std::vector<int> takeIndices(Cursor root) {
   return result;
 }
 
-/// What extensions say of primitives and nodes.
+/// Extension data of primitives and nodes.
 Document::Pieces readPieces(Cursor root) {
   Document::Pieces pieces;
   const std::size_t accessors = root.member("accessors").size();
@@ -199,7 +199,7 @@ Document::Pieces readPieces(Cursor root) {
   return pieces;
 }
 
-/// What glint does not read, tinygltf need not either.
+/// Data that glint does not read need not reach tinygltf.
 void dropExtras(Json& json) {
   if (json.is_object()) {
     json.erase("extensions");
@@ -211,8 +211,7 @@ void dropExtras(Json& json) {
   }
 }
 
-/// The part of the document that tinygltf reads, taken out of `json`, with a buffer that stands for
-/// all.
+/// The part of the document for tinygltf, removed from `json`, with one placeholder buffer.
 std::string takeGeometry(Json& json) {
   Json part = {{"asset", {{"version", "2.0"}}}};
   for (const char* section : {"bufferViews", "accessors", "meshes", "nodes", "skins", "scenes"}) {

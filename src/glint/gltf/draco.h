@@ -10,11 +10,11 @@ namespace glint::gltf {
 
 bool hasDraco();
 
-/// A mesh as KHR_draco_mesh_compression holds it.
+/// A mesh compressed with KHR_draco_mesh_compression.
 class DracoMesh {
  public:
-  /// Decodes; where `error()` is filled, there is no mesh. One of more than `maxGrowth` points or
-  /// faces a byte is refused.
+  /// Decodes. If `error()` is not empty, there is no mesh. Refuses more than `maxGrowth` points or
+  /// faces per byte.
   DracoMesh(const std::vector<unsigned char>& packed, std::uint64_t maxGrowth);
   ~DracoMesh();
   DracoMesh(const DracoMesh&) = delete;
@@ -23,12 +23,12 @@ class DracoMesh {
   const std::string& error() const { return error_; }
   std::size_t points() const;
 
-  /// The attribute of an id as the values of a glTF accessor, tightly packed. Gives what is wrong,
-  /// or nothing.
+  /// Reads the attribute with this id as tightly packed values of a glTF accessor. Returns the
+  /// error, or an empty string.
   std::string readAttribute(std::uint32_t id, int componentType, const std::string& type,
                             std::vector<unsigned char>& bytes) const;
 
-  /// 32-bit indices, three a triangle.
+  /// 32-bit indices, three per triangle.
   std::vector<unsigned char> indices() const;
 
  private:

@@ -18,7 +18,7 @@ struct Entry {
   const char* name;
   Use use;
   const char* note;
-  const char* option = nullptr;  ///< of the build, where it may lack the extension
+  const char* option = nullptr;  ///< build option, if the extension is optional
 };
 
 constexpr std::array table = {
@@ -41,7 +41,7 @@ constexpr std::array table = {
     Entry{"EXT_texture_webp", Use::read, "", "GLINT_WEBP"},
 };
 
-/// What no picture shows: what is said about the model, and what it does when it is not a picture.
+/// Extensions without effect on a picture: metadata, and behaviour outside of pictures.
 constexpr std::array unseen = {
     "KHR_xmp",
     "KHR_xmp_json_ld",
@@ -72,8 +72,7 @@ constexpr std::array unseen = {
     "VRMC_node_constraint",
 };
 
-/// Extensions of materials that are not read, and the factor of theirs that is 0 where they show
-/// nothing.
+/// Unsupported extensions of materials, and the factor that is 0 if they have no visible effect.
 constexpr std::pair<const char*, const char*> factors[] = {
     {"KHR_materials_anisotropy", "anisotropyStrength"},
     {"KHR_materials_clearcoat", "clearcoatFactor"},
@@ -89,7 +88,7 @@ bool isAbove0(const Json& value) {
   return above(value) || (value.is_array() && std::ranges::any_of(value, above));
 }
 
-/// Whether some material has something to show of an extension that is not read.
+/// Whether an unsupported extension has a visible effect in some material.
 bool shows(Cursor root, const std::string& name) {
   const auto found =
       std::ranges::find_if(factors, [&](const auto& each) { return name == each.first; });
@@ -139,7 +138,7 @@ std::vector<FileExtension> extensionsOf(Cursor root) {
       result[place->second].required |= required;
     }
   }
-  // Who does not know what is required may not go on, whatever it would show.
+  // A loader must not ignore an unknown required extension, whether or not it has a visible effect.
   for (FileExtension& each : result)
     if (each.use == Use::ignored && !each.required && !shows(root, each.name))
       each = {each.name, Use::unseen, "no material shows any of it"};
@@ -173,7 +172,7 @@ std::vector<FileMorph> morphsOf(Cursor root) {
     }
     if (count == 0) continue;
     FileMorph morph{printable(mesh.name(), 80), std::vector<std::string>(count)};
-    // Names stand by custom in "extras", whose form nobody promises.
+    // By convention names are in "extras", whose structure is not guaranteed.
     const Json& json = mesh.json();
     const auto extras = json.find("extras");
     if (extras != json.end() && extras->is_object()) {

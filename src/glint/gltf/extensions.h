@@ -8,11 +8,11 @@
 
 namespace glint::gltf {
 
-/// What becomes of an extension: the one table behind the loader's refusals and warnings and
-/// behind `glint info`.
+/// How an extension is handled: the single table behind the loader's errors and warnings and
+/// `glint info`.
 FileExtension describeExtension(const std::string& name);
 
-/// Those that a document uses or requires, each once, in its order.
+/// The extensions that a document uses or requires, each once, in document order.
 std::vector<FileExtension> extensionsOf(Cursor root);
 
 /// The skins and the meshes with morph targets of a checked document.

@@ -16,13 +16,13 @@
 namespace glint::gltf {
 namespace {
 
-/// JSON beyond this is no scene that fits into memory once parsed.
+/// A larger JSON would not fit into memory once parsed.
 constexpr std::uint64_t maxJsonBytes = std::uint64_t(256) << 20;
 
 std::atomic<bool> isConfined = false;
 
-/// Whether the file that is open lies in the folder or below it. It is asked of the open file, so
-/// that nobody can put another one in its place in between.
+/// Whether an open file is inside the folder or its subfolders. Checking the open file rather than
+/// the path prevents it from being swapped in between.
 bool isInside(int descriptor, const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path file =
@@ -82,7 +82,7 @@ Container readGlb(const RegularFile& file, const std::filesystem::path& path,
   return container;
 }
 
-/// RFC 4648; false on a character that is not of its alphabet. White space is skipped.
+/// RFC 4648; false for a character outside its alphabet. White space is skipped.
 bool decodeBase64(std::string_view text, std::vector<unsigned char>& bytes) {
   static const auto values = [] {
     std::array<int, 256> table;
@@ -168,7 +168,7 @@ std::filesystem::path confinementOfItself(const std::filesystem::path& model) {
 
 RegularFile::RegularFile(const std::filesystem::path& path, const std::filesystem::path& folder,
                          std::string& error) {
-  // Without O_NONBLOCK, opening a FIFO waits for someone to write into it.
+  // Without O_NONBLOCK, opening a FIFO blocks until there is a writer.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status = {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
@@ -288,8 +288,8 @@ ByteSource openUri(const std::string& uri, const std::filesystem::path& model, s
   };
   ByteSource source = open(name, error);
   if (error.empty()) return source;
-  // Some exporters write names with a percent sign as they are; those of Windows write its
-  // separators, plain or as %5C.
+  // Some exporters write names with a percent sign unescaped; Windows exporters write backslashes
+  // as separators, plain or as %5C.
   std::string slashed = name;
   std::ranges::replace(slashed, '\\', '/');
   for (const std::string& other : {uri, slashed}) {

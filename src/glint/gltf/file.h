@@ -12,24 +12,25 @@
 
 namespace glint::gltf {
 
-/// From now on, for the whole process, models read nothing that lies outside of their own folder,
-/// whatever names or links lead there; the model itself may not be such a link either. For models
-/// that strangers have sent.
+/// From now on, for the whole process, models read nothing outside their own folder, whatever names
+/// or links lead there; the model itself must not be such a link either. For models from untrusted
+/// sources.
 void confineModels();
-/// The folder that a model's files must lie in: its own after confineModels(), else none (empty).
-/// A model from stdin, "/proc/self/fd/N", has no folder: no file lies in that.
+/// The folder that must contain a model's files: its own after confineModels(), otherwise empty (no
+/// restriction). A model from stdin, "/proc/self/fd/N", is confined to a folder that contains no
+/// files.
 std::filesystem::path confinementOf(const std::filesystem::path& model);
-/// The folder that the model's own file must lie in: the same, but none for one from stdin.
+/// The folder that must contain the model file itself: the same, but empty for a model from stdin.
 std::filesystem::path confinementOfItself(const std::filesystem::path& model);
-/// Why a file is not opened then.
+/// The error for a file outside that folder.
 inline constexpr const char* liesOutside = "lies outside of the model's folder (--confine)";
 
-/// A file open for reading. Opens regular files only and never waits: a FIFO, a device or a folder
+/// A file open for reading. Opens only regular files and never blocks: a FIFO, a device or a folder
 /// that a model names must not hang or flood the viewer.
 class RegularFile {
  public:
-  /// Where `error` is filled, the file is not open and `error` says why: "does not exist". A file
-  /// that is not in `folder` or below it, unless that is empty, is refused.
+  /// If `error` is set, the file is not open and `error` gives the reason: "does not exist". Unless
+  /// `folder` is empty, a file outside it and its subfolders is refused.
   RegularFile(const std::filesystem::path& path, const std::filesystem::path& folder,
               std::string& error);
   ~RegularFile();
@@ -37,7 +38,7 @@ class RegularFile {
   RegularFile& operator=(const RegularFile&) = delete;
 
   std::uint64_t size() const { return size_; }
-  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  /// Reads exactly `count` bytes from `offset`; false if there are fewer.
   bool read(void* to, std::uint64_t offset, std::size_t count) const;
 
  private:
@@ -45,18 +46,18 @@ class RegularFile {
   std::uint64_t size_ = 0;
 };
 
-/// Bytes that can be read in pieces: a part of a file, opened anew for each read so that a model of
-/// a thousand files does not hold them all open, or a block of memory.
+/// Bytes that can be read in pieces: a block of memory, or a part of a file, which is reopened for
+/// each read so that a model with a thousand files does not keep them all open.
 class ByteSource {
  public:
   ByteSource() = default;
   explicit ByteSource(std::vector<unsigned char> bytes);
-  /// Of a file that may only lie in `folder`, as RegularFile.
+  /// From a file, which must be in `folder` as for RegularFile.
   ByteSource(std::filesystem::path path, std::filesystem::path folder, std::uint64_t start,
              std::uint64_t size);
 
   std::uint64_t size() const { return size_; }
-  /// Reads exactly `count` bytes from `offset`; false where there are fewer.
+  /// Reads exactly `count` bytes from `offset`; false if there are fewer.
   bool read(void* to, std::uint64_t offset, std::size_t count) const;
 
  private:
@@ -67,31 +68,31 @@ class ByteSource {
   std::vector<unsigned char> bytes_;
 };
 
-/// A model file taken apart: its JSON text and, in a GLB file, where the binary chunk lies.
+/// A model file split up: its JSON text and, for a GLB file, the location of the binary chunk.
 struct Container {
   std::string json;
   std::optional<ByteSource> binary;
 };
 
-/// Reads a `.gltf` or `.glb` file, told apart by the first four bytes. Checks the GLB header, the
-/// chunks' lengths and types; tolerates chunks not aligned to four bytes, chunks of unknown type
-/// and bytes behind the end that the header tells.
+/// Reads a `.gltf` or `.glb` file, distinguished by its first four bytes. Checks the GLB header and
+/// the chunks' lengths and types; tolerates chunks not aligned to four bytes, chunks of unknown
+/// type and bytes beyond the length in the header.
 Container readContainer(const std::filesystem::path& path, const Messages& messages);
 
-/// What a URI stands for: the payload of a `data:` URI or the file named relative to the folder of
-/// `model`, percent-decoded. Where there is none, `error` says why, without the URI.
+/// The contents of a URI: the payload of a `data:` URI, or the file named relative to the folder of
+/// `model`, percent-decoded. On failure `error` gives the reason, without the URI.
 ByteSource openUri(const std::string& uri, const std::filesystem::path& model, std::string& error);
 
-/// Is it a `data:` URI? The scheme counts in any case of its letters.
+/// Whether it is a `data:` URI, with the scheme in upper or lower case.
 bool isDataUri(std::string_view uri);
 
-/// What other readers may refuse in a URI that openUri() takes, to stand in a warning, or nothing.
+/// A warning about a URI that openUri() accepts but other readers may refuse, or an empty string.
 std::string oddityOf(const std::string& uri);
 
-/// A URI with its %XX resolved.
+/// The text with its %XX escapes decoded.
 std::string percentDecoded(std::string_view text);
 
-/// The URI as it may stand in a message: data URIs are cut behind their media type.
+/// The URI for use in a message: data URIs are cut after their media type.
 std::string printableUri(std::string_view uri);
 
 }  // namespace glint::gltf

@@ -7,7 +7,7 @@
 namespace glint::gltf {
 
 std::string readGeometryModel(tinygltf::Model& model, const std::string& text) {
-  // The parameter that tells the length has 32 bits.
+  // The length parameter has 32 bits.
   if (text.size() > std::numeric_limits<unsigned>::max()) return "its text has more than 4 GiB";
   tinygltf::TinyGLTF reader;
   std::string errors, warnings;

@@ -8,8 +8,8 @@ class Model;
 
 namespace glint::gltf {
 
-/// Has tinygltf read a glTF text that refers to no file. Returns what is wrong, or nothing. The one
-/// file that knows tinygltf's versions (2.5 to 2.9).
+/// Has tinygltf read a glTF text that refers to no files. Returns the error, or an empty string.
+/// Only this file depends on tinygltf's version (2.5 to 2.9).
 std::string readGeometryModel(tinygltf::Model& model, const std::string& text);
 
 }  // namespace glint::gltf

@@ -13,13 +13,13 @@ namespace glint::gltf {
 
 using Json = nlohmann::json;
 
-/// Parses a glTF file's JSON text; its root is an object. Fails on what is not JSON, on numbers
-/// beyond double and on what glint/image/json_text.h refuses.
+/// Parses a glTF file's JSON text, whose root must be an object. Fails on invalid JSON, on numbers
+/// beyond the range of double and on texts that glint/image/json_text.h refuses.
 Json parseJson(std::string_view text, const Messages& messages);
 
-/// A place in the JSON document that knows its path, so that every message can name it. The value
-/// may be absent; the readers then return their fallback. A value of the wrong type or out of range
-/// fails with the path, what was expected and what stands there.
+/// A position in the JSON document that knows its path, so that every message can give it. The
+/// value may be absent; the readers then return their fallback. A value of the wrong type or out of
+/// range fails with the path, the expectation and the actual value.
 class Cursor {
  public:
   Cursor(Json& root, const Messages& messages) : json_(&root), messages_(&messages) {}
@@ -29,10 +29,10 @@ class Cursor {
 
   /// The member of an object. `key` must outlive the cursor.
   Cursor member(const char* key) const;
-  /// The same, failing where it is absent.
+  /// The same, but fails if it is absent.
   Cursor required(const char* key) const;
-  /// Calls `use` with each member of an object. Keys are not looked up again: one that holds a zero
-  /// byte would be mistaken for another.
+  /// Calls `use` with each member of an object. Keys are not looked up again: one that contains a
+  /// zero byte would be mistaken for another.
   template <typename Use>
   void forEachMember(const Use& use) const {
     checkObject();
@@ -41,23 +41,23 @@ class Cursor {
   }
   /// The entry of an array, i < size().
   Cursor item(std::size_t i) const;
-  /// Entries of an array, 0 where it is absent.
+  /// The number of entries of an array, 0 if it is absent.
   std::size_t size() const;
 
-  /// A whole number from `low` to `high`; 5.0 is taken too, and put right in the document.
+  /// An integer from `low` to `high`; 5.0 is accepted too, and corrected in the document.
   std::int64_t integer(std::int64_t fallback, std::int64_t low, std::int64_t high) const;
-  /// An index into a list of `count` things, -1 where it is absent.
+  /// An index into a list of `count` entries, -1 if absent.
   int index(std::size_t count) const;
   double number(double fallback) const;
   bool boolean(bool fallback) const;
   std::string text(const std::string& fallback = {}) const;
-  /// Fails unless it is absent or an array of `count` numbers (of any length for 0).
+  /// Fails unless it is absent or an array of `count` numbers (of any length if 0).
   void checkNumbers(std::size_t count) const;
   void checkObject() const;
 
-  /// The member "name" where it is text, else nothing: a name is never worth failing for.
+  /// The member "name" if it is text, otherwise empty: a name is never worth failing for.
   std::string name() const;
-  /// Of what forEachMember() gives: its key.
+  /// The key of a member passed by forEachMember().
   const char* key() const { return steps_[depth_ - 1].key; }
   /// The path, as in `nodes[3].children`.
   std::string path() const;

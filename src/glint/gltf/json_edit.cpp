@@ -85,7 +85,7 @@ std::size_t JsonText::skipValue(std::size_t i) const {
     if (c == '{' || c == '[') ++depth;
     if (c == '}' || c == ']') --depth;
     ++i;
-    if (depth == 0 && !isOneOf("}]", c))  // a number or a word
+    if (depth == 0 && !isOneOf("}]", c))  // a number or a literal
       while (i < text_.size() && !isOneOf(",}] \t\r\n", text_[i])) ++i;
   } while (depth > 0);
   return i;

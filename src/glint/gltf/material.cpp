@@ -19,8 +19,8 @@ void takeConverted(Material& material, const ConvertedParameters& c, const glm::
   material.highlightShare = c.share;
 }
 
-/// Takes what `extras.glint` says: numbers that stand there take the place of textures. It is the
-/// user's own text, so that no fault in it is an error.
+/// Applies `extras.glint`: its numbers replace textures. It is the user's own text, so no fault in
+/// it is an error.
 void readExtras(const Json& material, const std::string& label, Material& edited,
                 Messages& messages) {
   ShadingParameters& shading = edited.shading;
@@ -81,7 +81,7 @@ void readExtras(const Json& material, const std::string& label, Material& edited
   }
 }
 
-/// A colour of the file: `count` numbers clamped to [0, 1e6], or `fallback`.
+/// A colour from the file: `count` numbers clamped to [0, 1e6], or `fallback`.
 glm::dvec4 readColor(Cursor from, std::size_t count, const glm::dvec4& fallback) {
   from.checkNumbers(count);
   glm::dvec4 color = fallback;
@@ -93,7 +93,7 @@ glm::dvec4 readColor(Cursor from, std::size_t count, const glm::dvec4& fallback)
 
 double unit(Cursor from, double fallback) { return std::clamp(from.number(fallback), 0.0, 1.0); }
 
-/// What the extensions that are read say beside what is.
+/// Records the unsupported parts of supported extensions.
 void readUnused(Cursor extensions, Material& material) {
   const Cursor specular = extensions.member("KHR_materials_specular");
   if (readColor(specular.member("specularColorFactor"), 3, glm::dvec4(1)) !=
@@ -102,8 +102,8 @@ void readUnused(Cursor extensions, Material& material) {
     material.unusedProperties.emplace_back("the colour of KHR_materials_specular");
 }
 
-/// What textures give in place of numbers: bits only for what they can change. A material of
-/// specular and glossiness has no `pbr`.
+/// Reads textures that supply parameters; only sets bits for parameters that they can change. A
+/// specular-glossiness material has no `pbr`.
 void readParameterTextures(Cursor from, const std::optional<PbrParameters>& pbr, Material& material,
                            TextureReader& textures) {
   const Cursor extensions = from.member("extensions");
@@ -132,7 +132,7 @@ void readParameterTextures(Cursor from, const std::optional<PbrParameters>& pbr,
        to.reflectance > 0 ? unsigned(textured::specular) : 0u);
 }
 
-/// Textures of what a material of specular and glossiness becomes, made of its own.
+/// Makes the textures for a converted specular-glossiness material from its own.
 void readGlossTexture(Cursor from, const SpecularGlossiness& gloss, Material& material,
                       TextureReader& textures, Messages& messages) {
   const Cursor map = from.member("specularGlossinessTexture");
@@ -159,7 +159,7 @@ void readGlossTexture(Cursor from, const SpecularGlossiness& gloss, Material& ma
       textured::metalness | textured::diffuse | textured::specular | textured::exponent;
 }
 
-/// What stands beside it in metallic and roughness is a fallback for others.
+/// Metallic and roughness next to this extension are a fallback for other viewers.
 void readSpecularGlossiness(Cursor from, Material& material, TextureReader& textures,
                             Messages& messages) {
   SpecularGlossiness gloss;
@@ -170,7 +170,8 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
   const bool textured = from.member("specularGlossinessTexture").exists();
   SpecularGlossiness numbers = gloss;
   if (textured) {
-    // Where it cannot be read, those of common dielectrics and a middling gloss are the best guess.
+    // If the texture cannot be read, typical values of dielectrics and medium gloss are the best
+    // guess.
     numbers.specular *= 0.04;
     numbers.glossiness *= 0.5;
   }
@@ -178,7 +179,7 @@ void readSpecularGlossiness(Cursor from, Material& material, TextureReader& text
   takeConverted(material, converted, color);
   material.alpha = std::min(diffuse.a, 1.0);
   material.colorTexture = textures.read(from.member("diffuseTexture"));
-  // An unlit one shows its diffuse colour, and has no use for the rest.
+  // An unlit material shows its diffuse colour and does not need the rest.
   if (textured && !material.unlit) readGlossTexture(from, gloss, material, textures, messages);
 }
 
@@ -208,7 +209,7 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
   const glm::dvec4 emission = readColor(from.member("emissiveFactor"), 3, glm::dvec4(0));
   material.emission = glm::clamp(glm::dvec3(emission) * std::clamp(strength, 0.0, largestFactor),
                                  0.0, largestFactor);
-  // A texture multiplied by nothing need not be read.
+  // A texture multiplied by zero need not be read.
   if (material.emission != glm::dvec3(0)) {
     material.emissionTexture = textures.read(from.member("emissiveTexture"));
   }
@@ -245,7 +246,7 @@ std::vector<Material> readMaterials(Document& document, TextureReader& textures,
   const Cursor list = Cursor(document.json, messages).member("materials");
   for (std::size_t i = 0; i < list.size(); ++i) {
     Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
-    // Every material needs a name by which it can be edited.
+    // Every material needs a name so that it can be edited.
     if (material.name.empty()) material.name = "#" + std::to_string(i);
   }
   Material& standard = materials.emplace_back();

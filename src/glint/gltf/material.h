@@ -8,10 +8,10 @@
 
 namespace glint::gltf {
 
-/// The file's materials in their order, then glTF's default material. Factors out of their range
-/// are brought into it. Where a metallicRoughnessTexture exists, which no program reads, metallic
-/// and roughness factors are halved: 0.5 is taken for the texture's mean. `extras.glint` wins over
-/// all; what of it is not a number is ignored and what is out of range is clamped, with a warning.
+/// The file's materials in order, then glTF's default material. Factors are clamped to their range.
+/// Where a texture supplies a parameter, its bit is set in Material::textured. `extras.glint`
+/// overrides everything; entries that are not numbers are ignored and those out of range clamped,
+/// with a warning.
 std::vector<Material> readMaterials(Document& document, TextureReader& textures,
                                     Messages& messages);
 

@@ -18,11 +18,11 @@
 namespace glint::gltf {
 namespace {
 
-/// Beyond this distance from its origin, measured in radii, a mesh is stored relative to its
+/// A mesh farther from its origin than this, in units of its radius, is stored relative to its
 /// centre.
 constexpr double farAway = 8;
 
-/// Whether `good` holds of all, which it is asked of in any order.
+/// Whether `good` holds for all values; called in any order.
 template <typename Value, typename Good>
 bool allOf(const std::vector<Value>& values, const Good& good) {
   std::atomic<bool> all = true;
@@ -109,7 +109,7 @@ std::vector<Vector> Builder::read(const Attributes& attributes, const std::strin
   return gather<Vector>(view, list_, normalize, fallback);
 }
 
-/// Where nobody says what is in a buffer, nothing can be drawn from it.
+/// Whether some data are in a buffer without a location; nothing can then be drawn.
 bool Builder::lacksData() {
   std::vector<const Attributes*> all{&primitive_.attributes};
   for (const Attributes& target : primitive_.targets) all.push_back(&target);
@@ -333,7 +333,7 @@ void Builder::finishNormals() {
   mesh.normalsMayCancel = normalsMayCancel(mesh);
 }
 
-/// Those of the file, or made where it has none or they no longer fit the vertices.
+/// Reads the file's tangents, or generates them if it has none or they no longer fit the vertices.
 void Builder::readTangents(const Material& material, bool stale) {
   Mesh& mesh = built_.mesh;
   if (!material.normalTexture || mesh.topology != Topology::triangles) return;

@@ -14,7 +14,7 @@ std::string decodeMeshopt(const MeshoptStream& s, const std::vector<unsigned cha
                           std::vector<unsigned char>& plain) {
   const bool vertices = s.mode == "ATTRIBUTES", triangles = s.mode == "TRIANGLES";
   if (!vertices && !triangles && s.mode != "INDICES") return "has an unknown mode";
-  // The decoder takes these for granted.
+  // The decoder does not check these.
   if (s.stride == 0 || (vertices ? s.stride % 4 != 0 : s.stride != 2 && s.stride != 4))
     return "has a byteStride that its mode does not allow";
   if (triangles && s.count % 3 != 0) return "has a count that is no multiple of 3";

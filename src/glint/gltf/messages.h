@@ -9,15 +9,15 @@
 
 namespace glint::gltf {
 
-/// Text from a file made fit for one line of a message (glint/image/printable.h).
+/// Makes text from a file fit for one line of a message (glint/image/printable.h).
 inline std::string printable(std::string_view text, std::size_t limit = 200) {
   return glint::printable(text, limit);
 }
 
-/// `kind[index]`, with the name behind it where there is one: `meshes[2] "Wheel"`.
+/// `kind[index]`, followed by the name if there is one: `meshes[2] "Wheel"`.
 std::string named(std::string_view kind, std::size_t index, std::string_view name);
 
-/// What is said about one file: errors end the loading, warnings are collected.
+/// Messages about one file: errors end loading, warnings are collected.
 class Messages {
  public:
   explicit Messages(const std::filesystem::path& file);
@@ -26,11 +26,11 @@ class Messages {
   [[noreturn]] void fail(const std::string& what,
                          const std::string& advice = "repair the file or export it again") const;
 
-  /// Keeps one line. A broken file can hold a million of the same fault: from the hundredth on,
-  /// warnings are only counted.
+  /// Records one line. A broken file can contain a million of the same fault: after the first
+  /// hundred, warnings are only counted.
   void warn(const std::string& what);
 
-  /// The warnings, the last of them telling how many were left out.
+  /// The warnings; the last one gives the number left out.
   std::vector<std::string> take();
 
  private:

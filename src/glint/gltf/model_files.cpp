@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Gathers what stands under "uri", wherever, without keeping anything else.
+/// Collects all values of "uri" members, anywhere, without keeping anything else.
 class UriReader : public nlohmann::json_sax<Json> {
  public:
   std::vector<std::string> uris;

@@ -19,12 +19,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t maxBytes = std::uint64_t(8) << 30, maxImageBytes = std::uint64_t(256) << 20;
-// A chunk of a GLB that is as small as this is taken whole, which is faster than to ask what of it
-// is needed.
+// A GLB chunk up to this size is hashed whole, which is faster than determining which part is
+// needed.
 constexpr std::uint64_t smallChunk = std::uint64_t(64) << 20;
 
-// FNV-1a's step on words of eight bytes, with the high half mixed down, since a product carries
-// nothing to its lower bits.
+// FNV-1a's step on eight-byte words, with the high half mixed down, since a product carries nothing
+// to its lower bits.
 std::uint64_t step(std::uint64_t state, std::uint64_t word) {
   state = (state ^ word) * 0x100000001b3u;
   return state ^ (state >> 32);
@@ -36,7 +36,7 @@ std::uint64_t numberOf(const Json& from, const char* key) {
   return known ? std::min(found->get<std::uint64_t>(), maxBytes) : 0;
 }
 
-// How much of what a file refers to loading it can need.
+// How much of the data that a file refers to can be needed for loading it.
 class Needs {
  public:
   explicit Needs(const Json& root) : root_(root) {
@@ -52,7 +52,7 @@ class Needs {
       if (it.key() != "accessors") useWhole(*it, it.key() == "images" ? maxImageBytes : maxBytes);
   }
 
-  /// Bytes of the chunk of a GLB, which is the first buffer if that has no name.
+  /// Bytes needed of the GLB chunk, which is the first buffer if that has no name.
   std::uint64_t chunk() const {
     const std::vector<std::uint64_t> all = ends();
     const auto buffers = root_.find("buffers");
@@ -61,8 +61,8 @@ class Needs {
     return has && !all.empty() ? all[0] : 0;
   }
 
-  /// Bytes of each file by the name that it has, in their order; `whole`: all, or none where it is
-  /// larger than any picture.
+  /// Bytes needed of each file by name, in order; `whole`: all, or none if it is larger than any
+  /// picture.
   std::vector<std::pair<std::string, std::uint64_t>> files() const {
     const std::vector<std::uint64_t> ends = this->ends();
     std::vector<std::pair<std::string, std::uint64_t>> files;
@@ -96,7 +96,7 @@ class Needs {
     for (const Json& item : *found) take(item.is_object() ? item : nothing);
   }
 
-  // Where what is needed of each buffer ends.
+  // The end of the needed part of each buffer.
   std::vector<std::uint64_t> ends() const {
     std::vector<std::uint64_t> ends;
     const auto use = [&](const Json& view, std::uint64_t bytes) {
@@ -116,7 +116,7 @@ class Needs {
     return ends;
   }
 
-  // What refers to a view: at most 252 bytes lie between elements.
+  // A user of a view: there are at most 252 bytes between elements.
   void useElements(const Json& from, std::uint64_t count) {
     if (from.contains("bufferView"))
       use(numberOf(from, "bufferView"), numberOf(from, "byteOffset") + 256 * count);
@@ -126,7 +126,7 @@ class Needs {
     if (view < views_.size()) views_[view] = std::max(views_[view], bytes);
   }
 
-  // Whatever else refers to one reads all of it, if it is not larger than that.
+  // Any other user of a view reads all of it, unless it is larger than `most`.
   void useWhole(const Json& json, std::uint64_t most) {
     if (json.is_object() && json.contains("bufferView")) {
       const std::uint64_t view = numberOf(json, "bufferView");
@@ -139,10 +139,10 @@ class Needs {
   }
 
   const Json& root_;
-  std::vector<std::uint64_t> views_;  ///< bytes from each one's beginning
+  std::vector<std::uint64_t> views_;  ///< bytes needed from each view's beginning
 };
 
-// Adds the beginning of a source; false where it cannot be read.
+// Adds the beginning of a source; false if it cannot be read.
 template <typename Source>
 bool addBytes(Hash& hash, const Source& source, std::uint64_t size) {
   std::vector<char> part(std::size_t(1) << 16);

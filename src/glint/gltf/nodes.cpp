@@ -27,7 +27,7 @@ bool usable(const glm::dmat4& matrix) {
   return true;
 }
 
-/// The rotation of a quaternion of any length but 0; the standard wants length 1.
+/// The rotation of a quaternion of any length except 0; the standard requires length 1.
 glm::dmat3 rotation(const std::vector<double>& q, bool& broken) {
   const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
   broken = !(largest > 0);
@@ -70,7 +70,7 @@ glm::dmat4 localMatrix(const Document& document, std::size_t index, Messages& me
   return local;
 }
 
-/// The quarter or half turn that brings an axis to +Y.
+/// The quarter or half turn that maps an axis to +Y.
 glm::dmat4 upright(UpAxis up) {
   glm::dmat4 m(1);
   const auto rows = [&](const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
@@ -98,7 +98,7 @@ glm::dmat4 upright(UpAxis up) {
   return m;
 }
 
-/// Fills the camera from the file's object; false, with a warning, where it is not usable.
+/// Fills the camera from the file's object; false, with a warning, if it is not usable.
 bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
   result.name = camera.name();
   const std::string type = camera.required("type").text();
@@ -134,7 +134,7 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
   return true;
 }
 
-/// Fills the light from the file's object; false, with a warning, where it is not usable.
+/// Fills the light from the file's object; false, with a warning, if it is not usable.
 bool readLight(Cursor from, FileLight& light, Messages& messages) {
   light.name = from.name();
   const std::string type = from.required("type").text();
@@ -169,7 +169,7 @@ bool readLight(Cursor from, FileLight& light, Messages& messages) {
   constexpr double quarter = std::numbers::pi / 2;
   light.outerAngle = within(
       "outerConeAngle", cone.member("outerConeAngle").number(std::numbers::pi / 4), 1e-4, quarter);
-  // The standard wants it below the outer one: the least that leaves an edge.
+  // The standard requires it to be below the outer angle; this leaves the narrowest possible edge.
   light.innerAngle = within("innerConeAngle", cone.member("innerConeAngle").number(0), 0,
                             light.outerAngle * (1 - 1e-6));
   return true;
@@ -187,7 +187,7 @@ NodeGraph readNodes(const Document& document, int scene, UpAxis up, Messages& me
     for (const int child : node.children) isChild[static_cast<std::size_t>(child)] = true;
   }
 
-  // Explicit stacks: a chain of a million nodes would exhaust that of the calls.
+  // Explicit stacks: a chain of a million nodes would overflow the call stack.
   std::vector<int> roots, open;
   for (std::size_t i = nodes.size(); i-- > 0;) {
     if (isChild[i]) continue;

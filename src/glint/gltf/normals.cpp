@@ -11,7 +11,7 @@
 namespace glint::gltf {
 namespace {
 
-/// Replaces a per-vertex array by one with a value for each index.
+/// Replaces a per-vertex array by one with a value per index.
 template <typename Value>
 void unshare(std::vector<Value>& values, const std::vector<std::uint32_t>& indices) {
   if (values.empty()) return;
@@ -31,7 +31,7 @@ bool isZero(const glm::dvec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 glm::dvec3 direction(const glm::dvec3& vector) {
   const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
-  // Written so that NaN fails too; max() alone can lose one.
+  // Written so that NaN fails too; max() can lose one.
   if (!(largest > 0) || !std::isfinite(vector.x) || !std::isfinite(vector.y) ||
       !std::isfinite(vector.z)) {
     return glm::dvec3(0);
@@ -87,7 +87,7 @@ std::size_t mendNormals(Mesh& mesh) {
   struct Sum {
     glm::dvec3 area{0};   // of the adjacent faces
     double total = 0;     // of the areas' lengths
-    glm::dvec3 first{0};  // the first face that has an area
+    glm::dvec3 first{0};  // the first face with an area
   };
   std::vector<std::uint32_t> slot(mesh.normals.size(), 0);
   for (std::size_t i = 0; i < broken.size(); ++i) {
@@ -106,7 +106,7 @@ std::size_t mendNormals(Mesh& mesh) {
     }
   }
   for (std::size_t i = 0; i < broken.size(); ++i) {
-    // Opposite faces leave a rest of rounding errors, each 2^-52 of the whole.
+    // Opposite faces leave a remainder of rounding errors, each 2^-52 of the total.
     const Sum& sum = sums[i];
     const bool cancels = !(glm::length(sum.area) > 1e-12 * sum.total);
     glm::dvec3 normal = direction(cancels ? sum.first : sum.area);
@@ -117,7 +117,7 @@ std::size_t mendNormals(Mesh& mesh) {
 }
 
 bool normalsMayCancel(const Mesh& mesh) {
-  // Pairwise cosines above -0.4 leave every mean longer than sqrt((1 - 2 * 0.4) / 3) = 0.25.
+  // Pairwise cosines above -0.4 make every mean longer than sqrt((1 - 2 * 0.4) / 3) = 0.25.
   std::atomic<bool> may = false;
   inStretches(mesh.indices.size() / 3, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = 3 * begin; i < 3 * end && !may; i += 3) {

@@ -27,7 +27,7 @@ using Path = JsonText::Path;
 
 struct File {
   std::string json;
-  Json root;  ///< what it says
+  Json root;  ///< the parsed text
   bool glb = false;
   std::size_t jsonEnd = 0;  ///< in the file; the bytes from there on are copied
 };
@@ -55,7 +55,7 @@ File takeApart(std::span<const std::byte> bytes, const std::string& name) {
     file.jsonEnd = bytes.size();
     file.json = all;
   }
-  // Padding of other writers, and a byte order mark, are no JSON.
+  // Other writers' padding and a byte order mark are not JSON.
   while (!file.json.empty() && file.json.back() == '\0') file.json.back() = ' ';
   std::string error;
   auto root = parseJsonText<Json>(file.json, error);
@@ -106,7 +106,7 @@ double numberOr(const std::optional<Json>& value, double fallback) {
   return value && value->is_number() ? value->get<double>() : fallback;
 }
 
-/// Edits one material's text, an object. True if it has come to use KHR_materials_ior.
+/// Edits one material's text, an object. Returns true if it set KHR_materials_ior.
 bool setNearestPbr(JsonText& text, const ShadingParameters& values) {
   const std::string pbr = "pbrMetallicRoughness";
   const Path base{pbr, "baseColorFactor"};
@@ -143,7 +143,7 @@ void useIor(JsonText& text) {
     text.push(used, "\"KHR_materials_ior\"");
 }
 
-// Appends a material that is glTF's default one and gives it to all primitives without any.
+// Appends a copy of glTF's default material and assigns it to all primitives without a material.
 void makeDefaultExplicit(JsonText& text, std::size_t index) {
   const Path materials{"materials"};
   if (text.find(materials))

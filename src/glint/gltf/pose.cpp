@@ -45,7 +45,7 @@ Blend blend(const Bindings& bindings, const std::vector<glm::dmat4>& joints, std
   return result;
 }
 
-/// The determinant times the inverse transpose, which exists for singular matrices too.
+/// The determinant times the inverse transpose, which is defined for singular matrices too.
 glm::dmat3 cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }

@@ -22,10 +22,10 @@ namespace {
 
 using namespace gltf;
 
-/// More pieces than a picture can show; many nodes may share a mesh of many primitives.
+/// More pieces than a picture can show; many nodes may share a mesh with many primitives.
 constexpr std::size_t maxInstances = std::size_t(1) << 22;
 
-/// The number of what is called so, or has that number.
+/// The index of the entry with this name, or the index given as a number.
 std::size_t findNamed(const std::vector<std::string>& names, const std::string& text,
                       const std::string& option, const std::string& kind,
                       const std::string& model) {
@@ -83,11 +83,11 @@ struct SceneFile::State {
   /// The primitives of a mesh in one shape.
   struct Shape {
     std::vector<Part> parts;
-    bool stale = false;  ///< its primitives have other materials now
-    bool moves = false;  ///< another pose may give it other vertices
-    int pass = 0;        ///< the posing that made it
+    bool stale = false;  ///< its primitives' materials have changed
+    bool moves = false;  ///< its vertices may change with the pose
+    int pass = 0;        ///< the number of the posing that built it
   };
-  /// Mesh, skin, the node whose weights an animation moves (or -1) and other weights.
+  /// Mesh, skin, the node whose weights an animation moves (or -1), and static weights.
   using Key = std::tuple<int, int, int, std::vector<double>>;
 
   void applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget);
@@ -104,19 +104,19 @@ struct SceneFile::State {
   Messages messages;
   Document document;
   Scene start;
-  std::map<std::size_t, Animation> animations;    ///< those read so far
-  std::map<std::size_t, tinygltf::Node> atRest;   ///< nodes that an animation has moved
-  std::set<std::size_t> weightsMoved;             ///< by the animation of this pose
+  std::map<std::size_t, Animation> animations;    ///< read so far
+  std::map<std::size_t, tinygltf::Node> atRest;   ///< original nodes that an animation has moved
+  std::set<std::size_t> weightsMoved;             ///< nodes, in the current pose
   std::optional<std::set<std::size_t>> lightsOn;  ///< nodes of the lights in use
   std::map<Key, Shape> shapes;
-  std::string variant;  ///< whose materials the primitives have now
-  std::map<std::pair<std::size_t, std::size_t>, int> plain;  ///< primitives' materials without one
+  std::string variant;  ///< of the primitives' current materials
+  std::map<std::pair<std::size_t, std::size_t>, int> plain;  ///< primitives' default materials
   int pass = 0;
   std::vector<int> changed;
   std::set<std::string> told;
 };
 
-/// Sets the nodes of the document to the pose; everything else then goes by the document.
+/// Sets the document's nodes to the pose; everything else then uses the document.
 void SceneFile::State::applyAnimation(const PoseRequest& request, Scene& scene, Budget& budget) {
   for (const auto& [index, node] : atRest) document.model.nodes[index] = node;
   weightsMoved.clear();
@@ -159,8 +159,8 @@ void SceneFile::State::play(std::size_t index, double time, Budget& budget) {
   }
 }
 
-/// Gives the primitives the materials of a variant; the meshes are then made anew, since a material
-/// says which of a primitive's data are read.
+/// Assigns a variant's materials to the primitives. The meshes are then rebuilt, since a material
+/// determines which data of a primitive are read.
 void SceneFile::State::applyVariant(const std::string& wanted) {
   if (wanted == variant) return;
   int number = -1;
@@ -184,7 +184,7 @@ int SceneFile::State::findScene(const std::string& text) const {
   return static_cast<int>(findNamed(names, text, "--scene", "scene", name));
 }
 
-/// Makes a mesh once for each shape in which it stands.
+/// Builds a mesh once for each shape in which it is placed.
 const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& key, Pose pose,
                                                                    const NodeGraph& graph,
                                                                    Scene& scene, Budget& budget) {
@@ -214,7 +214,7 @@ const std::vector<SceneFile::State::Part>& SceneFile::State::shape(const Key& ke
       scene.meshes.emplace_back();
     }
     Mesh& made = scene.meshes[static_cast<std::size_t>(part.mesh)];
-    // What was found out about its texels holds in every pose with the same coordinates.
+    // Findings about its texels hold in every pose with the same coordinates.
     built->mesh.opaqueTexels = made.opaqueTexels && made.texcoords == built->mesh.texcoords;
     made = std::move(built->mesh);
     made.fileMesh = mesh;
@@ -243,7 +243,7 @@ void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& s
     if (scene.instances.size() + places.size() > maxInstances) {
       messages.fail("draws more than 4194304 pieces", "split the model");
     }
-    // What a skin moves stands where its joints are, whatever its node says.
+    // A skinned mesh is positioned by its joints, whatever its node's transform.
     if (part.skinned) {
       scene.instances.push_back({part.mesh, glm::dmat4(1), first});
       placed = std::max(placed, 1);
@@ -334,7 +334,7 @@ SceneFile& SceneFile::operator=(SceneFile&&) noexcept = default;
 
 Scene SceneFile::take(const PoseRequest& request) {
   Scene scene = std::move(state_->start);
-  // What the lights count as is measured at rest, so that it is the same at every time.
+  // The lights' scale is measured in the rest pose, so that it is the same at every time.
   PoseRequest rest = request;
   rest.time.reset();
   if (request.time && gltf::lightsOf(gltf::Cursor(state_->document.json, state_->messages)).size())

@@ -11,46 +11,46 @@
 
 namespace glint {
 
-/// Which pose of a model is wanted: without a time the one the file stands in; with one, that of an
-/// animation, held at its first and its last key before and after them.
+/// The requested pose of a model: without a time the file's rest pose; with one, that of an
+/// animation, constant before its first and after its last key.
 struct PoseRequest {
   std::optional<double> time;  ///< seconds
   std::string animation = {};  ///< name, number or "all"; empty: the first
-  std::string scene = {};      ///< name or number; empty: the file's own
+  std::string scene = {};      ///< name or number; empty: the file's default
   std::string variant = {};    ///< name (KHR_materials_variants); empty: the default
-  UpAxis up = UpAxis::plusY;   ///< of the file: it is turned so that this points along +Y
+  UpAxis up = UpAxis::plusY;   ///< the file's; the model is rotated to point it along +Y
   bool operator==(const PoseRequest&) const = default;
 };
 
 PoseRequest poseOf(const Look&);
 
-/// A glTF 2.0 model that stays open, to be posed again and again: file, materials and textures are
-/// read once, and posing makes anew only what moves.
+/// A glTF 2.0 model that stays open to be posed repeatedly: file, materials and textures are read
+/// once, and posing rebuilds only what moves.
 class SceneFile {
  public:
-  /// Takes `.gltf` or `.glb` (told apart by content, not by name), with all it refers to: buffers
-  /// and the images that its textures show, not decoded.
+  /// Reads a `.gltf` or `.glb` file (distinguished by content, not by name) with everything it
+  /// refers to: buffers, and the images that its textures use, not decoded.
   ///
-  /// Reads every accessor layout, primitive mode and texture setting, cameras, lights, animations,
-  /// morph targets and skins (both baked into meshes of their own), and the extensions that
-  /// docs/materials.md lists.
+  /// Supports every accessor layout, primitive mode and texture setting, cameras, lights,
+  /// animations, morph targets and skins (both baked into meshes of their own), and the extensions
+  /// listed in docs/materials.md.
   ///
   /// Throws InputError, one line "PATH: what is wrong: what to do", for a file that cannot be read,
-  /// is not glTF 2.0, contradicts itself or requires an extension not supported.
+  /// is not glTF 2.0, is inconsistent or requires an unsupported extension.
   explicit SceneFile(const std::filesystem::path& path);
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
   SceneFile& operator=(SceneFile&&) noexcept;
 
-  /// The scene; to be called once.
+  /// The scene; may be called only once.
   ///
-  /// It satisfies what scene.h promises: indices in range, values finite, normals of unit length.
-  /// What is wrong but harmless is mended and told in Scene::warnings. Throws InputError for an
-  /// animation, a scene or a variant that the file does not have.
+  /// It satisfies the guarantees of scene.h: indices in range, values finite, normals of unit
+  /// length. Harmless faults are corrected and reported in Scene::warnings. Throws InputError for
+  /// an animation, a scene or a variant that the file does not have.
   Scene take(const PoseRequest& request = {});
 
-  /// Brings the scene, as take() gave it, into another pose. Returns the meshes (indices into
-  /// Scene::meshes) whose vertices are new; the others stay as they are.
+  /// Changes the scene returned by take() to another pose. Returns the meshes (indices into
+  /// Scene::meshes) whose vertices have changed; the others are untouched.
   std::vector<int> pose(Scene& scene, const PoseRequest& request);
 
  private:
@@ -58,7 +58,7 @@ class SceneFile {
   std::unique_ptr<State> state_;
 };
 
-/// Reads a model that is wanted in one pose.
+/// Reads a model that is needed in only one pose.
 Scene loadGltf(const std::filesystem::path& path, const PoseRequest& request = {});
 
 }  // namespace glint

@@ -16,16 +16,16 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// `v` without its part along the unit vector `n`, of unit length; zero where nothing is left.
+/// `v` without its component along the unit vector `n`, of unit length; zero if nothing is left.
 glm::dvec3 inPlane(const glm::dvec3& v, const glm::dvec3& n) {
   return direction(v - glm::dot(n, v) * n);
 }
 
 struct Face {
   std::array<std::uint32_t, 3> vertex{};                  ///< welded
-  std::array<std::uint32_t, 3> across{none, none, none};  ///< the face behind each edge
+  std::array<std::uint32_t, 3> across{none, none, none};  ///< the face across each edge
   std::array<std::uint32_t, 3> group{none, none, none};   ///< of each corner
-  glm::dvec3 tangent{0.0};  ///< unit, to where u grows; zero where the texture has no area
+  glm::dvec3 tangent{0.0};  ///< unit, where u increases; zero if the texture has no area
   bool preserving = false;  ///< the texture is not mirrored as (u, v)
   bool anyGroup = true;     ///< has no handedness of its own
 };
@@ -54,7 +54,7 @@ class TangentMaker {
   glm::dvec3 position(std::uint32_t v) const { return glm::dvec3(mesh_.positions[v]); }
   glm::dvec3 normal(std::uint32_t v) const { return glm::dvec3(mesh_.normals[v]); }
 
-  /// Vertices equal in position, normal and coordinates become the first of them.
+  /// Replaces vertices equal in position, normal and coordinates by the first of them.
   void weld() {
     struct Key {
       std::array<float, 8> values;
@@ -104,8 +104,8 @@ class TangentMaker {
     }
   }
 
-  /// Each edge joins two faces that run along it in opposite directions; what is left over of more
-  /// than two stays open.
+  /// Each edge joins two faces that run along it in opposite directions; if more than two share it,
+  /// the unpaired ones stay open.
   void joinFaces() {
     struct Edge {
       std::uint32_t low, high, face;
@@ -144,7 +144,7 @@ class TangentMaker {
     return face.vertex[0] == vertex ? 0 : face.vertex[1] == vertex ? 1 : 2;
   }
 
-  /// From each corner around its vertex, as far as edges and handedness lead.
+  /// Walks from each corner around its vertex, as far as edges and handedness allow.
   void makeGroups() {
     std::vector<std::uint32_t> open;
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -195,7 +195,7 @@ class TangentMaker {
     return {glm::vec3(t), preserving ? -1.0f : 1.0f};
   }
 
-  /// Gives each vertex its tangent; a second group at a vertex gets a copy of it.
+  /// Gives each vertex its tangent; each further group at a vertex gets a copy of the vertex.
   void assign() {
     const std::size_t count = mesh_.positions.size();
     mesh_.tangents.assign(count, glm::vec4(0));

@@ -14,10 +14,10 @@ namespace {
 
 /// More than any picture whose pixels could be drawn.
 constexpr std::uint64_t maxImageBytes = std::uint64_t(256) << 20;
-/// Texture coordinate sets that are read; the standard asks for two.
+/// The highest texture coordinate set that is read; the standard requires two sets.
 constexpr std::int64_t maxTexcoord = 15;
 
-/// What the bytes are, told by their first ones: a mimeType is often wrong.
+/// The format, determined from the first bytes: a mimeType is often wrong.
 const char* formatOf(const std::vector<std::byte>& bytes) {
   const auto startsWith = [&](std::size_t offset, std::string_view magic) {
     return bytes.size() >= offset + magic.size() &&
@@ -30,8 +30,8 @@ const char* formatOf(const std::vector<std::byte>& bytes) {
   return "unknown";
 }
 
-/// Is there no end marker behind the last scan of a JPEG? Within a scan there is none by chance: a
-/// byte 0xff of its data is followed by 0.
+/// Whether there is no end marker after the last scan of a JPEG. None occurs within a scan by
+/// chance: a byte 0xff of its data is followed by 0.
 bool lacksEnd(const std::vector<std::byte>& bytes) {
   const auto is = [&](std::size_t i, unsigned marker) {
     return bytes[i] == std::byte(0xff) && bytes[i + 1] == std::byte(marker);
@@ -138,7 +138,7 @@ int TextureReader::imageSlot(std::size_t index, TextureUse use) {
   int& slot = slots_[{index, use}];
   slot = -1;
   const Cursor image = root_.member("images").item(index);
-  // A data URI is its own source; as a key it would be a copy of the image.
+  // A data URI is its own source; using it as a key would copy the image.
   const std::string uri = image.member("uri").text();
   const int view = image.member("bufferView").index(document_.views.size());
   std::string source = view >= 0        ? "view " + std::to_string(view)
@@ -153,7 +153,7 @@ int TextureReader::imageSlot(std::size_t index, TextureUse use) {
   EncodedImage loaded;
   loaded.bytes = load(image, loaded.name, error);
   if (error.empty()) {
-    // Exporters write a picture once for each material that shows it.
+    // Exporters write a picture once per material that uses it.
     if (const int twin = equalImage(loaded.bytes, use); twin >= 0)
       return slotsBySource_[source] = slot = twin;
     if (formatOf(loaded.bytes) == std::string_view("JPEG") && lacksEnd(loaded.bytes))
@@ -192,7 +192,7 @@ std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std:
       error = "has more than 256 MiB";
       return;
     }
-    // A file that is no picture is not read any further.
+    // A file that is not a picture is not read any further.
     bytes.resize(std::min<std::uint64_t>(size, 16));
     if (!source.read(bytes.data(), offset, bytes.size())) error = "cannot be read";
     const std::string_view format = formatOf(bytes);

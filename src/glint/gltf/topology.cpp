@@ -59,7 +59,7 @@ VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCo
     list.all = false;
     list.ids = indices;
     std::ranges::sort(list.ids);
-    // std::ranges::unique of this library does not compile with clang 14.
+    // This library's std::ranges::unique does not compile with Clang 14.
     list.ids.erase(std::unique(list.ids.begin(), list.ids.end()), list.ids.end());
     for (std::uint32_t& index : indices) {
       index =

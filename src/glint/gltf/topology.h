@@ -13,7 +13,7 @@ namespace glint::gltf {
 struct Elements {
   Topology topology = Topology::triangles;
   std::vector<std::uint32_t> indices;
-  /// Indices at the end that are too few for one more line or triangle, left out.
+  /// Indices left over at the end, too few for another line or triangle.
   std::size_t rest = 0;
 };
 
@@ -22,17 +22,17 @@ constexpr std::size_t cornersOf(Topology topology) {
   return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
 }
 
-/// Turns a glTF primitive of any mode (0 to 6) into a list, with the winding that section 3.7.2.1
-/// of the standard gives to strips and fans. Lines and triangles that name a vertex twice are left
-/// out: strips are joined with them.
+/// Converts a glTF primitive of any mode (0 to 6) to a list, with the winding that section 3.7.2.1
+/// of the standard defines for strips and fans. Lines and triangles that use a vertex twice are
+/// dropped: they only join strips.
 Elements listElements(int mode, std::vector<std::uint32_t> indices);
 
-/// The vertices that `indices` use, in ascending order; `indices` then point into that list.
-/// Every index is below `vertexCount`. Takes time by the number of indices, however many vertices
-/// there are: a file may draw a large accessor in many small pieces.
+/// The vertices that `indices` use, in ascending order; `indices` then refer to that list. Every
+/// index must be below `vertexCount`. The running time depends on the number of indices, not of
+/// vertices: a file may draw a large accessor in many small pieces.
 VertexList useVertices(std::vector<std::uint32_t>& indices, std::size_t vertexCount);
 
-/// Leaves of each vertex's values those of the list.
+/// Keeps only the values of the listed vertices.
 template <typename Value>
 void select(std::vector<Value>& values, const VertexList& list) {
   if (values.empty() || list.all) return;

@@ -20,8 +20,8 @@ void putWord(std::byte* out, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) out[i] = static_cast<std::byte>(value >> (24 - 8 * i) & 255);
 }
 
-/// A chunk: its length, kind and data, and the check of the latter two. `chunk` has room for the
-/// first two before the data.
+/// Writes a chunk: length, type, data, and the CRC of type and data. `chunk` has room for length
+/// and type before the data.
 void writeChunk(OutputFile& file, std::string_view kind, std::span<std::byte> chunk) {
   putWord(chunk.data(), static_cast<std::uint32_t>(chunk.size() - 8));
   std::memcpy(chunk.data() + 4, kind.data(), 4);
@@ -43,7 +43,7 @@ CodePicture::CodePicture(const std::string& path, int width, int height)
     return;
   }
   file_.emplace(path);
-  // Pages of zeros cost nothing until they are written to.
+  // Zeroed pages cost nothing until they are written to.
   rows_.reset(static_cast<std::uint8_t*>(std::calloc(size, 1)));
   if (!rows_) throw std::bad_alloc();
 }

@@ -12,9 +12,9 @@
 
 namespace glint::detail {
 
-/// A picture of 8-bit sRGB codes, written row by row, that is mostly even, as differences are. A
-/// PNG that is not large is held and packed in one piece, which takes a third of the time. Formats
-/// and errors are those of openPictureWriter().
+/// A picture of 8-bit sRGB codes, written row by row, that is mostly uniform, as differences are. A
+/// PNG that is not large is held in memory and compressed in one piece, which takes a third of the
+/// time. Formats and errors are those of openPictureWriter().
 class CodePicture {
  public:
   CodePicture(const std::string& path, int width, int height);
@@ -29,9 +29,9 @@ class CodePicture {
 
   const int width_, height_;
   int y_ = 0;
-  std::unique_ptr<std::uint8_t[], void (*)(void*)> rows_;  ///< each behind the number of its filter
-  std::optional<OutputFile> file_;                         ///< of what is held
-  std::unique_ptr<PictureWriter> writer_;                  ///< of everything else
+  std::unique_ptr<std::uint8_t[], void (*)(void*)> rows_;  ///< each row follows its filter byte
+  std::optional<OutputFile> file_;                         ///< used if the picture is held
+  std::unique_ptr<PictureWriter> writer_;                  ///< used otherwise
 };
 
 }  // namespace glint::detail

@@ -16,7 +16,7 @@
 namespace glint {
 namespace {
 
-/// The differences of single pixels, summed up row by row.
+/// Sums up the differences of individual pixels, row by row.
 class Sums {
  public:
   Sums(const detail::ComparedRows& rows, const CompareOptions& options, Comparison& result)
@@ -84,7 +84,7 @@ class Sums {
   void add(int x, int y, const float* a, const float* b, Row& row) {
     const std::size_t channels = std::size_t(rows_.channels());
     ++result_.pixels;
-    // The same values, which most pixels have, need no more than to be finite.
+    // Equal values, which most pixels have, only need to be finite.
     float sum = 0;
     bool equal = true;
     for (std::size_t c = 0; c < channels; ++c) {
@@ -132,7 +132,7 @@ class Sums {
     sums_.largest = std::max(sums_.largest, largest);
     if (!differs) return;
     if (regions_) regions_->add(x, y, nanA || nanB || infinityDiffers ? INFINITY : largest);
-    // Not finite is worse than every number.
+    // A non-finite difference ranks above every number.
     const bool finite = !(nanA || nanB || infinityDiffers);
     keep({x,
           y,
@@ -141,7 +141,7 @@ class Sums {
           finite ? largest : std::numeric_limits<double>::infinity()});
   }
 
-  /// How much of a difference shows over black and over white.
+  /// How much of a difference shows over black, and how much over white.
   void addSeenThrough(const float* a, const float* b) {
     ++result_.alphaDiffering;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -153,7 +153,7 @@ class Sums {
     }
   }
 
-  /// Keeps the worst pixels; of equal ones the first.
+  /// Keeps the worst pixels; among equals, the first.
   void keep(const WorstPixel& pixel) {
     auto& worst = result_.worst;
     if (worst.size() == worst_ && (worst.empty() || worst.back().difference >= pixel.difference))
@@ -178,7 +178,7 @@ class Sums {
   Comparison& result_;
   detail::ValueSums sums_;
   double overBlack_ = 0, overWhite_ = 0;
-  std::vector<std::uint8_t> codesA_, codesB_;  ///< of rows that are not held
+  std::vector<std::uint8_t> codesA_, codesB_;  ///< for rows that are not held
 };
 
 std::string number(double value) {
@@ -199,7 +199,7 @@ void judge(const CompareOptions& options, Comparison& result) {
     result.failures.push_back(pixels(result.differing, "differs", "differ"));
   for (const auto& [name, threshold] : options.conditions) {
     const double value = result.values.at(name);
-    // Written so that a NaN fails.
+    // Written so that NaN fails.
     if (isSimilarity(name) ? value >= threshold : value <= threshold) continue;
     result.failures.push_back(name + " " + number(value) +
                               (isSimilarity(name) ? " is below " : " is above ") +
@@ -235,7 +235,7 @@ Comparison comparePadded(const StoredImage& a, const StoredImage& b,
     CompareOptions inside = options;
     StoredImage mask;
     if (options.mask) {
-      // What a mask does not reach counts.
+      // Pixels outside the mask count.
       const StoredImage& given = *options.mask;
       mask = {width, height, 3, std::vector<std::uint8_t>(std::size_t(3) * width * height, 255)};
       std::vector<float> row(std::size_t(4) * given.width);
@@ -261,7 +261,7 @@ Comparison comparePadded(const StoredImage& a, const StoredImage& b,
 
 namespace {
 
-/// A row of `from`, RGBA, and transparent pixels behind it.
+/// A row of `from` as RGBA, followed by transparent pixels.
 template <class Value>
 void padRow(const StoredImage& from, int y, int width, Value* out) {
   std::fill_n(out, std::size_t(4) * width, Value(0));
@@ -339,7 +339,7 @@ Comparison compare(const StoredImage& a, const StoredImage& b, const CompareOpti
   Sums(rows, options, result).run();
   const double none = std::numeric_limits<double>::quiet_NaN();
   const bool empty = std::isnan(result.values["max"]);
-  // What is equal needs no filters.
+  // Equal pictures need no filtering.
   const bool equal = result.differing == 0 && result.nanA == 0 && result.infinityA == 0;
   if (asked("pixels")) {
     std::vector<const detail::ComparedRows*> views{&rows};

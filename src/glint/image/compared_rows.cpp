@@ -87,7 +87,7 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
   const bool encoded = space == ValueSpace::encoded;
   const int width = image.width;
   if (alpha == AlphaUse::ignored) {
-    // What is stored, whatever alpha is: nothing is divided by it.
+    // The values as stored, regardless of alpha: nothing is divided by it.
     image.storedRows(y, 1, rgba);
     for (int x = 0; x < width; ++x) {
       float* p = rgba + 4 * x;
@@ -105,7 +105,7 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
     bool all = true;
     for (int x = 0; x < width; ++x) all = all && opaque(rgba[4 * x + 3]);
     if (all) return;
-    // Laying a picture over another is done in linear light; what is opaque keeps its codes.
+    // Compositing is done in linear light; opaque pixels keep their codes.
     std::vector<float> linear(std::size_t(4) * width);
     image.linearRows(y, 1, linear.data());
     for (int x = 0; x < width; ++x) {
@@ -117,8 +117,8 @@ void ComparedRows::rowOf(const StoredImage& image, int y, ValueSpace space, Alph
     }
     return;
   }
-  // Linear light is premultiplied, in files of floats and here: dividing by a small alpha would
-  // make much of little.
+  // Linear light is premultiplied, in floating-point files and here: dividing by a small alpha
+  // would exaggerate small differences.
   image.linearRows(y, 1, rgba);
   if (over) {
     for (int x = 0; x < width; ++x) {
@@ -202,8 +202,8 @@ PixelRows ComparedRows::linearB() const {
 
 namespace {
 
-/// Luma as the authors' program makes grey of colours (MATLAB's rgb2gray, which rounds to codes
-/// where this does not); the weights sum to 1, so that grey stays what it is.
+/// Luma as the authors' program computes it (MATLAB's rgb2gray, except that it rounds to codes and
+/// this does not). The weights sum to 1, so grey is unchanged.
 void lumaOf(const float* rgba, int width, double* luma) {
   for (int x = 0; x < width; ++x) {
     const float* p = rgba + 4 * x;

@@ -9,40 +9,40 @@ namespace glint::detail {
 /// "the sizes differ: ..."
 std::string sizesText(const StoredImage& a, const StoredImage& b);
 
-/// What is shown behind a picture that is seen through: linear light.
+/// What shows behind transparent pixels: linear light.
 using Background = std::array<float, 3>;
 
-/// Two pictures as a comparison sees them: with their alpha resolved, in the space asked for, and
-/// with what is to be ignored made equal to the baseline, so that it cannot reach its neighbours
-/// through a filter.
+/// Two pictures as a comparison sees them: alpha resolved, in the requested value space, and with
+/// ignored pixels made equal to the baseline so that they cannot affect their neighbours through a
+/// filter.
 class ComparedRows {
  public:
-  /// Throws Error for different sizes, InputError for what else cannot be compared.
+  /// Throws Error for different sizes, InputError for anything else that prevents a comparison.
   ComparedRows(const StoredImage& a, const StoredImage& b, const CompareOptions& options);
 
   int width() const { return a_.width; }
   int height() const { return a_.height; }
-  int channels() const { return channels_; }  ///< that are compared: 3 or 4
+  int channels() const { return channels_; }  ///< channels compared: 3 or 4
   ValueSpace space() const { return space_; }
 
-  /// Whether what is compared are the 8-bit codes of both, of as many channels, as they stand.
+  /// Whether the 8-bit codes of both are compared unchanged, with the same number of channels.
   bool comparesCodes() const { return comparesCodes_; }
   int codeChannels() const { return a_.channels; }
-  /// Row y of each; `copy` takes that of a picture that is not held.
+  /// Row y of each; `copy` holds it for a picture that is read by rows.
   const std::uint8_t* codesA(int y, std::vector<std::uint8_t>& copy) const {
     return a_.heldRows(y, 1, copy);
   }
   const std::uint8_t* codesB(int y, std::vector<std::uint8_t>& copy) const {
     return b_.heldRows(y, 1, copy);
   }
-  /// The values compared of one pixel's codes.
+  /// The values to compare for one pixel's codes.
   void valuesOf(const std::uint8_t* codes, float* values) const;
   /// Whether all codes of a row are the same in both (of 16 bits too).
   bool codesAreEqual(int y) const;
-  /// Pixels with a colour above 1, in linear light, in one of the two; of codes there is none.
+  /// Pixels with a colour above 1 in linear light in either picture; always 0 for codes.
   std::size_t pixelsAboveOne() const;
 
-  /// Row y of both in the space asked for: 4 * width values each.
+  /// Row y of both in the requested value space: 4 * width values each.
   void values(int y, float* a, float* b) const;
   /// In sRGB over the background, opaque.
   void encoded(int y, float* a, float* b) const;
@@ -72,14 +72,15 @@ class ComparedRows {
 };
 
 /// Mean structural similarity (Wang et al. 2004): 11 x 11 Gaussian of 1.5 pixels, K1 = 0.01,
-/// K2 = 0.03, values of [0, 1], over the windows that lie in the picture; on a side below 11 the
-/// window is as wide as the picture. Windows about ignored pixels are left out.
+/// K2 = 0.03, values in [0, 1], over the windows that lie entirely in the picture. If a side is
+/// shorter than 11 pixels, the window is as long as that side. Windows centred on ignored pixels
+/// are left out.
 double structuralSimilarity(const ComparedRows& rows);
 
 /// Counts the pixels that differ by more than a tolerance, as pixelmatch does: the distance in YIQ
 /// (Kotsarenko and Ramos 2010) or by HyAB (Abasi, Tehran, Fairchild 2019) in OKLab (Ottosson 2020)
-/// with its lightness corrected near black, anti-aliasing by Vysniauskas (2009). Given several
-/// views of the pictures, a pixel differs if it does in one of them.
+/// with its lightness corrected near black; anti-aliasing by Vysniauskas (2009). Given several
+/// views of the pictures, a pixel differs if it differs in any of them.
 struct PixelCount {
   std::size_t over = 0, antiAliased = 0;
 };

@@ -29,16 +29,16 @@ bool isPfm(std::span<const std::byte> bytes);
 bool isHdr(std::span<const std::byte> bytes);
 bool isExr(std::span<const std::byte> bytes);
 bool isTiff(std::span<const std::byte> bytes);
-/// PPM, PGM and their binary kin, BMP.
+/// PPM, PGM and the other binary Netpbm formats; BMP.
 bool isPnm(std::span<const std::byte> bytes);
 bool isBmp(std::span<const std::byte> bytes);
-/// TGA has no magic: its header must be one that is possible. To be asked last.
+/// TGA has no magic number: this checks that the header is plausible. Try it last.
 bool isTga(std::span<const std::byte> bytes);
 
-/// Throws InputError, too, where the build has no libwebp.
+/// Also throws InputError if the build has no libwebp.
 ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name);
 TextureHeader webpHeader(std::span<const std::byte> bytes, const std::string& name);
-/// Made smaller as decodeTexture() says.
+/// `halvings` and `isData` as for decodeTexture().
 ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name, int halvings = 0,
                      bool isData = false);
 TextureHeader jpegHeader(std::span<const std::byte> bytes, const std::string& name);
@@ -49,15 +49,15 @@ StoredImage decodeExr(std::span<const std::byte> bytes, const std::string& name,
                       const std::string& layer);
 PictureLayers decodeExrLayers(std::span<const std::byte> bytes, const std::string& name,
                               const std::string& wanted);
-/// PPM, PGM, BMP and TGA. The first two are read by rows if they would take more than `heldBytes`.
+/// PPM, PGM, BMP and TGA. PPM and PGM are read by rows if they would take more than `heldBytes`.
 StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& name,
                          std::size_t heldBytes);
-/// The first page; `skipped` takes what else the file holds, in words. Strips are read by rows if
-/// they would take more than `heldBytes`.
+/// The first page; `skipped` receives a description of what else the file holds. Strips are read by
+/// rows if they would take more than `heldBytes`.
 StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name,
                        std::vector<std::string>& skipped, std::size_t heldBytes);
 
-/// What a PNG, JPEG or WebP says of colours and orientation beside the pixels; see
+/// What the metadata of a PNG, JPEG or WebP say about colours and orientation; see
 /// StoredImage::unfollowed.
 std::map<std::string, std::string> unfollowedIn(std::span<const std::byte> bytes);
 /// The orientation in EXIF data (a TIFF header and its first directory); 1, as stored, if there is
@@ -76,21 +76,22 @@ class PngReader {
   int width() const { return width_; }
   int height() const { return height_; }
   int bitDepth() const { return bitDepth_; }  ///< of the file: 1, 2, 4, 8 or 16
-  bool hasAlpha() const;                      ///< a channel of it, or transparent colours
+  bool hasAlpha() const;                      ///< an alpha channel, or transparent colours
   bool isInterlaced() const { return isInterlaced_; }
 
   /// Straight RGBA, rows from the top: 4 * width * height values each.
   void decode(std::vector<std::uint8_t>& rgba);
   void decode(std::vector<std::uint16_t>& rgba);
-  /// The same of 8 bits row by row; the whole is held only where the file is interlaced.
+  /// As decode() with 8 bits, row by row; the whole picture is held only if the file is interlaced.
   void decodeRows(const std::function<void(const std::uint8_t* rgba)>& take);
-  /// The same one by one, of a file that is not interlaced: RGBA of 8 or of 16 bits, or RGB of 8.
+  /// The same one row at a time, for a file that is not interlaced: 8- or 16-bit RGBA, or 8-bit
+  /// RGB.
   void beginRows(int channels, int depth);
   void nextRow(std::byte* row);
   /// RGB of 8 bits, for a file without alpha: 3 * width * height values.
   void decodeOpaque(std::vector<std::uint8_t>& rgb);
-  /// The text chunks, in UTF-8: all of them once the picture has been decoded, before that those
-  /// that stand before the pixels, as the PNG writer puts them.
+  /// The text chunks, in UTF-8. Once the picture has been decoded these are all of them; before
+  /// that, only those ahead of the pixels, where the PNG writer puts them.
   std::map<std::string, std::string> text();
 
  private:
@@ -105,23 +106,23 @@ class PngReader {
   int bitDepth_ = 0;
   int colourType_ = 0;
   bool isInterlaced_ = false;
-  std::size_t rowSize_ = 0;  ///< bytes of nextRow()
+  std::size_t rowSize_ = 0;  ///< bytes per row for nextRow()
   int rowsLeft_ = 0;
   bool isPlain_ = false;  ///< 8 bits, rows in order
 };
 
-/// A line for data that no decoder can make sense of.
+/// An error for data that no decoder can make sense of.
 inline InputError damaged(const std::string& name, const std::string& what) {
   return InputError(printablePath(name) + ": " + what + ": save the picture again");
 }
 
-/// What to reserve for a texture of so many bytes: a driver's copy, which has the smaller levels
-/// too, then fits where an earlier texture has been freed, and touches no fresh memory. What is
-/// beyond the pixels is not touched.
+/// How much to reserve for a texture of this many bytes: a driver's copy, which includes the
+/// smaller levels, then fits where an earlier texture was freed and touches no fresh memory. The
+/// reserve beyond the pixels is not touched.
 inline std::size_t withRoomForLevels(std::size_t bytes) { return bytes + bytes / 3 + (1 << 16); }
 
-/// Throws InputError if there are more pixels than are read as 16 bits or floats, or a side is
-/// longer than maxSide.
+/// Throws InputError if there are more pixels than may be read as 16 bits or floats, or if a side
+/// is longer than maxSide.
 void checkSize(const std::string& name, std::uint64_t width, std::uint64_t height);
 
 /// Throws InputError if a side is longer than maxSide, or there are more than maxArea pixels.

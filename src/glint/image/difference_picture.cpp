@@ -17,7 +17,7 @@ std::uint8_t shownCode(float encoded) {
   return static_cast<std::uint8_t>(std::lround(code));
 }
 
-/// |a - b| of rows of 8-bit codes, as far as nothing is seen through; false where something is.
+/// |a - b| for a row of 8-bit codes if all of it is opaque; otherwise false.
 bool differencesOfCodes(const detail::ComparedRows& rows, int y, double scale,
                         std::vector<std::uint8_t>& shown) {
   if (!rows.comparesCodes() || rows.ignoresSome()) return false;

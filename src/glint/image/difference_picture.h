@@ -22,9 +22,9 @@ class FlipPicture {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Writes a picture of the differences of two pictures (of different sizes: padded): FLIP's map in
-/// the colours of Magma; or |a - b| times `scale`; or a, b and that beside each other, all three of
-/// sRGB values over the background. In |a - b| ignored pixels are grey.
+/// Writes a picture of the differences between two pictures (padded if their sizes differ): FLIP's
+/// map in Magma colours; or |a - b| times `scale`; or a, b and that side by side, all three from
+/// sRGB values over the background. Ignored pixels are grey in |a - b|.
 void writeDifference(const std::string& path, const StoredImage& a, const StoredImage& b,
                      const CompareOptions& options, DifferenceKind kind, double scale);
 

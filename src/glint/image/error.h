@@ -5,7 +5,7 @@
 
 namespace glint {
 
-/// Base of all that glint throws. The message is one line: what is wrong, where, what to do.
+/// Base of everything that glint throws. The message is one line: what is wrong, where, what to do.
 /// Thrown at the edges (files, GL, usage), caught in main.
 class Error : public std::runtime_error {
  public:

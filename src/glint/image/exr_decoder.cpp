@@ -17,7 +17,7 @@
 namespace glint::detail {
 namespace {
 
-/// The file in memory, as the library reads it.
+/// Presents the file in memory as a stream to the library.
 class MemoryStream : public Imf::IStream {
  public:
   explicit MemoryStream(std::span<const std::byte> bytes) : IStream("picture"), bytes_(bytes) {}
@@ -63,7 +63,7 @@ class ExrReader {
     std::uint64_t values = 0;
     const ExrLayer* const main = find(layers, "");
     for (const ExrLayer& layer : layers) {
-      // A layer of the file may have one of the names that mean something here.
+      // A layer of the file may itself be named "all" or "main".
       const bool isWanted =
           layer.isOf(wanted) || wanted == "all" || (wanted == "main" && &layer == main);
       if (!isWanted) {
@@ -85,11 +85,11 @@ class ExrReader {
     if (values > maxValues)
       throw InputError(printablePath(name_) + ": " + std::to_string(chosen.size()) +
                        " layers of that size are too many at once: name one (--layer)");
-    // The main picture first, then part by part, each of which is decoded once.
+    // The main picture first, then part by part, decoding each part once.
     std::stable_partition(chosen.begin(), chosen.end(), [&](auto* one) { return one == main; });
     for (std::size_t i = 0; i < chosen.size();) {
       std::vector<const ExrLayer*> together{chosen[i++]};
-      // Chroma is read by another way.
+      // Chroma is read separately.
       while (!together[0]->chroma && i < chosen.size() && !chosen[i]->chroma &&
              chosen[i]->part == together[0]->part)
         together.push_back(chosen[i++]);
@@ -101,7 +101,7 @@ class ExrReader {
  private:
   static constexpr std::uint64_t maxValues = std::uint64_t(1) << 29;  // 2 GiB of floats
 
-  /// The layer of a name, or nothing. The main picture has no name.
+  /// The layer with a given name, or null. The main picture has no name.
   static const ExrLayer* find(const std::vector<ExrLayer>& layers, const std::string& wanted) {
     if (wanted.empty()) {
       for (const ExrLayer& layer : layers)
@@ -113,7 +113,7 @@ class ExrReader {
       for (const ExrLayer& layer : layers) {
         if (whole ? layer.name != wanted && layer.alias != wanted : !layer.isOf(wanted)) continue;
         if (!found) found = &layer;
-        if (!whole && found != &layer) return nullptr;  // several: none of them is meant
+        if (!whole && found != &layer) return nullptr;  // ambiguous
       }
       if (found) return found;
     }
@@ -142,12 +142,12 @@ class ExrReader {
     width_ = display_.max.x - display_.min.x + 1;
     height_ = display_.max.y - display_.min.y + 1;
     const auto pixels = side(data_.min.x, data_.max.x) * side(data_.min.y, data_.max.y);
-    // A chunk's head (20 bytes with its place in the table) for at most 256 rows at the very least,
-    // and two bytes a value. Refused before memory is spent on it.
+    // At the very least the file has a chunk header (20 bytes including its offset table entry) per
+    // 256 rows, and two bytes a value. Checked before memory is spent on the picture.
     if (pixels * 2 / 16 > bytes_.size() * largestExpansion(header.compression())) cut();
   }
 
-  /// Layers of one part, with one pass over it.
+  /// Reads layers of the same part in one pass over it.
   void readTogether(const std::vector<const ExrLayer*>& layers, PictureLayers& read) {
     const Imf::Header& header = file_.header(layers[0]->part);
     setSizes(header);
@@ -186,7 +186,7 @@ class ExrReader {
     bool rounded = false;
   };
 
-  /// Calls use(y, x, count): the columns of a data row that lie in the display window.
+  /// Calls use(y, x, count) with the columns of each data row that lie in the display window.
   template <class Use>
   void overlap(Use use) const {
     const int left = std::max(display_.min.x, data_.min.x);
@@ -203,9 +203,9 @@ class ExrReader {
                (std::size_t(y - display_.min.y) * width_ + std::size_t(x - display_.min.x));
   }
 
-  /// All rows of the data window, in pieces of a few.
+  /// Reads all rows of the data window, a few at a time.
   void readChannels(std::vector<Target>& targets, const Imf::Header& header) {
-    std::vector<std::string> names;  // each once: the library refuses a channel twice
+    std::vector<std::string> names;  // each once: the library refuses duplicates
     for (const Target& target : targets) {
       for (const std::string& name : target.layer->channelNames()) {
         const Imf::Channel* const kind = header.channels().findChannel(name);
@@ -254,7 +254,7 @@ class ExrReader {
     }
   }
 
-  /// Luminance and chroma, which the library turns into RGB of half floats.
+  /// Reads luminance and chroma, which the library converts to RGB in half floats.
   void readChroma(Target& target) {
     if (target.layer->part != 0) {
       throw InputError(printablePath(name_) +
@@ -292,7 +292,7 @@ class ExrReader {
   int width_ = 0, height_ = 0;
 };
 
-/// The library's message in one line of its own words, without its paths and advice.
+/// The library's message in one line, without its paths and advice.
 std::string firstLine(std::string text) {
   text = printablePath(text.substr(0, text.find('\n')));
   while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
@@ -308,7 +308,7 @@ bool isExr(std::span<const std::byte> bytes) {
 
 namespace {
 
-/// Runs `read`, whose errors of the library become ours.
+/// Runs `read` and converts the library's errors to ours.
 template <class Read>
 auto guarded(std::span<const std::byte> bytes, const std::string& name, Read read) {
   if (!attributesFit(bytes)) throw damaged(name, "the EXR is cut short");

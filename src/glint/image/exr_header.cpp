@@ -15,9 +15,9 @@ std::uint64_t largestExpansion(Imf::Compression compression) {
       return 1;
     case Imf::DWAA_COMPRESSION:
     case Imf::DWAB_COMPRESSION:
-      return 1032 * 64;  // one deflated coefficient for a block of 8 x 8
+      return 1032 * 64;  // one deflated coefficient per block of 8 x 8
     default:
-      return 1032;  // deflate's; the others make less
+      return 1032;  // deflate's; the others expand less
   }
 }
 
@@ -58,7 +58,7 @@ bool attributesFit(std::span<const std::byte> bytes) {
     return ++at <= bytes.size();
   };
   for (std::size_t header = at; at < bytes.size();) {
-    if (bytes[at] == std::byte(0)) {  // the end of a header; of several, an empty one is the last
+    if (bytes[at] == std::byte(0)) {  // end of a header; after several, an empty one
       if (!hasParts || at == header) return true;
       header = ++at;
       continue;

@@ -10,18 +10,18 @@
 
 namespace glint::detail {
 
-/// How many bytes one of the file can become, at most.
+/// The most bytes that one byte of the file can expand to.
 std::uint64_t largestExpansion(Imf::Compression);
 
-/// The attributes that are texts, without the part's own name and type.
+/// The string attributes, except for the part's own name and type.
 std::map<std::string, std::string> textOf(const Imf::Header&);
 
-/// Whether colours are said to be of other primaries or another white than sRGB's.
+/// Whether the header names primaries or a white point other than sRGB's.
 bool hasOtherPrimaries(const Imf::Header&);
 std::string primariesText(const Imf::Header&);
 
-/// The library makes room for an attribute of two gigabytes before it finds that the file ends:
-/// false where one is said to be longer than what is left.
+/// The library allocates up to two gigabytes for an attribute before it finds that the file ends:
+/// returns false if an attribute claims to be longer than the rest of the file.
 bool attributesFit(std::span<const std::byte> bytes);
 
 }  // namespace glint::detail

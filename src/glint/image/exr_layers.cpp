@@ -10,7 +10,7 @@
 namespace glint::detail {
 namespace {
 
-/// The channels whose names are `prefix` and one more word, without it.
+/// The channels whose names are `prefix` plus one more word, without the prefix.
 std::vector<std::string> channelsOf(const Imf::Header& header, const std::string& prefix) {
   std::vector<std::string> found;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
@@ -25,8 +25,8 @@ std::string joined(const std::string& a, const std::string& b) {
   return a.empty() ? b : b.empty() ? a : a + "." + b;
 }
 
-/// The layers of one prefix of one part. What is not a colour is a layer of its own, channel by
-/// channel: X, Y, Z are no luminance, and depth beside RGB is compared as it is.
+/// Adds the layers with one prefix in one part. Every channel that is not a colour becomes its own
+/// layer: X, Y, Z are not luminance, and depth next to RGB is compared as it is.
 void addLayers(const Imf::Header& header, int part, const std::string& partName,
                const std::string& prefix, std::vector<ExrLayer>& layers) {
   std::vector<std::string> left = channelsOf(header, prefix);

@@ -19,7 +19,7 @@
 namespace glint {
 namespace {
 
-/// An OutputFile as the library writes to it. Small pieces are collected until it seeks.
+/// Presents an OutputFile as a stream to the library. Small writes are buffered until it seeks.
 class FileStream : public Imf::OStream {
  public:
   explicit FileStream(const std::string& path) : OStream("picture"), file_(path) {}
@@ -54,7 +54,7 @@ template <class Text>
 Imf::Header headerOf(const std::string& path, int width, int height, const Text& text) {
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  // As with PNG, a higher level costs several times the time for a few per cent.
+  // As with PNG, a higher level takes several times as long to save a few per cent.
   header.zipCompressionLevel() = 1;
   for (const auto& [name, value] : text) {
     const bool own = header.find(name) != header.end() || name == "name" || name == "type";
@@ -67,7 +67,7 @@ Imf::Header headerOf(const std::string& path, int width, int height, const Text&
   return header;
 }
 
-/// Runs `write`, whose errors of the library become ours.
+/// Runs `write` and converts the library's errors to ours.
 template <class Write>
 void withSentence(const std::string& path, Write write) {
   try {
@@ -83,7 +83,7 @@ void withSentence(const std::string& path, Write write) {
   }
 }
 
-/// Points channel `c` of the frame's rows from `first` on at interleaved RGBA.
+/// A slice that maps channel `c` of the rows from `first` on to interleaved RGBA.
 Imf::Slice slice(const float* rgba, std::size_t c, int width, int first) {
   const auto stride = std::size_t(4) * sizeof(float) * std::size_t(width);
   auto* base = const_cast<char*>(reinterpret_cast<const char*>(rgba + c));
@@ -122,7 +122,7 @@ class ExrWriter : public PictureWriter {
 
   void finishFile() override {
     withSentence(path_, [&] {
-      file_.reset();  // writes the table of chunks
+      file_.reset();  // writes the chunk offset table
       stream_.commit();
     });
   }

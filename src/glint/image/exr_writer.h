@@ -11,16 +11,16 @@ namespace glint {
 
 /// A layer of an OpenEXR file.
 struct ExrLayer {
-  std::string name;     ///< of ASCII without dots; empty for the main picture
-  const Image* pixels;  ///< all layers have one size
-  /// The channels' names for the values of a pixel, up to four: "RGB", "RGBA", "XYZ", "Z".
+  std::string name;     ///< ASCII without dots; empty for the main picture
+  const Image* pixels;  ///< all layers must have the same size
+  /// The channel names for the values of a pixel, up to four: "RGB", "RGBA", "XYZ", "Z".
   std::string channels = "RGB";
-  std::vector<std::string> words = {};  ///< in place of those letters: longer names, up to four
+  std::vector<std::string> words = {};  ///< replaces those letters with longer names, up to four
 };
 
 /// Writes a whole OpenEXR file: 32-bit float, one part, layers as channel prefixes ("diffuse.R"),
-/// `text` as string attributes (names of 1 to 79 characters of ASCII, not the format's own).
-/// Throws InputError if the file cannot be written, Error for layers that cannot be one file.
+/// `text` as string attributes (names of 1 to 79 ASCII characters, not the format's own). Throws
+/// InputError if the file cannot be written, Error for layers that do not fit in one file.
 void writeExr(const std::string& path, std::span<const ExrLayer> layers,
               const std::map<std::string, std::string>& text = {});
 

@@ -65,7 +65,7 @@ std::string writeAdvice(int error) {
   }
 }
 
-/// Closes on every way out.
+/// Closes the descriptor on every exit path.
 struct Descriptor {
   int number;
   ~Descriptor() {
@@ -79,7 +79,7 @@ std::string folderOf(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-/// The path that a write to `path` would reach, whether or not there is a file yet.
+/// The path that a write to `path` would end up at, whether or not the file exists yet.
 std::string followLinks(std::string path) {
   for (int depth = 0; depth < 40; ++depth) {
     char to[PATH_MAX];
@@ -113,7 +113,7 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
   const auto refuse = [&](const std::string& what) {
     return InputError(printablePath(path) + ": " + what);
   };
-  // O_NONBLOCK: a FIFO without a writer must not keep us waiting.
+  // O_NONBLOCK: a FIFO without a writer must not block.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) {
@@ -132,7 +132,7 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
     std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
     std::size_t done = 0;
     for (;;) {
-      // A file of unknown length (in /proc) or one that grows is read to its real end.
+      // A file of unknown length (in /proc) or one that grows is read to its actual end.
       std::byte extra[4096];
       const bool full = done == bytes.size();
       const ssize_t count = ::read(file.number, full ? extra : bytes.data() + done,
@@ -163,8 +163,7 @@ OutputFile::OutputFile(const std::string& path, Staging staging) : path_(path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail(EISDIR);
-    // Replacing needs no permission on the old file; one that is write-protected stays all the
-    // same.
+    // Replacing a file needs no permission on it, but a write-protected file is left alone.
     if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
     if (!S_ISREG(status.st_mode)) {
       file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -185,7 +184,7 @@ OutputFile::~OutputFile() {
 
 void OutputFile::openStaged(Staging staging) {
   if (staged(staging)) return;
-  // Its folder may go between the two where another file that needed it has failed.
+  // The folder may be removed between the two calls if another output that needed it has failed.
   for (int attempt = 0; errno == ENOENT && attempt < 3; ++attempt) {
     if (const std::error_code error = folders_.make(folderOf(target_))) fail(error.value());
     if (staged(staging)) return;
@@ -193,11 +192,11 @@ void OutputFile::openStaged(Staging staging) {
   fail(errno);
 }
 
-/// Opens the file that will get the target's name. False with errno if it cannot.
+/// Opens the file that will be given the target's name. On failure returns false and sets errno.
 bool OutputFile::staged(Staging staging) {
   if (staging == Staging::unnamed) {
     file_ = ::open(folderOf(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    // Without /proc the file could not be given its name.
+    // Without /proc the file could not be given a name.
     if (file_ >= 0 && ::access(openFilePath(file_).c_str(), F_OK) == 0) return true;
     if (file_ >= 0) ::close(file_);
   }
@@ -229,7 +228,7 @@ void OutputFile::writeAll(std::span<const std::byte> bytes, std::int64_t offset)
   while (!bytes.empty()) {
     const ssize_t count = offset < 0 ? ::write(file_, bytes.data(), bytes.size())
                                      : ::pwrite(file_, bytes.data(), bytes.size(), offset);
-    if (count < 0 && errno == EAGAIN) {  // standard output may be somebody's non-blocking pipe
+    if (count < 0 && errno == EAGAIN) {  // standard output may be a shared non-blocking pipe
       pollfd ready{file_, POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (count < 0 && errno != EINTR) {
@@ -245,7 +244,7 @@ void OutputFile::commit() {
   if (!target_.empty()) refuseReadFile();
   flush();
   if (!target_.empty() && temporary_.empty()) link();
-  // Some file systems report a full disk only here, so that the name is given afterwards.
+  // Some file systems report a full disk only here, so the file gets its name afterwards.
   const int closed = ::close(file_);
   file_ = -1;
   if (closed != 0 && errno != EINTR) fail(errno);
@@ -254,7 +253,7 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
-/// Names the unnamed file: at once if the name is free, else beside the target to be renamed.
+/// Names the unnamed file: directly if the name is free, else next to the target, for renaming.
 void OutputFile::link() {
   const std::string unnamed = openFilePath(file_);
   const auto linkTo = [&](const std::string& name) {

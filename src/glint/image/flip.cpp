@@ -17,8 +17,7 @@ namespace {
 
 using Counts = std::function<void(int y, unsigned char* row)>;
 
-/// The rows of one picture around the current one: converted, and filtered along x where that is
-/// asked for.
+/// The rows of one picture around the current one: converted, and filtered along x where requested.
 class Ring {
  public:
   Ring(const PixelRows& picture, const detail::FlipFilters& filters)
@@ -26,7 +25,7 @@ class Ring {
         filters_(filters),
         rgba_(std::size_t(4) * picture.width),
         blocks_(blocksOf(picture.width)),
-        // Whole blocks of the comparison may be read beyond the width.
+        // Whole blocks may be read beyond the width by the comparison.
         stride_(blocks_ * detail::flipBlock),
         rows_(std::size_t(size()), detail::FlipRow(picture.width, filters.radius)),
         planes_(std::size_t(size()) * detail::flipPlanes * stride_),
@@ -46,8 +45,8 @@ class Ring {
     std::fill_n(filtered_.begin() + std::ptrdiff_t(at * blocks_), blocks_, 0);
   }
 
-  /// The rows around y, those beyond the edges being the edges, filtered in the blocks
-  /// [first, last).
+  /// The rows around y, filtered in the blocks [first, last). Rows beyond the edges repeat the edge
+  /// rows.
   const float* const* around(int y, std::size_t first, std::size_t last) {
     for (int k = 0; k < size(); ++k) {
       const int row = std::clamp(y + k - filters_.radius, 0, picture_.height - 1);
@@ -73,12 +72,12 @@ class Ring {
   std::size_t blocks_, stride_;
   std::vector<detail::FlipRow> rows_;
   std::vector<float> planes_;
-  std::vector<unsigned char> filtered_;  ///< rows by blocks
+  std::vector<unsigned char> filtered_;  ///< by row and block
   std::vector<const float*> around_;
 };
 
-/// The errors of rows that follow each other. Where both pictures are equal as far as the filters
-/// reach, the error is 0 without any filtering: most of most pairs.
+/// The errors of consecutive rows. Where both pictures are equal within the filters' radius, the
+/// error is 0 without any filtering: in most pairs that is nearly everywhere.
 class RowErrors {
  public:
   RowErrors(const PixelRows& reference, const PixelRows& test, const detail::FlipFilters& filters,
@@ -121,7 +120,7 @@ class RowErrors {
     }
   }
 
-  /// Whether no pixel differs that a filter over this block of row y sees.
+  /// Whether there is no differing pixel within the filters' radius of this block in row y.
   bool isEqual(std::size_t block, int y) const {
     const auto reach =
         std::size_t(filters_.radius + detail::flipBlock - 1) / std::size_t(detail::flipBlock);
@@ -135,8 +134,8 @@ class RowErrors {
   const detail::FlipFilters& filters_;
   int width_, height_;
   Ring a_, b_;
-  int next_;                        ///< row to be read
-  std::vector<int> lastDifferent_;  ///< of the rows read, by block; the least int: none
+  int next_;                        ///< next row to read
+  std::vector<int> lastDifferent_;  ///< last differing row read, by block; INT_MIN: none
 };
 
 void check(const PixelRows& reference, const PixelRows& test, const FlipOptions& options) {
@@ -148,14 +147,14 @@ void check(const PixelRows& reference, const PixelRows& test, const FlipOptions&
                      " pixels per degree: give more than 0 and at most 1000");
 }
 
-/// Calls use(y, errors) for all rows in order.
+/// Calls use(y, errors) for all rows, in order.
 void forErrors(const PixelRows& reference, const PixelRows& test, const FlipOptions& options,
                const FlipRows& use) {
   check(reference, test, options);
   const detail::FlipFilters filters(options.pixelsPerDegree);
   const int width = reference.width, height = reference.height;
-  // Pieces of rows for the threads: long, since the rows around a piece are filtered twice, and in
-  // rounds, since the map of a giant must not be kept whole.
+  // Ranges of rows for the threads: long, since the rows around a range are filtered twice; and
+  // handed out in rounds, since the map of a huge picture must not be held whole.
   constexpr int longest = 288;
   int threads = std::min(threadsFor(options.threads), height);
   if (const int reach = std::max(reference.reach, test.reach); reach > 0)
@@ -218,15 +217,15 @@ class Pool {
   const FlipRows& map_;
   const Counts& counts_;
   std::vector<unsigned char> counted_;
-  std::vector<double> weights_ = std::vector<double>(65537);  ///< sums of errors, by error
+  std::vector<double> weights_ = std::vector<double>(65537);  ///< sums of errors, binned by error
   double sum_ = 0;
 };
 
 /// (a x^2 + b x + c) / (d x^2 + e x + f).
 using ToneCurve = std::array<double, 6>;
 
-/// ACES as Narkowicz fitted it, with the 0.6 that the paper takes out of the exposure; Hable's
-/// filmic curve; Reinhard's.
+/// ACES as fitted by Narkowicz, including the factor 0.6 that the paper takes out of the exposure;
+/// Hable's filmic curve; Reinhard's.
 const ToneCurve& curveOf(ToneMapper mapper) {
   static constexpr ToneCurve aces{0.6 * 0.6 * 2.51, 0.6 * 0.03, 0,
                                   0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
@@ -235,8 +234,8 @@ const ToneCurve& curveOf(ToneMapper mapper) {
   return mapper == ToneMapper::aces ? aces : mapper == ToneMapper::hable ? hable : reinhard;
 }
 
-/// The exposures (in stops) that the paper tries for a reference: from the one where the brightest
-/// pixel reaches 0.85 of the tone curve to the one where the median does.
+/// The exposures (in stops) that the paper tries for a reference: from the one at which the
+/// brightest pixel reaches 0.85 on the tone curve to the one at which the median does.
 void exposuresOf(const PixelRows& reference, const FlipOptions& options, FlipResult& result) {
   const ToneCurve& curve = curveOf(options.toneMapper);
   const double t = 0.85;
@@ -258,8 +257,8 @@ void exposuresOf(const PixelRows& reference, const FlipOptions& options, FlipRes
   const auto middle = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
   const double brightest = *std::max_element(luminances.begin(), luminances.end());
   std::nth_element(luminances.begin(), middle, luminances.end());
-  // A black picture, or one that is black by half, has no such exposures; the paper leaves them
-  // undefined. Sixteen stops show what there is.
+  // The paper leaves these exposures undefined for a picture that is black, or half black. Sixteen
+  // stops show whatever is there.
   const auto stops = [&](double luminance, double other) {
     return luminance > 0 ? std::log2(reached / luminance) : other;
   };
@@ -294,7 +293,7 @@ PixelRows toneMapped(const PixelRows& picture, ToneMapper mapper, double exposur
       }
       const float x = rgba[i] * scale, s = x * x;
       const float over = s * k[0] + x * k[1] + k[2], under = s * k[3] + x * k[4] + k[5];
-      // Beyond 1e15 the squares overflow where the curve has long been above 1.
+      // Beyond 1e15 the squares overflow, but the curve has long been above 1.
       rgba[i] = x > 1e15f ? 1 : over / under;
     }
   };

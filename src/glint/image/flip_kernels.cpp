@@ -7,8 +7,8 @@
 #include <cstring>
 #include <numbers>
 
-// Distribution builds know SSE2 only: the loops are compiled for AVX2 and AVX-512 as well and
-// chosen at load. None contracts, so that all give the same bits.
+// Distribution builds target SSE2 only, so the loops are also compiled for AVX2 and AVX-512 and
+// chosen at load time. FMA contraction is off, so that all give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define GLINT_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -20,17 +20,17 @@ namespace glint::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int lanes = 16;  ///< two vectors of AVX, one of AVX-512
+constexpr int lanes = 16;  ///< two AVX vectors, one of AVX-512
 using Vector = float __attribute__((vector_size(4 * lanes), aligned(4), may_alias));
 
-// Linear sRGB to XYZ (D65), and the white of that light.
+// Linear sRGB to XYZ (D65), and that white point.
 constexpr double toXyz[3][3] = {
     {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
     {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
     {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
 constexpr double white[3] = {0.950428545, 1.0, 1.088900371};
 
-// Constants of the paper's section 4.
+// Constants from section 4 of the paper.
 constexpr double colourExponent = 0.7, colourBreak = 0.4, colourBreakValue = 0.95;
 constexpr double featureDegrees = 0.082, featureExponent = 0.5;
 
@@ -61,7 +61,7 @@ const Matrices& matrices() {
   return made;
 }
 
-/// CIELAB's curve; below the cube of 6/29 a line.
+/// CIELAB's curve is a line below the cube of 6/29.
 constexpr double labBreak = 6.0 / 29;
 
 /// The largest colour difference, between green and blue, raised to colourExponent.
@@ -83,7 +83,7 @@ double largestDifference() {
 }
 
 HalfFilter halfOf(const std::vector<double>& half) {
-  // Weights that together change nothing that a float can hold are left out.
+  // Drops tail weights whose total effect is too small for a float.
   std::size_t size = half.size();
   for (double tail = 0; size > 1; --size) {
     tail += 2 * std::fabs(half[size - 1]);
@@ -123,7 +123,7 @@ FlipFilters::FlipFilters(double pixelsPerDegree) {
   const auto y = make(0.0047, 1), x = make(0.0053, 1);
   luminance = scaled(y, 1 / sumOf(y));
   redGreen = scaled(x, 1 / sumOf(x));
-  // 34.1 and 13.5 weigh the two; separated, each direction has the root of its factor.
+  // 34.1 and 13.5 weight the two Gaussians; separated, each direction gets the square root.
   const auto z0 = make(0.04, std::sqrt(34.1 * std::sqrt(pi / 0.04)));
   const auto z1 = make(0.025, std::sqrt(13.5 * std::sqrt(pi / 0.025)));
   const double norm = 1 / std::hypot(sumOf(z0), sumOf(z1));
@@ -165,7 +165,7 @@ void flipConvertRow(const float* rgba, int width, int radius, FlipRow& row) {
     float c[3];
     for (int i = 0; i < 3; ++i) {
       const float v = rgba[4 * x + i];
-      const float low = v > 0 ? v : 0;  // NaN too
+      const float low = v > 0 ? v : 0;  // and for NaN
       c[i] = low < 1 ? low : 1;
     }
     const float y = m[3] * c[0] + m[4] * c[1] + m[5] * c[2];
@@ -185,7 +185,7 @@ inline __attribute__((always_inline)) const Vector& at(const float* p) {
   return *reinterpret_cast<const Vector*>(p);
 }
 
-/// Sums of a symmetric filter along x for one vector.
+/// Applies a symmetric filter along x for one vector.
 inline __attribute__((always_inline)) void filterAt(const float* in, const HalfFilter& filter,
                                                     float* out) {
   Vector sum = at(in) * filter[0];
@@ -194,8 +194,9 @@ inline __attribute__((always_inline)) void filterAt(const float* in, const HalfF
   *reinterpret_cast<Vector*>(out) = sum;
 }
 
-/// Second differences: the weights sum to 0, so that the centre may be taken off each value, and
-/// even colour gives 0 exactly, not a rounding error whose root would be seen.
+/// Second differences: since the weights sum to 0, the centre can be subtracted from each value,
+/// and uniform colour gives exactly 0 instead of a rounding error whose square root would be
+/// visible.
 inline __attribute__((always_inline)) void addSecondDifference(const float* left,
                                                                const float* centre,
                                                                const float* right, float weight,
@@ -218,7 +219,7 @@ void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int begin, in
     filterAt(blueYellow + x, filters.blueYellow[0], out + blueYellowPlane0 * stride);
     filterAt(blueYellow + x, filters.blueYellow[1], out + blueYellowPlane1 * stride);
     filterAt(luminance + x, filters.gaussian, out + gaussianPlane * stride);
-    // Antisymmetric: the filter mirrored, as it is slid over the picture.
+    // Antisymmetric: convolution mirrors the filter.
     const float* in = luminance + x;
     Vector sum = at(in) * 0.0f;
     const int size = int(filters.edge.size());
@@ -233,7 +234,7 @@ void flipFilterRow(const FlipFilters& filters, const FlipRow& row, int begin, in
 
 namespace {
 
-/// Of one picture: what is left of a block after filtering along y.
+/// A block of one picture after filtering along y.
 struct Block {
   float luminance[flipBlock], redGreen[flipBlock], blueYellow[flipBlock];
   float edgeX[flipBlock], edgeY[flipBlock], pointX[flipBlock], pointY[flipBlock];
@@ -281,8 +282,8 @@ inline __attribute__((always_inline)) void filterBlock(const FlipFilters& filter
   }
 }
 
-/// Cube root for [0.008, 2] by a guess from the exponent and two steps of Halley, whose relative
-/// errors are 5e-2, 4e-5 (a cubic method: 2/3 e^3 at most) and below a float's rounding.
+/// Cube root in [0.008, 2]: a guess from the exponent and two Halley steps. The relative errors are
+/// 5e-2, then 4e-5 (the method is cubic: 2/3 e^3 at most), then below a float's rounding.
 inline __attribute__((always_inline)) float cubeRoot(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);
   const auto guess = static_cast<std::int32_t>(static_cast<float>(bits) * (1.0f / 3)) + 709921077;
@@ -294,10 +295,10 @@ inline __attribute__((always_inline)) float cubeRoot(float x) {
   return t;
 }
 
-/// Binary logarithm of a positive normal float, within 3e-7 (of 1, or of the result).
+/// Binary logarithm of a positive normal float, within 3e-7 (absolute, or relative to the result).
 inline __attribute__((always_inline)) float log2Of(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);
-  // Mantissas from the root of one half to the root of two.
+  // Mantissas from the square root of one half to the square root of two.
   const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;
   const float mantissa = std::bit_cast<float>(bits - (exponent << 23));
   const float t = (mantissa - 1) / (mantissa + 1), s = t * t;
@@ -307,9 +308,9 @@ inline __attribute__((always_inline)) float log2Of(float x) {
          t * (c + s * (c / 3 + s * (c / 5 + s * (c / 7 + s * (c / 9)))));
 }
 
-/// 2^y for -120 <= y <= 120, within 2e-7 of the result.
+/// 2^y for -120 <= y <= 120, with a relative error below 2e-7.
 inline __attribute__((always_inline)) float exp2Of(float y) {
-  const float shifted = y + 12582912.0f;  // 1.5 * 2^23 leaves the nearest whole number
+  const float shifted = y + 12582912.0f;  // adding 1.5 * 2^23 rounds to the nearest integer
   const float whole = shifted - 12582912.0f;
   const float r = (y - whole) * 0.69314718056f;
   const float p =
@@ -323,7 +324,8 @@ struct Lab {
   float l, a, b;
 };
 
-/// CIELAB of filtered opponent colours, clamped to linear sRGB, chroma weighed by lightness (Hunt).
+/// CIELAB of filtered opponent colours, clamped to linear sRGB, chroma weighted by lightness
+/// (Hunt).
 inline __attribute__((always_inline)) Lab labOf(float luminance, float redGreen, float blueYellow,
                                                 const float* from, const float* to) {
   const float x = luminance + redGreen, z = luminance - blueYellow;

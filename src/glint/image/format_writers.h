@@ -16,7 +16,7 @@ std::unique_ptr<PictureWriter> openPfm(const std::string& path, int width, int h
 std::unique_ptr<PictureWriter> openRaw(const std::string& path, int width, int height,
                                        const PictureOptions& options);
 
-/// Throws InputError if a side has more pixels than a format allows.
+/// Throws InputError if a side is longer than the format allows.
 void checkFormatSides(const std::string& path, int width, int height, int most,
                       const char* formatName);
 

@@ -20,7 +20,7 @@ class HdrReader {
   StoredImage read() {
     readVariables();
     readSize();
-    // Every row takes at least one pixel of four bytes.
+    // Every row takes at least one four-byte pixel.
     if (bytes_.size() - at_ < std::size_t(4) * image_.height) cut();
     const std::size_t rowPixels = std::size_t(image_.width);
     std::vector<unsigned char> row(4 * rowPixels);
@@ -106,7 +106,7 @@ class HdrReader {
     }
   }
 
-  /// New run lengths: one channel of a row; counts above 128 are runs.
+  /// New run lengths, for one channel of a row; counts above 128 are runs.
   void readChannel(std::vector<unsigned char>& row, std::size_t channel) {
     for (std::size_t i = channel; i < row.size();) {
       std::size_t count = byte();
@@ -118,8 +118,8 @@ class HdrReader {
     }
   }
 
-  /// Plain pixels and old run lengths: (1, 1, 1, n) repeats the last pixel; a second one in a row
-  /// counts 256 times as much.
+  /// Plain pixels and old run lengths: (1, 1, 1, n) repeats the last pixel; a second such pixel in
+  /// succession counts 256 times as much.
   void readPixels(std::vector<unsigned char>& row) {
     int shift = 0;
     for (std::size_t i = 0; i < row.size();) {

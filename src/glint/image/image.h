@@ -13,7 +13,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<float> values;  ///< 4 * width * height
-  /// What the file says of the picture: keyword and text (UTF-8).
+  /// Text stored in the file about the picture: keyword and text (UTF-8).
   std::map<std::string, std::string> text = {};
 
   float* row(int y) { return values.data() + std::size_t(4) * width * y; }

@@ -11,16 +11,16 @@
 #include "glint/image/decoders.h"
 #include "glint/image/row_reducer.h"
 
-// libjpeg reports errors through a function that must not return. It jumps back into one of the
-// small functions below that have no object with a destructor, so that the jump skips none.
+// libjpeg reports errors through a function that must not return. It longjmps back into one of the
+// small functions below, which hold no object with a destructor, so the jump skips none.
 
 namespace glint::detail {
 namespace {
 
-// Enough for the coefficients of a progressive picture of the largest size, 4:2:0.
+// Enough for the coefficients of a progressive 4:2:0 picture of the largest size.
 constexpr long memoryLimit = 1L << 30;
-// A hostile progressive file repeats empty scans, each of which visits the whole picture; real
-// ones have about ten.
+// A malicious progressive file can repeat empty scans, each of which visits the whole picture; real
+// files have about ten.
 constexpr int scanLimit = 100;
 constexpr int rowsAtOnce = 64;
 
@@ -28,7 +28,7 @@ struct JpegReader {
   jpeg_decompress_struct info{};
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
-  bool endless = false;  ///< the end mark is missing
+  bool endless = false;  ///< the end-of-image marker is missing
   std::jmp_buf failed{};
   char message[JMSG_LENGTH_MAX] = "";
 
@@ -45,8 +45,8 @@ JpegReader& readerOf(j_common_ptr info) { return *static_cast<JpegReader*>(info-
   std::longjmp(readerOf(info).failed, 1);
 }
 
-/// libjpeg goes on after damage and fills in grey; here damage to the pixels is an error. A file
-/// that lacks its end mark alone (JWRN_JPEG_EOF without JWRN_HIT_MARKER) has all its pixels.
+/// libjpeg continues after damage and fills in grey; here damaged pixels are an error. A file that
+/// only lacks its end-of-image marker (JWRN_JPEG_EOF without JWRN_HIT_MARKER) has all its pixels.
 void onMessage(j_common_ptr info, int level) {
   if (level >= 0) return;
   switch (info->err->msg_code) {
@@ -63,8 +63,8 @@ void onMessage(j_common_ptr info, int level) {
   }
 }
 
-/// Without an end mark: has every coefficient come in full? Of a progressive file whole scans may
-/// be missing, of others those of whole components.
+/// For a file without an end-of-image marker: whether every coefficient has arrived in full. A
+/// progressive file may lack whole scans, others the scans of whole components.
 bool isComplete(const jpeg_decompress_struct& info) {
   if (!info.progressive_mode) return info.comps_in_scan == info.num_components;
   for (int component = 0; component < info.num_components; ++component) {
@@ -84,7 +84,7 @@ void onProgress(j_common_ptr info) {
   }
 }
 
-/// False, and a message, on an error; so below.
+/// Returns false and sets the message on an error; likewise below.
 bool readHeader(JpegReader& reader, const unsigned char* bytes, unsigned long size) {
   if (setjmp(reader.failed) != 0) return false;
   reader.info.err = jpeg_std_error(&reader.errors);
@@ -109,7 +109,7 @@ bool startDecoding(JpegReader& reader) {
   return true;
 }
 
-/// `count` rows of 4 bytes a pixel.
+/// Reads `count` rows of 4 bytes a pixel.
 bool readRows(JpegReader& reader, unsigned char* rows, int count) {
   if (setjmp(reader.failed) != 0) return false;
   const JDIMENSION end = reader.info.output_scanline + static_cast<JDIMENSION>(count);
@@ -126,8 +126,8 @@ unsigned char product(unsigned a, unsigned b) {
   return static_cast<unsigned char>((a * b + 127) / 255);
 }
 
-/// Without a profile CMYK says little about colour; this is what most viewers do. Adobe's files,
-/// nearly all there are, hold the complements.
+/// Without a profile CMYK says little about colour; this is the conversion of most viewers. Adobe's
+/// files, which nearly all CMYK files are, store the complements.
 void convertCmyk(std::span<unsigned char> pixels, bool complements) {
   const unsigned flip = complements ? 0 : 255;
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
@@ -161,7 +161,7 @@ TextureHeader jpegHeader(std::span<const std::byte> bytes, const std::string& na
   JpegReader reader;
   openJpeg(reader, bytes, name);
   TextureHeader header{int(reader.info.image_width), int(reader.info.image_height), 0, 0};
-  // Of a picture in several scans the library holds all coefficients, two bytes each.
+  // For a picture in several scans the library holds all coefficients, two bytes each.
   if (jpeg_has_multiple_scans(&reader.info)) {
     for (int i = 0; i < reader.info.num_components; ++i) {
       const jpeg_component_info& component = reader.info.comp_info[i];
@@ -192,7 +192,7 @@ ByteImage decodeJpeg(std::span<const std::byte> bytes, const std::string& name, 
   } else {
     image.values.reserve(withRoomForLevels(rowBytes * image.height));
   }
-  // Grown as rows arrive: a small file that claims to be a giant touches little memory.
+  // Grown as rows arrive, so that a small file that claims to be huge uses little memory.
   for (int y = 0; y < image.height; y += rowsAtOnce) {
     const int count = std::min(rowsAtOnce, image.height - y);
     if (!reducer) image.values.resize(rowBytes * (y + count));

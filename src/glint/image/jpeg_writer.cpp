@@ -12,14 +12,13 @@
 #include "glint/image/format_writers.h"
 #include "glint/image/srgb.h"
 
-// As in jpeg_decoder.cpp: libjpeg leaves errors by a jump, into small functions that have no object
-// with a destructor.
+// As in jpeg_decoder.cpp, libjpeg exits on errors by longjmp, into small functions that hold no
+// object with a destructor.
 
 namespace glint::detail {
 namespace {
 
-/// From this quality on colours keep the resolution of brightness (4:4:4); below they have half of
-/// it (4:2:0).
+/// From this quality up, chroma has the full resolution of luma (4:4:4); below, half of it (4:2:0).
 constexpr int fullColorQuality = 90;
 
 struct JpegMaker {
@@ -78,7 +77,7 @@ void onEnd(j_compress_ptr info) {
   if (!put(maker, maker.buffer.size() - maker.target.free_in_buffer)) std::longjmp(maker.failed, 1);
 }
 
-/// False, and a message or an exception kept, on an error; so below.
+/// Returns false on an error and keeps a message or an exception; likewise below.
 bool begin(JpegMaker& maker, int width, int height, int quality) {
   if (setjmp(maker.failed) != 0) return false;
   maker.info.err = jpeg_std_error(&maker.errors);

@@ -5,7 +5,7 @@
 namespace glint {
 namespace {
 
-/// What is said of a text by its brackets alone.
+/// What a text's brackets alone reveal.
 struct Brackets {
   bool tooDeep = false;
   std::size_t count = 0;  ///< arrays and objects

@@ -7,26 +7,27 @@
 
 namespace glint {
 
-// The one way by which JSON text comes into the program. The parser itself does not recurse, but
-// whoever copies, compares, hashes, prints or destroys what it gives does, so that deep nesting
-// must be refused before.
+// All JSON text enters the program through these functions. The parser itself does not recurse, but
+// copying, comparing, hashing, printing or destroying its result does, so deep nesting must be
+// refused before parsing.
 
-/// Arrays and objects in one another; no file that is read here needs a quarter of it.
+/// Maximum nesting of arrays and objects; no file read here needs a quarter of it.
 inline constexpr int maxJsonNesting = 64;
 
-/// So many arrays and objects any text may hold, and beyond that one for so many bytes: each takes
-/// more than a kilobyte in the end, and one that says anything has a dozen, as {"mesh":10} has.
+/// Any text may hold up to jsonBracketsFree arrays and objects. A text with more needs at least
+/// jsonBytesForBrackets bytes for each: every one takes more than a kilobyte in memory, and one
+/// with any content has a dozen bytes, as {"mesh":10} does.
 inline constexpr std::size_t jsonBracketsFree = 1 << 16, jsonBytesForBrackets = 12;
 
-/// Why a text is not read as JSON at all, such as "JSON nested more than 64 deep"; empty if it may
-/// be parsed.
+/// Why a text is not parsed as JSON at all, such as "JSON nested more than 64 deep"; empty if it
+/// may be parsed.
 std::string jsonRefusal(std::string_view text);
 
 /// A parser's message without its class and number.
 std::string jsonErrorText(const std::exception& error);
 
-/// Parses a text into nlohmann's json or ordered_json. Where there is none, `error` says why:
-/// "not valid JSON, parse error at line 3, column 7: ...". A byte order mark is passed over.
+/// Parses a text into nlohmann's json or ordered_json. If that fails, `error` gives the reason:
+/// "not valid JSON, parse error at line 3, column 7: ...". A byte order mark is skipped.
 template <class Json>
 std::optional<Json> parseJsonText(std::string_view text, std::string& error) {
   error = jsonRefusal(text);
@@ -39,7 +40,7 @@ std::optional<Json> parseJsonText(std::string_view text, std::string& error) {
   }
 }
 
-/// The same for text that this program has made itself or has looked through already.
+/// The same for text that this program has written itself or has already checked.
 template <class Json>
 Json parsedJson(std::string_view text) {
   std::string error;

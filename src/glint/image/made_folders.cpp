@@ -14,7 +14,7 @@ std::error_code MadeFolders::make(const fs::path& folder) {
     if (each.has_filename()) missing.push_back(each);
   error.clear();
   fs::create_directories(whole, error);
-  // A thread beside this one may have made it, which some libraries tell as an error.
+  // Another thread may have created it at the same time, which some libraries report as an error.
   std::error_code ignored;
   if (fs::is_directory(whole, ignored)) error.clear();
   made_.insert(made_.begin(), missing.begin(), missing.end());
@@ -22,7 +22,7 @@ std::error_code MadeFolders::make(const fs::path& folder) {
 }
 
 MadeFolders::~MadeFolders() {
-  std::error_code ignored;  // of one that is not empty
+  std::error_code ignored;  // from folders that are not empty
   for (const fs::path& each : made_) fs::remove(each, ignored);
 }
 

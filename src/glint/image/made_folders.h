@@ -6,8 +6,8 @@
 
 namespace glint {
 
-/// Folders that were made for what is to be written into them; those that are still empty at its
-/// end go again.
+/// Folders created for files that are about to be written; the destructor removes those that are
+/// still empty.
 class MadeFolders {
  public:
   MadeFolders() = default;
@@ -15,11 +15,11 @@ class MadeFolders {
   MadeFolders(const MadeFolders&) = delete;
   MadeFolders& operator=(const MadeFolders&) = delete;
 
-  /// Makes a folder and those above it that are not there.
+  /// Creates a folder and its missing parents.
   std::error_code make(const std::filesystem::path& folder);
 
  private:
-  std::vector<std::filesystem::path> made_;  ///< the innermost first
+  std::vector<std::filesystem::path> made_;  ///< innermost first
 };
 
 }  // namespace glint

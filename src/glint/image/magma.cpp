@@ -6,8 +6,8 @@
 namespace glint {
 
 void magma(float error, unsigned char rgb[3]) {
-  // The Magma map of Smith and van der Walt (2015, CC0) at 16 even steps, 8-bit sRGB; between
-  // them lines, which are within 3 codes of the map.
+  // The Magma map of Smith and van der Walt (2015, CC0) at 16 even steps, 8-bit sRGB, with linear
+  // interpolation in between, which is within 3 codes of the map.
   static constexpr unsigned char stops[16][3] = {
       {0, 0, 4},       {11, 9, 36},     {32, 17, 75},    {59, 15, 112},
       {87, 21, 126},   {114, 31, 129},  {140, 41, 129},  {168, 50, 125},

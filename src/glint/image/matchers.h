@@ -9,15 +9,15 @@
 
 namespace glint {
 
-/// Matchers for GoogleTest (1.11 or later), which this header needs not:
+/// Matchers for GoogleTest (1.11 or later), which this header does not depend on:
 ///
 ///     EXPECT_THAT(picture, glint::LooksLike(other, {{"flip", 0.02}}));
 ///     EXPECT_THAT(picture, glint::MatchesBaseline("baselines/teapot.png", {{"max", 0.01}}));
 ///
-/// A failure's message has the values that are over their bounds and the worst pixels with both
-/// values; that of MatchesBaseline also says where the picture and its difference are. Without
-/// conditions the pictures must be equal. What cannot be compared or read does not match either,
-/// nor does a picture of which a baseline has just been made: a test never accepts it unseen.
+/// A failure's message lists the values that exceed their bounds and the worst pixels with both
+/// values; MatchesBaseline's also gives the paths of the picture and its difference. Without
+/// conditions the pictures must be equal. Pictures that cannot be compared or read do not match.
+/// Nor does a picture whose baseline has just been created: a test never accepts it unseen.
 class PictureMatcher {
  public:
   using is_gtest_matcher = void;
@@ -31,21 +31,21 @@ class PictureMatcher {
   friend PictureMatcher MatchesBaseline(std::string, BaselineOptions);
   std::string describe() const;
 
-  Image expected_;        ///< if there is no baseline
+  Image expected_;        ///< used if there is no baseline
   std::string baseline_;  ///< path
   BaselineOptions options_;
-  /// That a baseline has been made: GoogleTest asks once more for the explanation.
+  /// Set when a baseline has been created: GoogleTest calls again for the explanation.
   std::shared_ptr<std::string> made_ = std::make_shared<std::string>();
 };
 
-/// Values of both pictures are compared as they are, in linear light.
+/// Compares both pictures' values as they are, in linear light.
 PictureMatcher LooksLike(Image expected, CompareOptions options);
 PictureMatcher LooksLike(Image expected, std::vector<Condition> conditions = {});
 /// See compareWithBaseline().
 PictureMatcher MatchesBaseline(std::string path, BaselineOptions options);
 PictureMatcher MatchesBaseline(std::string path, std::vector<Condition> conditions = {});
 
-/// What GoogleTest prints for a picture: its size.
+/// Prints a picture for GoogleTest: its size.
 void PrintTo(const Image& picture, std::ostream* out);
 
 }  // namespace glint

@@ -6,19 +6,19 @@
 
 namespace glint::detail {
 
-/// Sums over the values that two pictures are compared by; a is the baseline's.
+/// Sums over the compared values of two pictures; a is the baseline's.
 struct ValueSums {
   double absolute = 0;    ///< of |a - b|
   double square = 0;      ///< of (a - b)^2
   double relative = 0;    ///< of (a - b)^2 / (a^2 + 0.01)
   double largest = 0;     ///< |a - b|
-  std::size_t count = 0;  ///< of values: channels times pixels, finite ones alone
+  std::size_t count = 0;  ///< number of values: channels times pixels, finite ones only
 };
 
 /// A metric, as docs/image-tests.md defines it.
 struct MetricRow {
   std::string_view name;
-  /// NaN of nothing. Null: it is of what is seen, and compare() computes it.
+  /// NaN if there are no values. Null for perceptual metrics, which compare() computes.
   double (*ofValues)(const ValueSums&) = nullptr;
   bool isSimilarity = false;  ///< larger is better
 };

@@ -16,7 +16,7 @@ std::vector<ByteImage> mipLevels(const ByteImage& image, bool isData) {
     levels.push_back({width, height, 4, {}});
     levels.back().values.resize(std::size_t(4) * width * height);
   }
-  // Each row goes down the pyramid as soon as it is there, while it is in the cache.
+  // Each row is passed down the pyramid as soon as it is finished, while it is in the cache.
   std::vector<RowAverage> steps;
   steps.reserve(levels.size());
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -6,15 +6,16 @@
 
 namespace glint {
 
-/// The smaller levels of a texture's pyramid, from half its size down to 1 x 1: sizes halved and
-/// rounded down, each texel the mean over the area it covers (weights of the parts of texels where
-/// a size is odd), colours in linear light, alpha as it is. Values are rounded once, from floats
-/// carried down the pyramid, to sRGB by the threshold encode, alpha to the nearest.
+/// The smaller levels of a texture's mip pyramid, from half its size down to 1 x 1. Sizes are
+/// halved and rounded down; each texel is the mean over the area it covers (with fractional weights
+/// where a size is odd), colours in linear light, alpha unchanged. Values are carried down the
+/// pyramid as floats and rounded once: colours to sRGB by the threshold encode, alpha to the
+/// nearest code.
 ///
-/// Made here and not by glGenerateMipmap, because drivers differ in rounding and odd sizes, and
-/// because a software driver compiles programs for it in every process.
+/// glGenerateMipmap is not used because drivers differ in rounding and in their treatment of odd
+/// sizes, and because a software driver compiles programs for it in every process.
 ///
-/// `isData`: the values are numbers, not sRGB, and are averaged and rounded as they are.
+/// `isData`: the values are numbers, not sRGB, and are averaged and rounded directly.
 std::vector<ByteImage> mipLevels(const ByteImage& image, bool isData = false);
 
 }  // namespace glint

@@ -28,7 +28,7 @@ class PfmHeader {
   std::uint32_t width;
   std::uint32_t height;
   double scale;
-  std::size_t size = 0;  ///< bytes, with the one white space after the scale
+  std::size_t size = 0;  ///< bytes, including the one white space after the scale
 
  private:
   static constexpr std::size_t limit = 256;

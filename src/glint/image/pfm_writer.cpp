@@ -57,7 +57,7 @@ class PfmWriter : public PictureWriter {
 
   OutputFile file_;
   const std::string header_;
-  std::vector<std::uint32_t> block_;  ///< rows bottom up, as they lie in the file
+  std::vector<std::uint32_t> block_;  ///< rows from the bottom up, as in the file
 };
 
 }  // namespace

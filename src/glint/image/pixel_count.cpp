@@ -9,7 +9,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-/// Luma and chroma of the NTSC, of sRGB values in [0, 1].
+/// NTSC luma and chroma of sRGB values in [0, 1].
 double yOf(const float* p) { return 0.29889531 * p[0] + 0.58662247 * p[1] + 0.11448223 * p[2]; }
 double iOf(const float* p) { return 0.59597799 * p[0] - 0.27417610 * p[1] - 0.32180189 * p[2]; }
 double qOf(const float* p) { return 0.21147017 * p[0] - 0.52261711 * p[1] + 0.31114694 * p[2]; }
@@ -24,8 +24,8 @@ struct Oklab {
   double l, a, b;
 };
 
-/// OKLab (Ottosson, "A perceptual color space for image processing", 2020) with the lightness that
-/// he later corrected near black ("Okhsv and Okhsl", 2021): 0 for black to 1 for white.
+/// OKLab (Ottosson, "A perceptual color space for image processing", 2020) with his later
+/// correction of lightness near black ("Okhsv and Okhsl", 2021): 0 for black to 1 for white.
 Oklab oklabOf(const float* p) {
   double c[3];
   for (int i = 0; i < 3; ++i) {
@@ -50,13 +50,13 @@ double oklabDistance(const float* p, const float* q) {
   return std::fabs(a.l - b.l) + std::hypot(a.a - b.a, a.b - b.b);
 }
 
-/// One way to see both pictures. Rows are made when they are looked at and kept while near.
+/// One view of both pictures. Rows are computed on first access and kept while they are near.
 class View {
  public:
   View(const ComparedRows& compared, const CompareOptions& options)
       : compared_(compared), options_(options), kept_(std::max(5, 2 * options.shift + 1)) {}
 
-  /// Over the tolerance. A distance that is not a number is over every tolerance.
+  /// Whether the distance is over the tolerance. NaN always is.
   bool differs(int x, int y) { return areFar(at(0, x, y), at(1, x, y)); }
 
   bool looksAntiAliased(int x, int y) { return antiAliased(0, x, y) || antiAliased(1, x, y); }
@@ -112,14 +112,15 @@ class View {
     return equal + edge > 2;
   }
 
-  /// A pixel between a darker and a brighter neighbour, of which one lies in even colour.
+  /// Whether the pixel lies between a darker and a brighter neighbour, one of them in a uniform
+  /// area.
   bool antiAliased(int picture, int x, int y) {
     const float* const centre = at(picture, x, y);
     int equal = 0;
     bool edge = false;
     double lowest = 0, highest = 0;
     int lowX = 0, lowY = 0, highX = 0, highY = 0;
-    // Column by column: of equally dark or bright ones the first counts, as in pixelmatch.
+    // Column by column: among equally dark or bright ones the first counts, as in pixelmatch.
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j) {
         if (i == 0 && j == 0) continue;
@@ -151,7 +152,7 @@ class View {
   std::vector<Kept> kept_;
 };
 
-/// The largest number of marks in any window of so many pixels a side, rows coming one by one.
+/// The largest number of marks in any square window of a given side; rows are added one by one.
 class Windows {
  public:
   Windows(int width, int height, int side)

@@ -4,15 +4,15 @@
 
 namespace glint {
 
-/// A picture as rows of linear RGBA floats, made when they are asked for, so that pictures that do
-/// not fit the memory as floats can be compared. `read` may be called by several threads at once.
+/// A picture as rows of linear RGBA floats, computed on request, so that pictures too large to fit
+/// in memory as floats can be compared. Several threads may call `read` at once.
 struct PixelRows {
   int width = 0;   ///< pixels, at least 1
   int height = 0;  ///< rows, at least 1
-  /// Fills `rgba` with 4 * width * count floats of the rows from `first` on.
+  /// Fills `rgba` with the 4 * width * count floats of `count` rows starting at `first`.
   std::function<void(int first, int count, float* rgba)> read;
-  /// How far apart rows should be asked for at the same time: beyond it they are made anew, which
-  /// takes long. 0: does not matter.
+  /// The largest distance between rows that should be requested concurrently: beyond it, rows are
+  /// decoded again, which is slow. 0: no limit.
   int reach = 0;
 };
 

@@ -10,10 +10,10 @@
 namespace glint::detail {
 namespace {
 
-// Colour profiles and texts are of no use here; more of them than this is not a picture.
+// Colour profiles and text are not needed here; a file with more of them than this is no picture.
 constexpr std::size_t chunkLimit = std::size_t(32) << 20;
 
-/// Samples per pixel as they lie in the file.
+/// Samples per pixel as stored in the file.
 std::uint64_t samplesOf(int colourType) {
   switch (colourType) {
     case SPNG_COLOR_TYPE_TRUECOLOR:
@@ -55,8 +55,8 @@ PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
   spng_ihdr header{};
   check(spng_get_ihdr(png_.get(), &header));
   checkSides(name, header.width, header.height);
-  // Deflate makes no more than 1032 bytes of one. This refuses a small file that claims to be a
-  // giant before memory is spent on it.
+  // Deflate expands a byte to at most 1032. This refuses a small file that claims to be huge before
+  // memory is spent on it.
   const std::uint64_t bits = samplesOf(header.color_type) * header.bit_depth * header.width;
   if ((bits + 7) / 8 * header.height > bytes.size() * 1032)
     throw damaged(name, "the PNG is cut short");
@@ -141,7 +141,7 @@ void PngReader::nextRow(std::byte* row) {
 
 void PngReader::decodeTo(void* out, std::size_t size, int format) {
   check(spng_decode_image(png_.get(), out, size, format, SPNG_DECODE_TRNS));
-  check(spng_decode_chunks(png_.get()));  // to the end, so that a cut file is noticed
+  check(spng_decode_chunks(png_.get()));  // to the end, to detect a truncated file
 }
 
 void PngReader::check(int status) const {

@@ -15,8 +15,8 @@ std::uint32_t bigEndian(const std::byte* p) {
          std::uint32_t(p[3]);
 }
 
-/// Finds the compressed pixels of a PNG: `pixels`, joined in `joined` where they lie in several
-/// chunks. False where a chunk is damaged or would change what the codes mean (tRNS).
+/// Finds the compressed pixels of a PNG: sets `pixels`, concatenating several chunks in `joined`.
+/// Returns false if a chunk is damaged or would change what the codes mean (tRNS).
 bool gather(std::span<const std::byte> png, std::vector<std::byte>& joined,
             std::span<const std::byte>& pixels) {
   bool ended = false;
@@ -29,7 +29,7 @@ bool gather(std::span<const std::byte> png, std::vector<std::byte>& joined,
     const std::span<const std::byte> data = png.subspan(at + 8, size);
     if (kind == "tRNS") return false;
     if (kind == "IDAT") {
-      // One chunk is read where it lies.
+      // A single chunk is used in place.
       if (!pixels.empty() && joined.empty()) joined.assign(pixels.begin(), pixels.end());
       if (pixels.empty()) {
         pixels = data;
@@ -44,7 +44,7 @@ bool gather(std::span<const std::byte> png, std::vector<std::byte>& joined,
   return !pixels.empty();
 }
 
-/// The predictor of the PNG filter "Paeth": which of left, above and upper left is nearest to
+/// The PNG filter's Paeth predictor: left, above or upper left, whichever is nearest to
 /// left + above - upper left.
 inline int paeth(int a, int b, int c) {
   const int pa = std::abs(b - c), pb = std::abs(a - c), pc = std::abs(a + b - 2 * c);
@@ -52,7 +52,7 @@ inline int paeth(int a, int b, int c) {
   return pa <= pb && pa <= pc ? a : other;
 }
 
-/// Undoes the filter of one row (PNG, section 9.2). `above` is the row before, or zeros.
+/// Undoes the filter of one row (PNG, section 9.2). `above` is the previous row, or zeros.
 template <int step>
 bool unfilter(int filter, const std::uint8_t* __restrict in, const std::uint8_t* __restrict above,
               std::uint8_t* __restrict out, std::size_t size) {
@@ -104,8 +104,8 @@ bool unpackPng(std::span<const std::byte> png, int width, int height, int channe
   const std::size_t rowSize = std::size_t(channels) * width, size = (rowSize + 1) * height;
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> inflater(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  // Fresh memory costs more than what is done in it: the rows are unfiltered where they lie, each
-  // by way of a copy.
+  // Fresh memory costs more than the work done in it, so rows are unfiltered in place, each through
+  // a copy.
   codes.resize(size);
   if (!inflater || libdeflate_zlib_decompress(inflater.get(), pixels.data(), pixels.size(),
                                               codes.data(), size, nullptr) != LIBDEFLATE_SUCCESS)

@@ -7,10 +7,11 @@
 
 namespace glint::detail {
 
-/// Decodes a whole PNG of 8-bit RGB or RGBA (as `channels` says) without interlacing into codes as
-/// they are stored: what nearly all pictures of tests are, in a third of the time of the library
-/// that reads all the others. False, with `codes` in any state, if there is anything about the file
-/// that this does not know or that is wrong: the library then says what.
+/// Decodes a whole PNG of 8-bit RGB or RGBA (as given by `channels`) without interlacing into codes
+/// as stored. Nearly all test pictures are like that, and this takes a third of the time of the
+/// library that reads all others. Returns false, leaving `codes` in an unspecified state, if the
+/// file is damaged or has a feature unknown to this function; the library then reports what is
+/// wrong.
 bool unpackPng(std::span<const std::byte> png, int width, int height, int channels,
                std::vector<std::uint8_t>& codes);
 

@@ -18,10 +18,10 @@
 namespace glint::detail {
 namespace {
 
-// What filters and levels cost on 1024 x 1024 RGB, one thread (ms, kB): a Phong-shaded sphere with
-// a noisy quarter on a flat background, and the same sphere textured and noisy all over. 16-bit:
-// the first picture. Shading quantised to 8 bits has equal neighbours, which filters break up; the
-// lower bytes of 16 bits are noise unless the row above is taken off.
+// The cost of filters and levels for 1024 x 1024 RGB on one thread (ms, kB): a Phong-shaded sphere
+// with a noisy quarter on a flat background, and the same sphere textured and noisy all over.
+// 16-bit: the first picture. Shading quantised to 8 bits has equal neighbours, which filters break
+// up; the lower bytes of 16 bits are noise unless the row above is subtracted.
 //
 //     filter level   smooth      textured     16-bit
 //     none   1       12.5  335   22.6   980   67.3  3124   <- 8 bits
@@ -37,13 +37,13 @@ constexpr int filterOf8Bits = SPNG_FILTER_CHOICE_NONE;
 constexpr int filterOf16Bits = SPNG_FILTER_CHOICE_UP;
 
 constexpr int blockRows = 32;
-constexpr std::size_t blockCount = 3;  // one being encoded, one deflated, one waiting
+constexpr std::size_t blockCount = 3;  // one being encoded, one being deflated, one waiting
 
 using Block = std::vector<std::uint16_t>;  // codes of either depth, whole rows
 
-/// Encodes to sRGB in the caller's thread and deflates and writes in one of its own, so that
-/// the next rows can be drawn meanwhile. Of the 15 ms of processor time that a 1024 x 1024
-/// picture takes, the caller's thread spends 2.3.
+/// Encodes to sRGB in the caller's thread; deflates and writes in its own thread, so that the next
+/// rows can be drawn meanwhile. The caller's thread spends 2.3 of the 15 ms of processor time that
+/// a 1024 x 1024 picture takes.
 class PngWriter : public PictureWriter {
  public:
   PngWriter(const std::string& path, int width, int height, const PictureOptions& options)
@@ -158,7 +158,7 @@ class PngWriter : public PictureWriter {
     if (deflater_.joinable()) deflater_.join();
   }
 
-  /// The deflating thread. After an error it only hands the blocks back.
+  /// Runs in the deflating thread. After an error it only returns the blocks.
   void deflate() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -190,7 +190,7 @@ class PngWriter : public PictureWriter {
     }
   }
 
-  /// What the library hands its output to; exceptions must not pass through it.
+  /// The library's output callback; exceptions must not pass through the library.
   static int take(spng_ctx*, void* user, void* bytes, std::size_t length) {
     auto* self = static_cast<PngWriter*>(user);
     try {
@@ -208,7 +208,7 @@ class PngWriter : public PictureWriter {
     throw Error(printablePath(path_) + ": the PNG cannot be made: " + spng_strerror(status));
   }
 
-  PictureOptions options_;  ///< keeps the texts, which the library refers to
+  PictureOptions options_;  ///< owns the texts, which the library refers to
   char empty_[1] = "";
   const std::size_t rowBytes_;
   OutputFile file_;

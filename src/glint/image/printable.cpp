@@ -6,7 +6,7 @@
 namespace glint {
 namespace {
 
-/// The length of the UTF-8 sequence at the front of `text`, 0 where there is none.
+/// The length of the UTF-8 sequence at the front of `text`, or 0 if it is invalid.
 std::size_t sequenceLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -32,8 +32,8 @@ std::uint32_t codePoint(std::string_view sequence) {
   return code;
 }
 
-/// Control characters; the separators of lines and paragraphs; what turns the direction of writing
-/// and so shows another text than there is.
+/// Control characters; line and paragraph separators; bidirectional controls, which make text
+/// display differently from its content.
 bool isUnseen(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x061c || code == 0x200e ||
          code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||

@@ -6,10 +6,10 @@
 
 namespace glint {
 
-/// Text of a file or a command line made fit for one line on a terminal: control characters, bytes
-/// that are not UTF-8 and marks that turn the direction of writing are shown escaped, "\n",
-/// "\x1b", "\u202e"; what is longer than `limit` bytes ends in "...". What is printable stays, so
-/// that text may pass through twice.
+/// Makes text from a file or a command line fit for one line on a terminal: control characters,
+/// bytes that are not UTF-8 and bidirectional control characters are escaped as "\n", "\x1b",
+/// "\u202e"; text longer than `limit` bytes ends in "...". Printable text is unchanged, so applying
+/// this twice is harmless.
 std::string printable(std::string_view text, std::size_t limit = std::string_view::npos);
 
 }  // namespace glint

@@ -10,7 +10,7 @@
 namespace glint::detail {
 namespace {
 
-/// Words of 32 bits, little-endian: "GLNT", width, height, channels, then the values.
+/// 32-bit little-endian words: "GLNT", width, height, channels, then the values.
 class RawWriter : public PictureWriter {
  public:
   RawWriter(const std::string& path, int width, int height, bool alpha)

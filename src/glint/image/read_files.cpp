@@ -16,14 +16,14 @@ namespace {
 
 std::atomic<bool> isProtecting = false;
 std::mutex mutex;
-std::unordered_set<std::uint64_t> noted;  // keys of files and of paths, 64 bits of each
+std::unordered_set<std::uint64_t> noted;  // 64-bit keys of files and of paths
 
 std::uint64_t mixed(std::uint64_t state, std::uint64_t word) {
   state = (state ^ word) * 0x9e3779b97f4a7c15u;
   return state ^ (state >> 29);
 }
 
-/// The key of a regular file; empty where there is none, or something else.
+/// The key of a regular file; empty if it does not exist or is something else.
 std::optional<std::uint64_t> fileKey(int folder, const char* path, int flags) {
   struct statx status {};
   if (::statx(folder, path, flags, STATX_BASIC_STATS | STATX_BTIME, &status) != 0) return {};

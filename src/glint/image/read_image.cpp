@@ -49,7 +49,7 @@ StoredImage stored(ByteImage image) {
   return {image.width, image.height, 4, std::move(image.values)};
 }
 
-/// A picture of a format that has one.
+/// Decodes a file of a format that holds one picture.
 StoredImage decodeOne(std::span<const std::byte> bytes, const std::string& name,
                       std::vector<std::string>& skipped, std::size_t heldBytes = SIZE_MAX) {
   if (detail::isPng(bytes)) return decodePng(bytes, name, heldBytes);

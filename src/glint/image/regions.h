@@ -6,16 +6,16 @@
 
 namespace glint::detail {
 
-/// Gathers differing pixels into regions: by tiles, of which those that touch are one region.
+/// Groups differing pixels into regions: by tiles, where tiles that touch form one region.
 class Regions {
  public:
   Regions(int width, int height);
   void add(int x, int y, double difference);
-  /// The regions so far, those of the largest sums first.
+  /// The regions so far, by descending sum.
   std::vector<DifferingRegion> found() const;
 
  private:
-  static constexpr int side = 8;  ///< of a tile
+  static constexpr int side = 8;  ///< of a tile, in pixels
   int across_, down_;
   std::vector<DifferingRegion> tiles_;
 };

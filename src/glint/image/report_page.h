@@ -7,13 +7,13 @@
 
 namespace glint {
 
-/// A self-contained HTML page, in two parts between which its data go. glint_page() of the build
-/// makes one of a .html file, divided at its comment "<!-- DATA -->".
+/// A self-contained HTML page in two parts, with its data in between. The build's glint_page()
+/// makes one from a .html file, split at its comment "<!-- DATA -->".
 struct ReportPage {
   std::string_view begin, end;
 };
 
-/// A script element that holds JSON for the page's own script to read:
+/// A script element with JSON for the page's own script to read:
 /// JSON.parse(document.getElementById(id).textContent). No text in it can end the element.
 std::string jsonElement(std::string_view id, std::string json);
 

@@ -70,7 +70,7 @@ void decodeTexels(std::span<const std::uint8_t> codes, bool isData, float* row) 
 }
 
 void encodeTexels(std::span<const float> row, bool isData, std::uint8_t* codes) {
-  // In double the sum is exact. Rounding in the means may lift white above 255 by a little.
+  // The sum is exact in double. Rounding in the means may lift white slightly above 255.
   // NOLINTNEXTLINE(bugprone-incorrect-roundings): no value is below 0
   const auto rounded = [](float v) { return std::uint8_t(std::min(double(v), 255.0) + 0.5); };
   if (isData) {

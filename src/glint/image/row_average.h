@@ -7,12 +7,13 @@
 
 namespace glint {
 
-/// Makes a picture smaller while its rows arrive: each pixel of the smaller one is the mean over
-/// the area that it covers (weights of the parts of pixels where a size is no multiple).
+/// Scales a picture down while its rows arrive: each output pixel is the mean over the area that it
+/// covers (with fractional weights where a size is not a multiple).
 class RowAverage {
  public:
-  /// `finished` gets each row of the smaller picture, RGBA, from the top as soon as the rows that
-  /// it covers have come. Sizes are at least 1, those of the smaller one at most the others.
+  /// `finished` gets each row of the smaller picture, RGBA, from the top, as soon as the rows that
+  /// it covers have arrived. Sizes are at least 1, and the smaller picture's are at most the
+  /// original's.
   RowAverage(int width, int height, int toWidth, int toHeight,
              std::function<void(std::span<const float>)> finished);
 
@@ -23,10 +24,10 @@ class RowAverage {
   void averageAcross(const float* row);
 
   struct Span {
-    int first, count;  ///< pixels of the row; their weights stand in weights_
+    int first, count;  ///< pixels of the row; their weights are in weights_
   };
   int height_, toWidth_, toHeight_, row_ = 0, done_ = 0;
-  std::vector<Span> columns_;  ///< empty where each pixel covers two
+  std::vector<Span> columns_;  ///< empty if each output pixel covers exactly two
   std::vector<float> weights_;
   std::vector<float> line_, sum_;
   std::function<void(std::span<const float>)> finished_;
@@ -36,7 +37,7 @@ class RowAverage {
 /// as codes from 0 to 255, whose means are then exact over many levels.
 void decodeTexels(std::span<const std::uint8_t> codes, bool isData, float* row);
 
-/// The nearest codes: colours by the thresholds of srgb.h, numbers and alpha rounded.
+/// The nearest codes: colours by the thresholds in srgb.h, numbers and alpha rounded.
 void encodeTexels(std::span<const float> row, bool isData, std::uint8_t* codes);
 
 }  // namespace glint

@@ -8,9 +8,9 @@
 
 namespace glint {
 
-/// Makes a picture smaller while its rows arrive, so that the whole of it is never held: sides are
-/// halved a number of times and rounded down (1 at least), each pixel is the mean over the area
-/// that it covers, colours in linear light, alpha as it is; as mipLevels() does it (mipmaps.h).
+/// Scales a picture down while its rows arrive, so that the whole of it is never held. Sides are
+/// halved a number of times and rounded down (to at least 1); each pixel is the mean over the area
+/// that it covers, colours in linear light, alpha unchanged, as in mipLevels() (mipmaps.h).
 class RowReducer {
  public:
   /// `isData`: the values are numbers, not sRGB. Throws std::bad_alloc.
@@ -21,13 +21,13 @@ class RowReducer {
   /// The next row from the top, `width` pixels of straight RGBA. Rows beyond the last are ignored.
   void add(const std::uint8_t* rgba);
 
-  /// The picture; once all rows have come.
+  /// The picture, once all rows have been added.
   ByteImage take() { return std::move(image_); }
 
  private:
   bool isData_;
   ByteImage image_;
-  std::vector<float> line_;  ///< a row of the picture given
+  std::vector<float> line_;  ///< one row of the input picture
   RowAverage average_;
 };
 

@@ -35,7 +35,7 @@ void RowWindow::decodeTo(int row) {
   try {
     for (; decoded_ <= row; ++decoded_) next_(&kept_[rowBytes_ * std::size_t(decoded_ % reach_)]);
   } catch (...) {
-    next_ = nullptr;  // a decoder that has failed cannot go on
+    next_ = nullptr;  // a decoder cannot continue after a failure
     throw;
   }
   ended_ = ended_ || decoded_ == height_;

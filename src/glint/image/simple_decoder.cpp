@@ -6,8 +6,8 @@
 #include "glint/image/decoders.h"
 #include "glint/image/row_window.h"
 
-// BMP and TGA are read by stb_image, of which nothing else is compiled. PPM and PGM are not: it
-// knows neither the largest value of theirs nor the byte order of 16 bits.
+// stb_image reads BMP and TGA; nothing else of it is compiled. It is not used for PPM and PGM
+// because it handles neither their maximum value nor the byte order of 16 bits.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_BMP
@@ -52,7 +52,7 @@ bool isTga(std::span<const std::byte> bytes) {
 
 namespace {
 
-/// Binary PPM or PGM: "P6" or "P5", width, height, the largest value, one white space, the values
+/// Binary PPM or PGM: "P6" or "P5", width, height, the maximum value, one white space, the values
 /// (Netpbm). A # begins a comment.
 class PnmReader {
  public:
@@ -144,7 +144,7 @@ std::uint64_t littleEndianAt(std::span<const std::byte> bytes, std::size_t i, in
   return value;
 }
 
-/// How long a BMP or TGA of this size is at least.
+/// The minimum length of a BMP or TGA of this size.
 std::uint64_t leastBytes(std::span<const std::byte> bytes, std::uint64_t width,
                          std::uint64_t height) {
   if (isBmp(bytes)) {
@@ -158,7 +158,7 @@ std::uint64_t leastBytes(std::span<const std::byte> bytes, std::uint64_t width,
       littleEndianAt(bytes, 5, 2) * ((littleEndianAt(bytes, 7, 1) + 7) / 8);
   const std::uint64_t pixel = (littleEndianAt(bytes, 16, 1) + 7) / 8;
   if (at(bytes, 2) < 9) return before + width * height * pixel;
-  // Packets: a count less one, with 128 one pixel that repeats, without as many pixels.
+  // Packets: a byte with count - 1 plus 128 for one repeated pixel; without the 128, count pixels.
   std::uint64_t place = before;
   for (std::uint64_t left = width * height; left > 0 && place < bytes.size();) {
     const unsigned head = at(bytes, std::size_t(place));
@@ -188,7 +188,7 @@ StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& na
   };
   check(stbi_info_from_memory(data, size, &width, &height, &channels) == 1);
   checkSides(name, std::uint64_t(width), std::uint64_t(height));
-  // The library fills what is missing with black.
+  // The library fills missing data with black.
   if (bytes.size() < leastBytes(bytes, std::uint64_t(width), std::uint64_t(height)))
     throw damaged(name, std::string("the ") + format + " is cut short");
   StoredImage image{width, height, channels == 2 || channels == 4 ? 4 : 3, {}};

@@ -10,8 +10,8 @@ namespace {
 // The floats from 2^-13, which is below the first threshold, to 1 fall into buckets by exponent and
 // the upper 7 bits of the mantissa. A bucket holds at most one threshold, so the code of a value is
 // the code at the bucket's beginning plus one if the value's lower 16 bits have reached the
-// threshold's. Entry: that first code << 16, plus 2^16 - (the threshold's lower 16 bits) where
-// there is one; adding the value's lower bits carries into the code exactly from the threshold on.
+// threshold's. Entry: that first code << 16, plus 2^16 - (the threshold's lower 16 bits) if there
+// is one; adding the value's lower bits then carries into the code exactly from the threshold on.
 constexpr int lowBits = 16;
 constexpr std::uint32_t lowMask = (1u << lowBits) - 1;
 constexpr float smallest = 0x1p-13f;
@@ -37,7 +37,7 @@ constexpr std::array<std::uint32_t, bucketCount> buckets = makeBuckets();
 // A second threshold in one bucket would have stopped makeBuckets from reaching the last.
 static_assert(buckets.back() == 255u << lowBits);
 
-/// The place of a value in the buckets: the bucket's number and the lower bits.
+/// The offset of a value into the buckets: the bucket's index and the lower bits.
 inline std::uint32_t offsetOf(float linear) {
   const float above = linear > smallest ? linear : smallest;  // NaN becomes `smallest`, code 0
   const float inside = above < 1.0f ? above : 1.0f;
@@ -52,8 +52,8 @@ inline std::uint8_t codeOf(float linear) { return codeAt(offsetOf(linear)); }
 
 constexpr std::size_t blockPixels = 64;
 
-/// The places in the buckets of the products of `count` values, and whether one of them is NaN.
-/// Apart from the look-up because this much the compiler turns into vector code.
+/// The bucket offsets of `count` scaled values; returns whether any is NaN. Separate from the
+/// look-up because the compiler can vectorise this part.
 bool offsetsOf(const float* values, std::size_t count, float scale, std::uint32_t* offsets) {
   std::uint32_t nan = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ bool allOpaque(const float* rgba, std::size_t pixels) {
   return opaque == pixels;
 }
 
-/// The colours before encoding, times scale and without the premultiplication; alpha as it is.
+/// The colours before encoding: scaled, and with the premultiplication undone; alpha is unchanged.
 void straighten(const float* rgba, std::size_t pixels, float scale, float* straight) {
   for (std::size_t i = 0; i < pixels; ++i) {
     const float alpha = rgba[4 * i + 3];

@@ -11,10 +11,10 @@ namespace glint {
 // The sRGB curve (IEC 61966-2-1) between linear light and codes. Encoding to 8 bits is defined by
 // thresholds, not by a formula, so that GLSL, C++ and the reference agree on every processor:
 //
-//     code(x) = the number of thresholds that are <= x          (NaN: 0, and it is counted)
+//     code(x) = the number of thresholds that are <= x          (NaN gives 0, and is counted)
 //
 // Threshold k (k = 1..255) is the float nearest to the linear value where the curve reaches
-// (k - 0.5) / 255. Negative values give 0, values of 1 and more 255, infinities likewise.
+// (k - 0.5) / 255. Negative values give 0, values of 1 and more give 255; likewise the infinities.
 
 /// The thresholds in ascending order; threshold k at index k - 1.
 inline constexpr std::array<float, 255> srgbThresholds =
@@ -29,28 +29,28 @@ std::uint8_t encodeSrgb8(float linear);
 /// The linear value of an 8-bit code.
 inline float decodeSrgb8(std::uint8_t code) { return srgbDecoded[code]; }
 
-/// The code round(65535 * sRGB(x)) of one linear value, evaluated in double with additions,
-/// multiplications, divisions and square roots alone, so that it is the same on every processor.
-/// The value rounded is within 1e-10 of the exact one; NaN and negatives give 0, above 1 65535.
+/// The code round(65535 * sRGB(x)) of one linear value, evaluated in double using only additions,
+/// multiplications, divisions and square roots, so that it is the same on every processor. The
+/// value before rounding is within 1e-10 of the exact one; NaN and negatives give 0, above 1 65535.
 std::uint16_t encodeSrgb16(float linear);
 
 /// The linear value of a 16-bit code, evaluated in double and rounded.
 float decodeSrgb16(std::uint16_t code);
 
-/// 8-bit straight-alpha RGBA of linear, premultiplied RGBA (what Image holds).
+/// 8-bit straight-alpha RGBA from linear, premultiplied RGBA (what Image holds).
 ///
 /// The code of a colour is that of value * scale (a float product; scale is the exposure factor,
 /// finite and positive) where alpha >= 1, of (value * scale) / alpha where 0 < alpha < 1, and 0
 /// where alpha is 0 or less. Alpha is linear: round(255 * alpha), neither scaled nor curved. `out`
-/// has 4 * pixels bytes. Returns the number of pixels with a NaN in them.
+/// has 4 * pixels bytes. Returns the number of pixels that contain a NaN.
 std::size_t encodeSrgb8(const float* rgba, std::size_t pixels, float scale, std::uint8_t* out);
 
-/// The same without alpha: 3 * pixels bytes of RGB; the alpha of the input is not looked at, which
-/// means the picture over black. Returns the number of pixels with a NaN in their colour.
+/// The same without alpha: 3 * pixels bytes of RGB; the alpha of the input is ignored, which gives
+/// the picture over black. Returns the number of pixels with a NaN in their colour.
 std::size_t encodeSrgb8Opaque(const float* rgba, std::size_t pixels, float scale,
                               std::uint8_t* out);
 
-/// As encodeSrgb8 and encodeSrgb8Opaque with 16-bit codes in the processor's byte order.
+/// As encodeSrgb8 and encodeSrgb8Opaque, but with 16-bit codes in the processor's byte order.
 std::size_t encodeSrgb16(const float* rgba, std::size_t pixels, float scale, std::uint16_t* out);
 std::size_t encodeSrgb16Opaque(const float* rgba, std::size_t pixels, float scale,
                                std::uint16_t* out);

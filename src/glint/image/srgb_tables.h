@@ -7,9 +7,9 @@
 
 namespace glint::detail {
 
-// The bit patterns of IEEE single floats, computed once with 80 decimal digits and rounded to
+// The bit patterns of IEEE single floats, computed once to 80 decimal digits and rounded to
 // nearest. They are data, not code, so that no compiler, C library or processor can change them;
-// srgb_test.cpp computes them again.
+// srgb_test.cpp recomputes them.
 
 // clang-format off
 /// Threshold k (at k - 1): the linear value where the sRGB curve reaches (k - 0.5) / 255.

@@ -8,7 +8,7 @@
 namespace glint {
 namespace {
 
-/// Linear values of all 16-bit codes.
+/// The linear values of all 16-bit codes.
 const float* decodedWords() {
   static const std::vector<float> table = [] {
     std::vector<float> values(65536);
@@ -34,7 +34,7 @@ void codesToLinear(const Code* codes, int channels, std::size_t pixels, float* r
   }
 }
 
-/// Where alpha is 0, colours are 0 unless they are wanted as `stored`.
+/// Where alpha is 0, colours are 0 unless `stored` requests them as they are.
 template <class Code>
 void codesToValues(const Code* codes, int channels, std::size_t pixels, bool stored, float* rgba) {
   constexpr float maxCode = static_cast<Code>(-1);

@@ -13,11 +13,11 @@
 
 namespace glint {
 
-// Threads for work that needs none: where the system gives no more (a container's limit of
-// processes), the work is done by who waits for it.
+// Threads for work that can do without them: where the system refuses more (a container's process
+// limit), the waiting thread does the work.
 
-/// The result of `work`, done in a thread of its own if there is one to be had, else by who asks
-/// for the result.
+/// Runs `work` in its own thread if one can be started, otherwise in the thread that asks for the
+/// result.
 template <typename Work>
 auto startTask(Work work) -> std::future<decltype(work())> {
   try {
@@ -27,7 +27,7 @@ auto startTask(Work work) -> std::future<decltype(work())> {
   }
 }
 
-/// A thread that does `work`, or none (not joinable).
+/// A thread that runs `work`, or an empty one (not joinable) if none can be started.
 template <typename Work>
 std::thread startThread(Work work) {
   try {
@@ -37,7 +37,7 @@ std::thread startThread(Work work) {
   }
 }
 
-/// Adds a thread to `workers`, which share out what there is to do; false if there is none.
+/// Adds a thread to `workers`, which share the work; false if none can be started.
 template <typename Workers, typename... Work>
 bool addWorker(Workers& workers, Work&&... work) {
   try {
@@ -48,14 +48,15 @@ bool addWorker(Workers& workers, Work&&... work) {
   }
 }
 
-/// As many threads as are asked for, or as there are processors for 0.
+/// The number of threads requested, or the number of processors for 0.
 inline int threadsFor(int asked) {
   return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
-/// Calls work(i, thread) once for each i below `count`, in order on each of up to `threads` threads
-/// (threadsFor()), which count from 0: what a thread keeps between calls may stand in a vector. The
-/// first exception is thrown when all have ended; what has not begun by then is left out.
+/// Calls work(i, thread) once for each i below `count`, on up to threadsFor(threads) threads, each
+/// of which takes its indices in ascending order. `thread` counts from 0, so that per-thread state
+/// can be kept in a vector. The first exception is rethrown when all threads have ended; calls not
+/// yet started are skipped.
 template <typename Work>
 void inParallel(int threads, std::size_t count, const Work& work) {
   std::atomic<std::size_t> next = 0;
@@ -79,8 +80,8 @@ void inParallel(int threads, std::size_t count, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Calls work(begin, end) for stretches that make up 0 to count, on as many threads as there are
-/// processors; a stretch is long enough that few elements start no thread.
+/// Calls work(begin, end) for consecutive ranges that cover 0 to count, on as many threads as there
+/// are processors. Ranges are long enough that a small count starts no thread.
 template <typename Work>
 void inStretches(std::size_t count, const Work& work) {
   constexpr std::size_t length = std::size_t(1) << 16;

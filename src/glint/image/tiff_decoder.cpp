@@ -28,7 +28,7 @@ bool isTiff(std::span<const std::byte> bytes) {
 #if GLINT_TIFF
 namespace {
 
-/// The file in memory, as the library reads it, and the library's last complaint.
+/// The file in memory, as the library reads it, and the library's last error message.
 struct Memory {
   std::span<const std::byte> bytes;
   std::uint64_t at = 0;
@@ -70,7 +70,7 @@ class TiffReader {
  public:
   TiffReader(std::span<const std::byte> bytes, const std::string& name)
       : memory_{bytes, 0, {}}, name_(name), file_(nullptr, TIFFClose) {
-    // The library's handlers are global: silence, but for the handle's own.
+    // The library's handlers are global: silence them, except for the per-handle one.
     static std::once_flag once;
     std::call_once(once, [] {
       TIFFSetErrorHandler(nullptr);
@@ -126,7 +126,7 @@ class TiffReader {
     return std::move(image_);
   }
 
-  /// Row y of strips, which are read in their order.
+  /// Reads row y of a strip image; rows must be read in order.
   template <class Value>
   void readRow(int y, int samples, int width, int channels, Value* out) {
     row_.resize(std::size_t(samples) * width * sizeof(Value));
@@ -135,7 +135,7 @@ class TiffReader {
   }
 
  private:
-  /// Pixels as they lie in the file to 3 or 4 channels.
+  /// Expands pixels as stored in the file to 3 or 4 channels.
   template <class Value>
   void unpack(const std::byte* bytes, int pixels, int samples, int channels, Value* out) {
     const Value* in = reinterpret_cast<const Value*>(bytes);
@@ -191,7 +191,7 @@ class TiffReader {
       image_.window = std::make_shared<RowWindow>(size * sizeof(Value), image_.height, start);
       return;
     }
-    // Grown as rows arrive: a small file that claims to be a giant touches little memory.
+    // Grown as rows arrive, so that a small file that claims to be huge uses little memory.
     for (int y = 0; y < image_.height; ++y) {
       values.resize(values.size() + size);
       readRow(y, samples, width, channels, values.data() + size * y);
@@ -205,7 +205,7 @@ class TiffReader {
            kinds[0] == EXTRASAMPLE_ASSOCALPHA;
   }
 
-  /// Codes are straight everywhere else.
+  /// Codes are straight everywhere else in the program.
   template <class Code>
   static void divideByAlpha(Code* codes, std::size_t pixels) {
     constexpr std::uint32_t most = static_cast<Code>(-1);
@@ -216,7 +216,7 @@ class TiffReader {
     }
   }
 
-  /// Palettes, YCbCr, planes: as the library's own conversion has them, which associates alpha.
+  /// Palettes, YCbCr, planes: by the library's own conversion, which premultiplies by alpha.
   void readAsRgba() {
     std::vector<std::uint32_t> pixels(std::size_t(image_.width) * image_.height);
     if (TIFFReadRGBAImageOriented(file_.get(), std::uint32_t(image_.width),

@@ -24,7 +24,7 @@ std::string_view textOf(Bytes bytes, std::size_t at, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes.data()) + at, std::min(size, bytes.size() - at)};
 }
 
-/// A profile's own name stands in its "desc" tag; those of sRGB all have the word in it.
+/// A profile's own name is in its "desc" tag; those of sRGB profiles all contain the word.
 bool isSrgbProfile(std::string_view profile) {
   return profile.find("sRGB") != std::string_view::npos ||
          profile.find(std::string_view("s\0R\0G\0B", 7)) != std::string_view::npos;
@@ -39,7 +39,7 @@ void addProfile(std::string_view name, std::string_view profile, Facts& facts) {
   if (!isSrgbProfile(profile)) facts["ICC profile"] = std::string(name);
 }
 
-/// Chunks of a PNG before its pixels (PNG, third edition, section 11.3).
+/// Reads a PNG's chunks before its pixels (PNG, third edition, section 11.3).
 Facts ofPng(Bytes bytes) {
   Facts facts;
   bool isSrgb = false;
@@ -66,7 +66,7 @@ Facts ofPng(Bytes bytes) {
       if (codes != "1/13/0/1") facts["cICP"] = codes;
     }
     if (kind == "iCCP") {
-      // The profile is compressed; its name stands before it.
+      // The profile is compressed; its name comes first, uncompressed.
       const std::string_view name = textOf(bytes, data, size).substr(0, 79);
       const std::string word(name.substr(0, name.find('\0')));
       addProfile(word, word, facts);
@@ -75,13 +75,13 @@ Facts ofPng(Bytes bytes) {
       addOrientation(bytes.subspan(data, std::min(size, bytes.size() - data)), facts);
     at = data + size + 4;
   }
-  // The chunk sRGB overrides what else is said of colours, but for cICP.
+  // The sRGB chunk overrides all other colour information except cICP.
   if (isSrgb)
     for (const char* name : {"gAMA", "cHRM", "ICC profile"}) facts.erase(name);
   return facts;
 }
 
-/// Segments of a JPEG before its first scan.
+/// Reads a JPEG's segments before its first scan.
 Facts ofJpeg(Bytes bytes) {
   Facts facts;
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
@@ -102,7 +102,7 @@ Facts ofJpeg(Bytes bytes) {
   return facts;
 }
 
-/// Chunks of a WebP.
+/// Reads a WebP's chunks.
 Facts ofWebp(Bytes bytes) {
   Facts facts;
   for (std::size_t at = 12; at + 8 <= bytes.size();) {

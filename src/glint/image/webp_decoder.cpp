@@ -20,7 +20,8 @@ TextureHeader webpHeader(std::span<const std::byte> bytes, const std::string& na
   if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
                       &features) != VP8_STATUS_OK)
     throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
-  // Without losses (format 2) the library holds the whole picture once more, with losses its alpha.
+  // For lossless files (format 2) the library holds a second copy of the picture, for lossy ones
+  // its alpha.
   const std::uint64_t pixels = std::uint64_t(features.width) * features.height;
   const std::uint64_t work = features.format == 1 ? (features.has_alpha ? pixels : 0) : 4 * pixels;
   return {features.width, features.height, work, work + 4 * pixels};
@@ -34,7 +35,7 @@ ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name) 
 #if GLINT_WEBP
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   ByteImage image;
-  // 16383 pixels a side are the most that the format has.
+  // The format allows at most 16383 pixels a side.
   if (!WebPGetInfo(data, bytes.size(), &image.width, &image.height))
     throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
   checkSides(name, std::uint64_t(image.width), std::uint64_t(image.height));

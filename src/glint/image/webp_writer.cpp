@@ -17,7 +17,7 @@ namespace glint::detail {
 #if GLINT_WEBP
 namespace {
 
-/// Keeps the codes of the whole picture, which the library wants at once.
+/// Keeps the codes of the whole picture, since the library needs them all at once.
 class WebpWriter : public PictureWriter {
  public:
   WebpWriter(const std::string& path, int width, int height, const PictureOptions& options)
@@ -57,7 +57,7 @@ class WebpWriter : public PictureWriter {
     file_.commit();
   }
 
-  /// The library's way out; exceptions must not pass through it.
+  /// The library's output callback; exceptions must not pass through the library.
   static int take(const std::uint8_t* bytes, std::size_t count, const WebPPicture* picture) {
     auto* self = static_cast<WebpWriter*>(picture->custom_ptr);
     try {

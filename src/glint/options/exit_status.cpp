@@ -56,7 +56,7 @@ int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>&
     const std::string message = usageMessage(app, error, argc, argv);
     std::cerr << "glint: " << printablePath(message) << "\n";
     return unusable;
-  } catch (const InputError& error) {  // may quote what was given, line breaks and all
+  } catch (const InputError& error) {  // may quote input, including line breaks
     std::cerr << "glint: " << printablePath(error.what()) << "\n";
     return unusable;
   } catch (const ContextError& error) {
@@ -68,7 +68,7 @@ int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>&
   } catch (const std::bad_alloc&) {
     std::cerr << "glint: out of memory: give a smaller " << smaller << "\n";
     return unusable;
-  } catch (const std::system_error& error) {  // no more threads, above all
+  } catch (const std::system_error& error) {  // mostly for lack of threads
     std::cerr << "glint: " << printablePath(failureOf(error, "glint")) << "\n";
     return unusable;
   } catch (const std::exception& error) {

@@ -1,6 +1,6 @@
 #include "glint/options/heap.h"
 
-#include <cstdlib>  // tells which C library this is
+#include <cstdlib>  // for __GLIBC__
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -18,8 +18,8 @@ void adviseHeap() {
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   mallopt(M_ARENA_MAX, 1);
-  // Grows the heap by a block: addresses, not yet memory. A limit of either (ulimit -v, strict
-  // accounting) may leave less.
+  // Extends the heap by a block of address space, not yet memory. A limit on either (ulimit -v,
+  // strict overcommit accounting) may leave less.
   constexpr std::uintptr_t page = 2 << 20;
   for (const int block : {1 << 30, 256 << 20}) {
     mallopt(M_TOP_PAD, block);

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::size_t helpWidth = 80;  // a terminal's
 
-/// The text in lines of at most helpWidth columns, each behind `indent` spaces but for the first,
-/// which goes on behind `line`.
+/// Wraps the text to helpWidth columns, every line indented by `indent` spaces, except that the
+/// first continues `line`.
 std::string wrapped(const std::string& text, std::size_t indent, std::string line = {}) {
   std::string result;
   line.resize(std::max(line.size(), indent), ' ');
-  bool first = true;  // word of its line
+  bool first = true;  // at the start of a line
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
     if (!first && line.size() + 1 + end - begin > helpWidth) {
@@ -58,13 +58,13 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     }
   }
   if (!best.empty() || word.size() < 4) return best;
-  // Or what goes on where the word ends: --background for --background-color.
+  // Otherwise a longer name that starts with the word: --background for --background-color.
   for (const std::string& each : known)
     if (each.starts_with(word) && (best.empty() || each.size() < best.size())) best = each;
   return best;
 }
 
-/// An option with its value, and what it does below.
+/// An option with its value, and its description below.
 std::string optionHelp(const CLI::Option& option, bool positional) {
   std::string head = "  " + option.get_name(positional, true);
   if (!positional && !option.get_type_name().empty() && option.get_items_expected_max() > 0)
@@ -91,7 +91,8 @@ std::string usage(const CLI::App& app, const std::string& name) {
   return text + " [OPTIONS]\n";
 }
 
-/// What the user calls it: "glint render"; the window's program is "glint view" already.
+/// The command's name for the user: "glint render"; the window program's name is already
+/// "glint view".
 std::string fullName(const CLI::App& app, const CLI::App& command) {
   return &app == &command ? app.get_name() : app.get_name() + " " + command.get_name();
 }
@@ -159,7 +160,8 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, int 
     return "unknown command '" + std::string(argv[1]) + "'" +
            didYouMean(nearest(argv[1], names), remedy);
 
-  // First what is not known, whatever else is missing: a misspelt option is the likelier fault.
+  // Unknown options come first, even if something is missing: a misspelt option is the likelier
+  // error.
   const std::vector<std::string> extras = app.remaining(true);
   const auto unknown = std::ranges::find_if(extras, [](const std::string& word) {
     return word.size() > 1 && word[0] == '-' && !std::isdigit(static_cast<unsigned char>(word[1]));

@@ -45,7 +45,7 @@ HelpJson describe(const CLI::App& app) {
                      {"footer", app.get_footer()},
                      {"arguments", HelpJson::array()},
                      {"options", HelpJson::array()}};
-  // By section, as the help has them.
+  // By section, as in the help.
   for (const std::string& group : app.get_groups())
     for (const CLI::Option* option : app.get_options())
       if (option->get_group() == group)

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A JSON value as the text that its option would have: numbers, true and false, words, and lists of
-// numbers joined by commas. One reader then serves look files and the command line.
+// A JSON value as the text that its option would take: numbers, true and false, words, and lists of
+// numbers joined by commas. One parser then serves look files and the command line.
 std::string optionText(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";

@@ -28,7 +28,7 @@ bool hasBudget(const Look& look) {
 
 struct LookOptions {
   std::vector<std::pair<const Parameter*, CLI::Option*>> options;
-  std::deque<std::vector<std::string>> texts;  // what CLI11 stores; results() is what is read
+  std::deque<std::vector<std::string>> texts;  // CLI11's storage; values are read through results()
   std::string lookFile, saveFile;
 };
 

@@ -17,21 +17,21 @@ struct LookOptions;
 class LookSource {
  public:
   explicit LookSource(std::shared_ptr<LookOptions> options) : options_(std::move(options)) {}
-  /// The look they add up to (options over look file over defaults). Writes the file of
-  /// --save-look, unless the look has a budget, whose forms a scene decides.
+  /// The look that they add up to (options over look file over defaults). Writes the --save-look
+  /// file, unless the look has an error budget, since its forms then depend on the scene.
   Look operator()() const;
-  /// The file of --save-look, empty if none.
+  /// The --save-look file; empty if none.
   const std::string& saveFile() const;
-  /// Whether --save-look waits for the forms to be chosen.
+  /// Whether --save-look has to wait until the forms are chosen.
   bool savesResolved(const Look&) const;
-  /// Writes it then.
+  /// Writes the file in that case.
   void saveResolved(const Look& resolved) const;
 
  private:
   std::shared_ptr<LookOptions> options_;
 };
 
-/// Adds the options of the look, from its table, with --look and --save-look.
+/// Adds the options of the look's parameter table, plus --look and --save-look.
 LookSource addLookOptions(CLI::App&);
 
 }  // namespace glint

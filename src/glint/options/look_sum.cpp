@@ -11,7 +11,7 @@ namespace {
 
 using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
-/// Takes back what `by` sets.
+/// Clears in `edit` what `by` sets.
 void clearEdit(MaterialEdit& edit, const MaterialEdit& by) {
   forEachEdit([&](auto part) {
     if (by.*part) (edit.*part).reset();
@@ -36,7 +36,7 @@ void mergeMaterials(Look& look, const Look& options) {
   if (all != options.material.end())
     for (auto& [key, edit] : look.material) clearEdit(edit, all->second);
   for (const auto& [key, from] : options.material) {
-    // What is said of all of a name stands above what the look says of one of them.
+    // An edit of all materials with a name overrides the look's edits of individual ones.
     for (auto& [other, edit] : look.material)
       if (!key.empty() && other.starts_with(key + "#")) clearEdit(edit, from);
     mergeEdit(look.material[key], from);
@@ -52,7 +52,7 @@ Look lookFrom(const GivenOptions& options) {
   bool lit = false;
   for (const auto& [name, text] : options) {
     if (name == "look") continue;
-    if (name == "light" && !lit) {  // in place of the file's, and of its having none
+    if (name == "light" && !lit) {  // replaces the look file's lights or no-lights
       look.light.reset();
       look.noLights = false;
       lit = true;
@@ -62,7 +62,7 @@ Look lookFrom(const GivenOptions& options) {
   }
   mergeMaterials(look, materials);
   if (!look.hdriFile.empty()) noteReadFile(look.hdriFile);
-  costTableFor(look);  // so that a broken one is reported at once, and where nothing is chosen, too
+  costTableFor(look);  // reports a broken table at once, even if nothing is chosen
   return look;
 }
 

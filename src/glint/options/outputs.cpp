@@ -29,7 +29,7 @@ bool isSameFile(const std::string& a, const std::string& b) {
 
 void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
-  // What is not there yet cannot be lost.
+  // A file that does not exist yet cannot be lost.
   const bool replaces = std::ranges::any_of(outputs, [](const OutputOption& output) {
     std::error_code error;
     return fs::exists(output.path, error);
@@ -46,7 +46,7 @@ void checkOutputs(const std::vector<OutputOption>& outputs,
       if (other->path.empty()) continue;
       if (output.path == "-" && other->path == "-")
         throw InputError(what + other->option + " goes to stdout already: give one of them a file");
-      // Devices, /dev/null above all, may be given twice.
+      // Devices, above all /dev/null, may be given twice.
       std::error_code ignored;
       if (fs::exists(output.path, ignored) && !fs::is_regular_file(output.path, ignored)) continue;
       if (output.path != "-" && isSameFile(output.path, other->path))
@@ -82,12 +82,12 @@ void printWhole(const std::string& text) {
     if (count > 0) done += std::size_t(count);
     if (count > 0 || (count < 0 && errno == EINTR)) continue;
     const int error = errno;
-    if (error == EAGAIN) {  // somebody's non-blocking pipe
+    if (error == EAGAIN) {  // a non-blocking pipe
       pollfd ready{STDOUT_FILENO, POLLOUT, 0};
       ::poll(&ready, 1, -1);
       continue;
     }
-    // Of a file the part that was written is taken back, unless another writes there too.
+    // In a file, takes back the part that was written, unless another process writes there too.
     struct stat after {};
     if (isFile && done > 0 && ::fstat(STDOUT_FILENO, &after) == 0 &&
         after.st_size == before.st_size + off_t(done) &&

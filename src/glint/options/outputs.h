@@ -14,16 +14,16 @@ struct OutputOption {
   std::string option, path;
 };
 
-/// Whether two paths are one file, or would be.
+/// Whether two paths refer to the same file, or would.
 bool isSameFile(const std::string& a, const std::string& b);
 
-/// Throws InputError where two options would write one file or both stdout, or where one would
-/// write over a file that is read: one of `inputs`, one that a model among them names, or one that
-/// has been noted before (glint/image/read_files.h). The inputs are noted.
+/// Throws InputError if two options would write the same file or both write to stdout, or if one
+/// would overwrite a file that is read: one of `inputs`, one that a model among them refers to, or
+/// one recorded before (glint/image/read_files.h). Records the inputs.
 void checkOutputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
 
-/// The folder of --output, made before the work, so that what cannot be made is reported at once.
-/// What it had to make is gone again with it where nothing was written there.
+/// The folder for --output, created before the work, so that failure is reported at once. Folders
+/// that it created are removed by its destructor if nothing was written to them.
 class OutputFolder {
  public:
   /// Throws InputError.
@@ -33,10 +33,10 @@ class OutputFolder {
   MadeFolders folders_;
 };
 
-/// Throws InputError if what was printed on std::cout did not arrive.
+/// Throws InputError if what was printed on std::cout could not be written.
 void flushStandardOutput();
 
-/// Prints text on stdout, whole or not at all where stdout is a file. Throws InputError.
+/// Prints text on stdout; if stdout is a file, whole or not at all. Throws InputError.
 void printWhole(const std::string& text);
 
 /// Writes text to a file, or to stdout for "-".

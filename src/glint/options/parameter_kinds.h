@@ -1,7 +1,7 @@
 #pragma once
 
-// The kinds of rows that the table of parameters is made of (parameters.cpp). Each takes the member
-// of Look that it reads and saves.
+// The kinds of rows in the parameter table (parameters.cpp). Each takes the member of Look that it
+// reads and saves.
 
 #include <functional>
 #include <glm/glm.hpp>
@@ -55,8 +55,9 @@ inline bool within(const glm::dvec3& v, double min, double max) {
   return within(v.x, min, max) && within(v.y, min, max) && within(v.z, min, max);
 }
 
-// A row of one number or three, each from `min` to `max`: Member is Value or std::optional<Value>.
-// `parse` throws where a text is no such value; the error of a value out of range is its text's.
+// A row for one number or three, each from `min` to `max`; Member is Value or std::optional<Value>.
+// `parse` throws if a text is not such a value; setting a value out of range gives the same error
+// as its text.
 template <typename Value, typename Member>
 Parameter numbers(ParameterKind kind, const std::string& name, const std::string& value,
                   const std::string& help, double min, double max, Member Look::*member,
@@ -157,7 +158,7 @@ inline Parameter slider(Parameter p, double min, double max, bool logarithmic, d
   return p;
 }
 
-// A choice that is a switch too: its name alone, or true, says `on`, and false `off`.
+// A choice that is also a switch: its name alone, or true, means `on`, and false means `off`.
 inline Parameter switchable(Parameter p, const std::string& off, const std::string& on) {
   p.words = p.choices();
   p.value.clear();
@@ -167,7 +168,7 @@ inline Parameter switchable(Parameter p, const std::string& off, const std::stri
   return p;
 }
 
-// A row of which something else follows when it is set.
+// A row with a side effect when it is set.
 inline Parameter then(Parameter p, void (*follow)(Look&)) {
   p.read = [=, read = std::move(p.read)](Look& look, const std::string& text) {
     read(look, text);

@@ -65,7 +65,7 @@ Parameter lightScale() {
   return p;
 }
 
-// Of the lobe, as --highlight takes them.
+// The forms of the lobe in the syntax of --highlight.
 std::string formNames() {
   std::string names;
   for (const HighlightRow& each : highlightRows())
@@ -186,7 +186,7 @@ Parameter intrinsics() {
   return resetting(std::move(p), &Look::cameraIntrinsics);
 }
 
-// What takes the place of a lens that a look has: the last that is said of the two counts.
+// Called by parameters that replace a lens: whichever of the two is set last counts.
 void dropIntrinsics(Look& look) { look.cameraIntrinsics.reset(); }
 
 void dropIntrinsicsIfParallel(Look& look) {

@@ -10,29 +10,29 @@
 
 namespace glint {
 
-/// What a picture was made from and with.
+/// What a picture was made from.
 struct PictureOrigin {
-  std::string modelHash;        ///< of modelHash(); empty where it is not known
-  std::optional<GlStrings> gl;  ///< of the driver; the reference has none
+  std::string modelHash;        ///< from modelHash(); empty if unknown
+  std::optional<GlStrings> gl;  ///< of the driver; empty for the reference
   int bitDepth = 8;
-  /// What else distinguishes it from other pictures of the model and the look: "turntable 3/36".
-  /// Empty for a plain picture.
+  /// What distinguishes it from other pictures of the same model and look: "turntable 3/36". Empty
+  /// for a plain picture.
   std::string variation;
 };
 
-/// By which a picture is known to be there already: a hash of the program's version, the look, the
-/// model's hash, the bit depth, the variation, and whether the reference drew it. The driver does
-/// not count.
+/// The key that identifies an up-to-date picture: a hash of the program's version, the look, the
+/// model's hash, the bit depth, the variation, and whether the reference drew it. The driver is not
+/// included.
 std::string pictureKey(const Look& look, const PictureOrigin&);
 
-/// The texts of a picture's file, which say how it was made:
+/// The text entries of a picture file, which record how it was made:
 ///
 ///     Software                           "glint 0.1.0"
 ///     GL_VENDOR, GL_RENDERER, GL_VERSION  the driver's; "glint-backend": "reference" without GL
-///     glint-look                         the look, as saveLook() gives it
+///     glint-look                         the look, from saveLook()
 ///     glint-model                        the hash of the model
-///     glint-variation                    where there is one
-///     glint-key                          the key, made with the look `keyed`
+///     glint-variation                    if there is one
+///     glint-key                          the key, computed with the look `keyed`
 std::vector<std::pair<std::string, std::string>> pictureText(const Look& look, const Look& keyed,
                                                              const PictureOrigin&);
 

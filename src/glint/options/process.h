@@ -2,10 +2,10 @@
 
 namespace glint {
 
-/// To be called first of all in main(): the descriptors 0 to 2 are opened where they are closed, so
-/// that no file gets the number of a standard stream (reading and writing such a stream fails as it
-/// should); a file beyond the limit of sizes becomes an error of writing in place of a signal that
-/// ends the process without a word; and files that are read are not written over (read_files.h).
+/// Call this first in main(). It opens any closed descriptor from 0 to 2, so that no file gets the
+/// number of a standard stream (using such a stream fails as it should); turns exceeding the file
+/// size limit into a write error instead of a signal that silently ends the process; and protects
+/// files that are read from being overwritten (read_files.h).
 void prepareProcess();
 
 }  // namespace glint

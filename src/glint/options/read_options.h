@@ -6,12 +6,12 @@ class App;
 
 namespace glint {
 
-// How much of models is read. What is given counts for the whole process.
+// Limits on reading models. They apply to the whole process.
 
-/// `--confine`: nothing outside of a model's folder is read (gltf/file.h).
+/// `--confine`: nothing outside a model's folder is read (gltf/file.h).
 void addConfineOption(CLI::App& command);
 
-/// `--decode-limit MIB`: what a model's textures may take decoded (render/decode.h).
+/// `--decode-limit MIB`: how much a model's decoded textures may take (render/decode.h).
 void addDecodeLimitOption(CLI::App& command);
 
 }  // namespace glint

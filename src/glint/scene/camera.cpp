@@ -12,7 +12,7 @@
 namespace glint {
 namespace {
 
-// Nothing of it can be seen: it is scaled to one point, or lets everything through.
+// Whether it is invisible: scaled to a point, or fully transparent.
 bool isUnseen(const Scene& scene, const Instance& instance) {
   const glm::dmat3 linear(instance.world);
   if (linear == glm::dmat3(0.0)) return true;
@@ -22,7 +22,7 @@ bool isUnseen(const Scene& scene, const Instance& instance) {
          (material.alphaMode == AlphaMode::mask && material.alpha < material.alphaCutoff);
 }
 
-// A box that grows.
+// A growing box.
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high = -low;
@@ -37,8 +37,8 @@ struct Box {
   bool isEmpty() const { return !(low.x <= high.x); }
 };
 
-// The largest square of a distance from a point, in units of `scale`: huge and tiny models neither
-// over- nor underflow.
+// The largest squared distance from a point, in units of `scale`, so that huge and tiny models
+// neither over- nor underflow.
 struct Farthest {
   glm::dvec3 from;
   double scale;
@@ -50,7 +50,7 @@ struct Farthest {
   void add(const Farthest& other) { square = std::max(square, other.square); }
 };
 
-// Adds every vertex of what is drawn; of what nothing is seen if `unseen`.
+// Adds every vertex of the visible instances or, if `unseen`, of the invisible ones.
 template <typename Sum>
 Sum overVertices(const Scene& scene, bool unseen, const Sum& none) {
   Sum sum = none;
@@ -78,12 +78,12 @@ glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise) {
   return v / std::sqrt(glm::dot(v, v));
 }
 
-// Orthonormal axes for looking along `view` with `up` upwards.
+// Orthonormal axes for looking along `view` with `up` pointing up.
 glm::dmat3 axesFor(glm::dvec3 view, glm::dvec3 up) {
   const glm::dvec3 back = -view;
   up = unitOr(up, {0, 1, 0});
   glm::dvec3 right = glm::cross(up, back);
-  if (glm::dot(right, right) < 1e-24)  // along the way up: -Z takes the place of up, or +X
+  if (glm::dot(right, right) < 1e-24)  // parallel to up: -Z replaces up, or +X
     right = glm::cross(std::abs(back.z) < 0.9 ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0), back);
   right = unitOr(right, {1, 0, 0});
   return {right, glm::cross(back, right), back};
@@ -94,23 +94,23 @@ glm::dvec3 rotate(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1 - c));
 }
 
-// Where the camera stands and what it looks at, before azimuth and elevation.
+// Position and target of the camera, before azimuth and elevation.
 struct View {
   glm::dvec3 position, focalPoint, up;
   double angle;  // radians, vertical
   bool orthographic;
-  double orthographicHalfHeight;  // of a file's camera, or 0
-  double near = 0, far = 0;       // of a file's camera, or 0
+  double orthographicHalfHeight;  // from a file's camera, or 0
+  double near = 0, far = 0;       // from a file's camera, or 0
 };
 
-// Half the angle at which a sphere around the focal point may be seen.
+// Half of the largest angle at which a sphere around the focal point fits into the picture.
 double smallerHalf(const Look& look, double angle, double aspect) {
   if (!look.cameraIntrinsics)
     return aspect >= 1 ? angle / 2 : std::atan(std::tan(angle / 2) * aspect);
   const glm::dvec4& lens = *look.cameraIntrinsics;
   const glm::dvec2 size(look.resolution), focal(lens.x, lens.y), point(lens.z, lens.w);
   const glm::dvec2 sides = glm::min(point, size - point) / focal, halves = size / 2.0 / focal;
-  // A principal point beside the picture: as if it were in its middle.
+  // If the principal point is outside the picture, use its middle.
   const double inside = std::min(sides.x, sides.y);
   return std::atan(inside > 0 ? inside : std::min(halves.x, halves.y));
 }
@@ -133,11 +133,11 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
     view.position = glm::dvec3(camera.world[3]);
     direction = unitOr(-glm::dvec3(camera.world[2]), {0, 0, -1});
     view.up = unitOr(glm::dvec3(camera.world[1]), {0, 1, 0});
-    // Azimuth and elevation turn about the point of the view nearest to the model's centre.
+    // Azimuth and elevation turn about the point on the view axis nearest to the model's centre.
     const double ahead = glm::dot(bounds.center - view.position, direction);
     view.focalPoint = view.position + direction * (ahead > radius * 1e-3 ? ahead : radius);
     view.orthographic = camera.orthographic || look.cameraOrthographic;
-    // The camera's frame is seen whole: a narrower picture shows more above and below.
+    // The camera's whole frame is shown: a narrower picture shows more above and below it.
     const double taller = camera.aspect > aspect ? camera.aspect / aspect : 1;
     view.orthographicHalfHeight = camera.orthographic ? camera.halfHeight * taller : 0;
     if (!camera.orthographic) view.angle = 2 * std::atan(std::tan(camera.viewAngle / 2) * taller);
@@ -172,7 +172,7 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
 
 Bounds boundsOf(const Scene& scene) {
   Box box = overVertices(scene, false, Box());
-  // A model of which nothing is seen is framed all the same.
+  // A model that is invisible is framed all the same.
   const bool unseen = box.isEmpty();
   if (unseen) box = overVertices(scene, true, Box());
   if (box.isEmpty()) return {};
@@ -237,7 +237,7 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
     const double margin = bounds.radius * 1e-3 + reach * 1e-6;
     camera.far = center + bounds.radius + margin;
     if (!(camera.far > 0)) camera.far = reach > 0 ? reach : 1;  // nothing is in front of the eye
-    // With the eye inside the sphere, near things show up to 1e-5 of the far distance.
+    // With the eye inside the sphere, things as near as 1e-5 of the far distance are visible.
     camera.near = std::max(center - bounds.radius - margin, camera.far * 1e-5);
     camera.near = std::min(camera.near, camera.far * 0.999);
     camera.near = std::max(camera.near, view.near);
@@ -249,7 +249,8 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
 
 namespace {
 
-// The look with the camera by position, focal point and way up, turned about +Y through the centre.
+// The look with its camera as position, focal point and up vector, turned about +Y through the
+// centre.
 Look definite(Look look, const Scene& scene, const Camera& camera, const Bounds& bounds,
               double degrees) {
   const double angle = degrees * radians, c = std::cos(angle), s = std::sin(angle);
@@ -282,7 +283,7 @@ Look turnedLook(const Look& base, const Scene& scene, const Bounds& bounds, doub
   Look look = base;
   const bool aboutCenter = !look.cameraViewUp && !look.cameraFocalPoint && !look.cameraIndex &&
                            !(look.cameraPosition && look.cameraDirection);
-  if (aboutCenter) {  // then the azimuth is the same, and fits other models too
+  if (aboutCenter) {  // then adding to the azimuth does the same, and suits other models too
     look.cameraAzimuthAngle += degrees;
     return look;
   }
@@ -323,7 +324,7 @@ glm::dmat4 projection(const Camera& camera, glm::dvec2 lower, glm::dvec2 upper, 
     m[2][0] = camera.shift.x;
     m[2][1] = camera.shift.y;
   }
-  // The part of the picture becomes the whole of clip space.
+  // Maps the part of the picture to the whole of clip space.
   const glm::dvec2 scale = 1.0 / (upper - lower), offset = (1.0 - lower - upper) * scale;
   glm::dmat4 part(1.0);
   part[0][0] = scale.x;

@@ -17,12 +17,12 @@ Light parseSteadyLight(const std::string& text) {
   const std::string what = "--light";
   const auto parts = split(text, ':');
   Light light;
-  // A camera's direction stands with its name, so that a colour behind it stays what it was.
+  // A camera light's direction is part of its name, so that a colour after it keeps its meaning.
   const std::size_t at = parts[0].find('@');
   light.type = Light::Type(parseChoice(parts[0].substr(0, at), lightNames, what));
   if (at != std::string::npos && light.type != Light::Type::camera)
     refuse(what, text, "a light whose direction stands behind @: that is camera@x,y,z alone");
-  // Fields before the colour, the type's name among them.
+  // The number of fields before the colour, including the type's name.
   const std::size_t fields = std::array<std::size_t, 4>{2, 2, 4, 1}[std::size_t(light.type)];
   if (parts.size() != fields && parts.size() != fields + 1)
     refuse(what, text,

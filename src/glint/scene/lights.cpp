@@ -13,8 +13,8 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// The part of the light that arrives at a point that faces it, by KHR_lights_punctual, and the way
-/// to it, as share and unit vector.
+/// The fraction of the light that arrives at a point facing it, by KHR_lights_punctual, and the
+/// unit vector towards it.
 std::pair<double, glm::dvec3> arriving(const FileLight& light, const glm::dvec3& point) {
   if (light.type == FileLight::Type::directional) return {1, -light.direction};
   const glm::dvec3 way = light.position - point;
@@ -39,7 +39,7 @@ bool isLit(const Scene& scene, const Mesh& mesh) {
   return mesh.topology == Topology::triangles && !scene.materials[std::size_t(mesh.material)].unlit;
 }
 
-/// Collects what the lights bring to points of the surface.
+/// Accumulates the light that arrives at points of the surface.
 class Meter {
  public:
   explicit Meter(const Scene& scene) : scene_(scene), sums_(scene.lights.size(), 0.0) {}
@@ -92,7 +92,7 @@ LightMeter meterLights(const Scene& scene) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     if (isLit(scene, mesh)) triangles += mesh.indices.size() / 3;
   }
-  // Of many triangles every stride-th is taken; few are cut into cuts x cuts.
+  // With many triangles every stride-th is sampled; few are subdivided into cuts x cuts.
   const std::size_t stride = triangles / mostPoints + 1;
   const int cuts = std::clamp(
       int(std::sqrt(double(mostPoints) / 4 / double(std::max<std::size_t>(triangles, 1)))), 1, 32);

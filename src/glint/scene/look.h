@@ -14,7 +14,7 @@
 namespace glint {
 
 enum class Viewer { local, infinite };
-/// `image` is what `hdriFile` names; it cannot be chosen by name.
+/// `image` is the picture that `hdriFile` names; it cannot be chosen by name.
 enum class Environment { studio, sky, white, image };
 
 /// A form of the lobe (glint/shading/lobe.h) with its gamma.
@@ -25,13 +25,13 @@ struct HighlightForm {
   auto operator<=>(const HighlightForm&) const = default;
 };
 
-/// By which forms the lights of a picture draw their highlights: the brightest by `brightest`,
-/// those that are dimmer perhaps by forms that are less exact and cost less. Lights are counted in
-/// the order of shiningLights().
+/// The forms with which a picture's lights draw their highlights: `brightest` for the brightest
+/// lights, and possibly less exact and cheaper forms for dimmer ones. Lights are indexed in the
+/// order of shiningLights().
 struct HighlightForms {
   struct Dimmer {
     HighlightForm form;
-    int from = 0;  ///< the first light, from 0, that has this form; rises from one to the next
+    int from = 0;  ///< index of the first light with this form; ascending
     auto operator<=>(const Dimmer&) const = default;
   };
   static constexpr std::size_t mostDimmer = 3;
@@ -39,35 +39,35 @@ struct HighlightForms {
   std::vector<Dimmer> dimmer;  ///< at most mostDimmer
   HighlightForms(HighlightForm form = {}) : brightest(form) {}
   HighlightForms(Highlight form, int gamma = 0) : brightest(form, gamma) {}
-  /// The form of the light at a place in the order.
+  /// The form for the light at this index.
   HighlightForm of(int light) const {
     HighlightForm form = brightest;
     for (const Dimmer& each : dimmer)
       if (light >= each.from) form = each.form;
     return form;
   }
-  /// From the light `from` on, which may not be before those given so far: this form.
+  /// Sets the form for lights from index `from` on, which must not be less than those added before.
   void add(HighlightForm form, int from) {
     if (of(from) != form) dimmer.push_back({form, from});
   }
   bool operator==(const HighlightForms&) const = default;
 };
 
-/// Lights that a picture may have; a uniform block of GL's least size holds them.
+/// The most lights a picture may have; a uniform block of GL's minimum size holds them.
 inline constexpr std::size_t maxLights = 128;
 
-/// A light as `--light` gives it, or a model file. Intensities are linear.
+/// A light from `--light` or from a model file. Intensities are linear.
 struct Light {
   enum class Type { directional, point, spot, camera };
   Type type = Type::directional;
   glm::dvec3 position{0.0};   ///< world; point and spot
-  glm::dvec3 direction{0.0};  ///< directional: TO the light (L), world; camera:
-                              ///< likewise, eye space; spot: along it
+  glm::dvec3 direction{0.0};  ///< directional: TO the light (L), world;
+                              ///< camera: likewise, eye space; spot: along the beam
   double innerAngle = 0.0;    ///< degrees from the spot's axis: full intensity inside
-  double outerAngle = 45.0;   ///< degrees from the spot's axis: none outside
+  double outerAngle = 45.0;   ///< degrees from the spot's axis: zero outside
   glm::dvec3 intensity{1.0};  ///< I_m, linear RGB, components [0, 1e6]
-  /// Point and spot: `intensity` is that at the distance of one world unit and falls with the
-  /// square of the distance, to 0 at `range` (world units; 0 for no such end).
+  /// Point and spot: `intensity` is the value at a distance of one world unit and falls off with
+  /// the square of the distance, to 0 at `range` (world units; 0 for unlimited).
   bool fallsOff = false;
   double range = 0.0;
   bool operator==(const Light&) const = default;
@@ -80,30 +80,30 @@ struct AntiAliasing {
   bool operator==(const AntiAliasing&) const = default;
 };
 
-/// What `--material` sets of a material; what is empty stays as the model has it.
+/// What `--material` changes in a material; empty members leave the model's values.
 struct MaterialEdit {
   std::optional<double> ambient, diffuse, specular, exponent, metalness, ior, transmission;
   std::optional<glm::dvec3> color;  ///< linear
   std::optional<HighlightForms> highlight = {};
   std::optional<Fresnel> fresnel = {};
-  std::optional<bool> colorTexture = {}, normalTexture = {}, emissionTexture = {};  ///< read it
+  std::optional<bool> colorTexture = {}, normalTexture = {}, emissionTexture = {};  ///< in use
   bool operator==(const MaterialEdit&) const = default;
 };
 
-/// Which axis of a model's file points up.
+/// The axis that points up in a model's file.
 enum class UpAxis { plusX, minusX, plusY, minusY, plusZ, minusZ };
 
-/// How a scene is looked at: every option that shapes a picture, as a value. The table of
-/// parameters.h says of each its name, unit, range, default and help.
+/// How a scene is viewed: every option that affects a picture, as a value. The table in
+/// parameters.h gives the name, unit, range, default and help of each.
 struct Look {
   Shading shading = Shading::phong;
   HighlightForms highlight;
   Fresnel fresnel = Fresnel::exact;
-  /// What error the forms may cost, in linear radiance or in codes of an 8-bit picture; read by
-  /// errorBudget() alone.
+  /// The error that the choice of forms may cause, in linear radiance or in codes of an 8-bit
+  /// picture; read only by errorBudget().
   std::optional<double> maxError;
   bool maxErrorInCodes = false;
-  std::string costTable;  ///< the file whose costs that choice goes by; empty: the shipped ones
+  std::string costTable;  ///< the cost file for that choice; empty: the shipped costs
   double blinnFactor = 4.0;
   Normalization normalization = Normalization::none;
   double schlickExponent = 5.0;
@@ -116,7 +116,7 @@ struct Look {
   Viewer viewer = Viewer::local;
   double mediumIor = 1.0;
   Environment environment = Environment::studio;
-  std::string hdriFile;              ///< a picture that takes the environment's place; may be empty
+  std::string hdriFile;              ///< a picture that replaces the environment; may be empty
   double environmentRotation = 0.0;  ///< degrees about +Y
   bool environmentBackground = false;
   bool twoSided = false;
@@ -124,18 +124,18 @@ struct Look {
   std::optional<glm::dvec3> cameraPosition, cameraFocalPoint, cameraDirection;
   std::optional<glm::dvec3> cameraViewUp;
   std::optional<double> cameraViewAngle;  ///< degrees, vertical
-  /// A lens in pixels of the picture, in place of the view angle: focal lengths across and down,
-  /// then the principal point from the picture's top left corner, where the first pixel's centre
-  /// is at (0.5, 0.5). Not of parallel projections.
+  /// A lens in pixels of the picture, instead of the view angle: horizontal and vertical focal
+  /// length, then the principal point from the picture's top left corner, where the first pixel's
+  /// centre is at (0.5, 0.5). Not for parallel projections.
   std::optional<glm::dvec4> cameraIntrinsics;
   double cameraAzimuthAngle = 0.0, cameraElevationAngle = 0.0;  ///< degrees
   double cameraZoomFactor = 0.9;
   bool cameraOrthographic = false;
   std::optional<int> cameraIndex;
-  std::optional<double> animationTime;  ///< seconds; empty: the pose the file stands in
+  std::optional<double> animationTime;  ///< seconds; empty: the file's rest pose
   std::string animation;                ///< name, number or "all"; empty: the first
-  std::string scene;                    ///< of the file, name or number; empty: the file's own
-  std::string variant;                  ///< of the file's materials, a name; empty: the default
+  std::string scene;                    ///< of the file, name or number; empty: the file's default
+  std::string variant;                  ///< of the file's materials, by name; empty: the default
   UpAxis up = UpAxis::plusY;
   std::optional<glm::dvec2> clippingRange;  ///< near, far; world units
 
@@ -149,7 +149,7 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
-/// What stands around the model: a picture if the look names one.
+/// The model's surroundings: the look's picture if it names one.
 inline Environment environmentOf(const Look& look) {
   return look.hdriFile.empty() ? look.environment : Environment::image;
 }

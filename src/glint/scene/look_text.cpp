@@ -17,7 +17,7 @@ using namespace parts;
 
 namespace {
 
-// The names of a table's rows, in their order.
+// The names of a table's rows, in order.
 template <typename Row>
 std::vector<std::string_view> namesOf(std::span<const Row> rows) {
   std::vector<std::string_view> names;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The texts that options and look files give values by. Every function throws InputError with a
+// The texts by which options and look files give values. Every function throws InputError with a
 // line that begins with `what`.
 
 #include <cstdint>
@@ -27,32 +27,32 @@ glm::dvec4 parseIntrinsics(const std::string& text);
 glm::ivec2 parseResolution(const std::string& text);
 AntiAliasing parseAntiAliasing(const std::string& text);
 std::string antiAliasingText(const AntiAliasing&);
-/// "exact", "lyon:8": the form's name and, where it has one, its gamma.
+/// "exact", "lyon:8": the form's name and its gamma, if it has one.
 std::string highlightText(const HighlightForm&);
-/// Forms for so many lights each, the brightest first, and one for all that are left:
-/// "exact/2,lyon:8".
+/// Forms with the number of lights for each, the brightest first, and last one for all remaining
+/// lights: "exact/2,lyon:8".
 HighlightForms parseHighlights(const std::string& text, const std::string& what);
 std::string highlightText(const HighlightForms&);
-/// The texts of all single forms, in their order.
+/// The texts of all single forms, in order.
 std::vector<std::string> highlightTexts();
 Shading parseShading(const std::string& text, const std::string& what);
 std::string_view shadingName(Shading);
-/// All of them, in the order of the programs.
+/// All names, in the order of the programs.
 std::span<const std::string_view> shadingTexts();
 Fresnel parseFresnel(const std::string& text, const std::string& what);
 std::string_view fresnelText(Fresnel);
-/// All of them, in the order of the forms.
+/// All names, in the order of the forms.
 std::span<const std::string_view> fresnelTexts();
-/// Also of `image`, which cannot be chosen by name.
+/// Includes `image`, which cannot be chosen by name.
 std::string_view environmentText(Environment);
-/// Those that can be chosen, in their order.
+/// The names that can be chosen, in order.
 std::span<const std::string_view> environmentTexts();
-/// A light as --light gives it, its fall-off too.
+/// A light in the syntax of --light, including its fall-off.
 Light parseLight(const std::string& text);
 std::string lightText(const Light&);
 void parseMaterialEdit(Look&, const std::string& text);
-/// Sets one parameter of the material `name`, a key (material_key.h); `text` is a number, a colour
-/// for "color", or a form for "highlight" and "fresnel".
+/// Sets one parameter of the material `name`, which is a key (material_key.h); `text` is a number,
+/// a colour for "color", or a form for "highlight" and "fresnel".
 void setMaterialEdit(Look&, const std::string& name, const std::string& key,
                      const std::string& text);
 

@@ -10,9 +10,9 @@
 namespace glint {
 namespace {
 
-/// A key taken apart.
+/// A parsed key.
 struct Parts {
-  std::string name, number;  ///< the digits behind the last '#'
+  std::string name, number;  ///< the digits after the last '#'
   bool isQuoted = false;
   bool hasNumber() const { return !number.empty(); }
 };
@@ -22,7 +22,7 @@ bool isDigits(const std::string& text) {
          std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Of a text that begins with '"': the place behind the mark that ends it.
+/// The position after the closing quotation mark in a text that begins with '"'.
 std::size_t endOfQuotation(const std::string& text) {
   for (std::size_t i = 1; i < text.size(); ++i) {
     if (text[i] == '\\')
@@ -77,7 +77,7 @@ std::string nameText(const std::string& name) {
   return text + '"';
 }
 
-/// Called "#N" because the file gives it no name.
+/// Whether it is called "#N" because the file gives no name.
 bool isNameless(const Material& m) {
   return m.index >= 0 && m.name == "#" + std::to_string(m.index);
 }

@@ -9,48 +9,47 @@
 
 namespace glint {
 
-// Which materials an edit is of, as a text: the keys of Look::material, what stands before the
-// colon of --material, and the keys of "material" in a look file.
+// Text keys that select the materials of an edit: the keys of Look::material, the part of
+// --material before the colon, and the keys of "material" in a look file.
 //
 //     (nothing)   every material
-//     NAME        all materials of that name
-//     NAME#N      the N-th of that name, from 0, in the file's order
-//     #N          the file's N-th material, from 0 (behind the last one, glTF's default material)
-//     "NAME"      a name in quotation marks may hold anything, \" and \\ stand for " and \; a name
-//                 that holds =, begins with " or ends in # and digits needs them: "a=b", "Red#2"#0
+//     NAME        all materials with that name
+//     NAME#N      the N-th with that name, from 0, in the file's order
+//     #N          the file's N-th material, from 0 (after the last comes glTF's default material)
+//     "NAME"      a quoted name may contain anything, \" and \\ stand for " and \; a name that
+//                 contains =, begins with " or ends in # and digits needs quotes: "a=b", "Red#2"#0
 //
-// Where several are of one material, the later of these lines stands above the earlier.
+// If several keys select a material, those lower in this list take precedence.
 
-/// The text in its one form, without marks that it does not need.
-/// Throws InputError where a quoted name does not end or is followed by anything but #N.
+/// The text in canonical form, without unnecessary quotation marks. Throws InputError if a quoted
+/// name is unterminated or followed by anything but #N.
 std::string materialKey(const std::string& text);
 
-/// Where the key ends that stands at the beginning of `text`, as "NAME:" or "\"NAME\"#N:": the
-/// place of its colon; npos if `text` begins with none. What follows holds the first '=' outside of
-/// quotation marks. Throws InputError for quotation marks that do not end.
+/// The position of the colon that ends the key at the beginning of `text`, as in "NAME:" or
+/// "\"NAME\"#N:"; npos if there is none. The first '=' outside quotation marks comes after the key.
+/// Throws InputError for unterminated quotation marks.
 std::size_t endOfMaterialKey(const std::string& text);
 
-/// The key that means this material of a scene and no other: its name; NAME#N where several have
-/// it.
+/// The key that selects only this material of a scene: its name, or NAME#N if several share it.
 std::string materialKey(const Material&);
 
-/// The keys by which edits may reach a material, those that stand above others last.
+/// The keys by which edits can reach a material, in ascending precedence.
 std::array<std::string, 4> materialKeys(const Material&);
 
-/// Whether a key, in its one form, is of the material.
+/// Whether a key in canonical form selects the material.
 bool isOfMaterial(const std::string& key, const Material&);
 
-/// Whether the look holds an edit of the material; one for every material counts too.
+/// Whether the look contains an edit for the material, including one for all materials.
 bool isEdited(const Material&, const Look&);
 
-/// Counts the materials of a scene: index, nth and nameShared of each.
+/// Sets index, nth and nameShared of each material of a scene.
 void countMaterials(std::vector<Material>&);
 
-/// Brings what a look says of each of the scene's materials by NAME#N and #N under the key that
-/// materialKey() gives it, so that there is one place to edit.
+/// Moves a look's edits by NAME#N and #N of each of the scene's materials to the key that
+/// materialKey() gives for it, so that there is one place to edit.
 void gatherMaterialEdits(Look&, const Scene&);
 
-/// Sets in `to` what `from` sets.
+/// Sets in `to` everything that is set in `from`.
 void mergeEdit(MaterialEdit& to, const MaterialEdit& from);
 
 }  // namespace glint

@@ -10,13 +10,13 @@
 
 namespace glint {
 
-/// The part of a number's range that a slider covers; typed values may go beyond.
+/// The part of a number's range that a slider covers; typed values may lie outside.
 struct SliderRange {
   double min = 0.0, max = 1.0;
   bool logarithmic = false;
 };
 
-/// One number of a material: extras.glint, --material and the panel go by this table.
+/// One number of a material; extras.glint, --material and the panel use this table.
 struct MaterialParameter {
   std::string_view name, help;
   double min, max;
@@ -27,12 +27,10 @@ struct MaterialParameter {
   unsigned textured = 0;  ///< its bit in Material::textured
 };
 
-/// Ambient, diffuse, specular, exponent, metalness, ior and transmission; `color` stands beside
-/// them.
+/// Ambient, diffuse, specular, exponent, metalness, ior and transmission. `color` is separate.
 std::span<const MaterialParameter> materialParameters();
 
-/// A texture that is part of what it stands beside, and can be switched off: it then counts as
-/// white, or as a flat normal map.
+/// A texture that can be switched off: it then counts as white, or as a flat normal map.
 struct SwitchedTexture {
   std::string_view name;  ///< in texts and in extras.glint; "on" or "off", true or false
   std::optional<Texture> Material::*texture;
@@ -51,20 +49,20 @@ void forEachEdit(Visit visit) {
   for (const SwitchedTexture& t : switchedTextures()) visit(t.edit);
 }
 
-/// All textures that a material may have, whether it has them or not.
+/// All textures that a material can have, whether present or not.
 std::array<std::optional<Texture>*, 7> texturesOf(Material&);
 std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
 
-/// What a look makes of a scene's material: its own values with those of the edits whose keys are
-/// of it (material_key.h), in their order.
-/// An edited number takes the place of a texture that gave it. Under a normalization m_s is the
-/// share from which it was converted, unless it is given.
+/// A scene's material as a look shows it: its own values with the edits whose keys select it
+/// (material_key.h) applied in order of precedence. An edited number replaces a texture that
+/// supplied it. With a normalization, m_s is the share that it was converted from, unless m_s is
+/// edited.
 Material editedMaterial(const Material&, const Look&);
 
-/// The exponent of a material's lobe under a look: Phong's, or Blinn-Phong's.
+/// The exponent of a material's lobe with a look: Phong's, or Blinn-Phong's.
 double lobeExponent(const Material&, const Look&);
 
-/// Throws InputError if an edit is of a material that the scene does not have.
+/// Throws InputError if an edit is for a material that the scene does not have.
 void checkMaterialNames(const Scene&, const Look&);
 
 }  // namespace glint

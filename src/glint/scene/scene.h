@@ -14,42 +14,44 @@
 
 namespace glint {
 
-/// What a mesh is drawn as. Strips, fans and loops are turned into these on loading.
+/// How a mesh is drawn. Strips, fans and loops are converted to these on loading.
 enum class Topology { points, lines, triangles };
 
-/// One thing to draw with one material: a glTF primitive, validated and made ready for upload.
-/// Every index is within range and every value finite; triangles have unit normals.
+/// A drawable with one material: a glTF primitive, validated and ready for upload. Every index is
+/// in range and every value finite; triangles have unit normals.
 struct Mesh {
   Topology topology = Topology::triangles;
-  /// Model space; `positions` are relative to it. Not zero only where the mesh lies so far from its
-  /// own origin that float positions would lose digits when transformed.
+  /// Model space; `positions` are relative to it. Only non-zero if the mesh is so far from its own
+  /// origin that float positions would lose digits when transformed.
   glm::dvec3 origin{0.0};
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  ///< unit length, one a position; triangles always have them,
+  std::vector<glm::vec3> normals;  ///< unit length, one per position; triangles always have them,
                                    ///< points and lines without are unlit
-  /// xyz unit, to where the normal map's picture goes right, w its handedness (1 or -1), one a
-  /// position; empty unless the material has a normal map that the mesh has coordinates for.
+  /// xyz: unit vector towards the right of the normal map's picture; w: its handedness (1 or -1).
+  /// One per position; empty unless the material has a normal map and the mesh has coordinates for
+  /// it.
   std::vector<glm::vec4> tangents;
-  /// Linear RGB and alpha, one a position, or empty (glTF COLOR_0).
+  /// Linear RGB and alpha, one per position, or empty (glTF COLOR_0).
   std::vector<glm::vec4> colors;
-  /// texcoords[set] has one a position, or is empty; only sets that the material's textures read.
-  /// A set that a texture reads may be missing: the mesh is then drawn without that texture.
+  /// texcoords[set] has one per position, or is empty; only sets that the material's textures use.
+  /// A set that a texture uses may be missing: the mesh is then drawn without that texture.
   std::vector<std::vector<glm::vec2>> texcoords;
   std::vector<std::uint32_t> indices;  ///< never empty for a mesh that is drawn
-  /// Some triangle's vertex normals are so far apart that a mean of them may vanish.
+  /// In some triangle the vertex normals are so far apart that their interpolation may vanish.
   bool normalsMayCancel = false;
-  /// Alpha is 1 in all texels that it shows of its material's colour texture: known once that is
-  /// decoded, and found out only where the material blends.
+  /// Alpha is 1 in all texels of the colour texture that the mesh shows. Known once the texture is
+  /// decoded, and only determined if the material blends.
   bool opaqueTexels = false;
   int material = 0;   ///< index into Scene::materials
-  int fileMesh = -1;  ///< place of the mesh it is a primitive of in its file; -1: of none
+  int fileMesh = -1;  ///< index in the file of the mesh whose primitive this is; -1: none
 };
 
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 enum class Filter { nearest, linear };
 enum class MipFilter { none, nearest, linear };
 
-/// How a texture is sampled, as in glTF. A texture without sampler repeats, with trilinear filter.
+/// How a texture is sampled, as in glTF. A texture without a sampler repeats and is filtered
+/// trilinearly.
 struct Sampler {
   Filter magnify = Filter::linear;
   Filter minify = Filter::linear;
@@ -60,31 +62,30 @@ struct Sampler {
   auto operator<=>(const Sampler&) const = default;
 };
 
-/// How a picture is made of the two of KHR_materials_pbrSpecularGlossiness, texel by texel by
-/// convertSpecularGlossiness().
+/// How to convert the two pictures of KHR_materials_pbrSpecularGlossiness into one, texel by texel
+/// with convertSpecularGlossiness().
 struct GlossPicture {
   bool isColor = false;  ///< gives C and alpha; else G roughness, B metallic, A reflectance
-  int other = -1;        ///< the picture beside the bytes, in Scene::images; -1: white
+  int other = -1;        ///< the second picture, in Scene::images; -1: white
   SpecularGlossiness factors;
 };
 
-/// A picture as it stands in the file: PNG, JPEG or WebP bytes, decoded only when a program reads
-/// it.
+/// A picture as stored in the file: PNG, JPEG or WebP bytes, decoded only when needed.
 struct EncodedImage {
   std::string name;  ///< for messages: the file, or the place in the model file
   std::vector<std::byte> bytes;
-  bool isData = false;  ///< numbers, as of a normal map, not colours in sRGB
-  /// What is made of it: of the diffuse picture its colours, of the other one its numbers.
+  bool isData = false;  ///< numbers, as in a normal map, not sRGB colours
+  /// The conversion: the diffuse picture becomes colours, the other one numbers.
   std::optional<GlossPicture> gloss{};
-  bool isNormalMap = false;  ///< read as nothing else: its alpha is free (normal_lengths.h)
+  bool isNormalMap = false;  ///< used for nothing else, so its alpha is free (normal_lengths.h)
 };
 
-/// Which texture and which texture coordinates a material reads; empty means none.
+/// The picture and texture coordinates that a material uses; empty means none.
 struct Texture {
   int image = 0;  ///< index into Scene::images
   int texcoord = 0;
   Sampler sampler;
-  /// From the mesh's coordinates to those of the picture: columns for u, v and 1
+  /// From the mesh's texture coordinates to the picture's: columns for u, v and 1
   /// (KHR_texture_transform).
   glm::dmat3x2 transform{1.0};
 };
@@ -103,9 +104,9 @@ struct ShadingParameters {
   double transmission = 0.0;  ///< t in [0, 1], read by the program `environment`
 };
 
-/// Parameters that textures give, as bits: where a material has a texture for them they are
-/// computed from its texels, pixel by pixel, in place of the number in ShadingParameters. A number
-/// that the user gives takes the texture's place.
+/// Parameters that textures supply, as bits. Where a material has such a texture, the parameter is
+/// computed per pixel from its texels instead of the number in ShadingParameters. A number given by
+/// the user replaces the texture.
 namespace textured {
 enum : unsigned {
   ambient = 1,
@@ -117,49 +118,49 @@ enum : unsigned {
 };
 }
 
-/// Textures of numbers, not colours, and what they multiply (docs/materials.md has the formulas).
+/// Textures of numbers, not colours, and their factors (formulas in docs/materials.md).
 struct ParameterTextures {
   std::optional<Texture> metallicRoughness;  ///< G roughness, B metallic
   std::optional<Texture> occlusion;          ///< R share of the ambient light
   std::optional<Texture> specular;         ///< A share of the reflectance (KHR_materials_specular)
   std::optional<Texture> transmission;     ///< R share of t (KHR_materials_transmission)
   double metallic = 1.0, roughness = 1.0;  ///< [0, 1]
-  double reflectance = 0.04;  ///< of the dielectric at normal incidence, with its strength, [0, 1]
+  double reflectance = 0.04;  ///< of the dielectric at normal incidence, strength included, [0, 1]
   double occlusionStrength = 1.0;  ///< [0, 1]
 };
 
-/// Textures that are not read though the material has them, as bits.
+/// Textures that are not used although the material has them, as bits.
 namespace switchedOff {
 enum : unsigned { color = 1, normal = 2, emission = 4 };
 }
 
 struct Material {
-  /// Never empty: one without a name is called "#N", N its place in the file from 0, and glTF's
-  /// default material "#default".
+  /// Never empty: a nameless one is called "#N", N its index in the file from 0, and glTF's default
+  /// material "#default".
   std::string name;
-  int index = -1;           ///< its place in Scene::materials, -1: not in one
-  int nth = 0;              ///< its place among those of its name
-  bool nameShared = false;  ///< others have its name
+  int index = -1;           ///< index into Scene::materials, -1: not in a scene
+  int nth = 0;              ///< index among the materials of the same name
+  bool nameShared = false;  ///< other materials have the same name
   ShadingParameters shading;
   /// The share of the arriving light that the highlight reflects, from which shading.specular was
-  /// converted: what m_s is under --normalization. Empty where the file gives m_s itself.
+  /// converted; replaces m_s with --normalization. Empty if the file gives m_s itself.
   std::optional<double> highlightShare = {};
-  double alpha = 1.0;        ///< multiplies the texture's and the vertex colour's, [0, 1]
+  double alpha = 1.0;        ///< multiplied by the texture's and the vertex colour's, [0, 1]
   glm::dvec3 emission{0.0};  ///< linear radiance added to the sum
   std::optional<Texture> colorTexture;     ///< sRGB colour and alpha
   std::optional<Texture> emissionTexture;  ///< sRGB
   std::optional<Texture> normalTexture;    ///< x right, y up, z out of the surface: 2 texel - 1
   double normalScale = 1.0;                ///< multiplies its x and y
   ParameterTextures parameterTextures;
-  unsigned textured = 0;     ///< bits of namespace textured: what those textures give
-  unsigned switchedOff = 0;  ///< bits of namespace switchedOff, as extras.glint says
-  /// What the file says of it that no program has anything for, as "the ..." for messages.
+  unsigned textured = 0;     ///< bits of namespace textured: what those textures supply
+  unsigned switchedOff = 0;  ///< bits of namespace switchedOff, from extras.glint
+  /// Properties in the file that no program uses, as "the ..." for messages.
   std::vector<std::string> unusedProperties;
   AlphaMode alphaMode = AlphaMode::opaque;
   double alphaCutoff = 0.5;  ///< for AlphaMode::mask
   bool doubleSided = false;
-  bool unlit = false;  ///< shows colour alone
-  /// The forms that a look gives this material in place of its own.
+  bool unlit = false;  ///< shows only its colour
+  /// Forms that a look sets for this material instead of its own.
   std::optional<HighlightForms> highlight;
   std::optional<Fresnel> fresnel;
 };
@@ -168,12 +169,12 @@ struct Material {
 struct Instance {
   int mesh = 0;
   glm::dmat4 world{1.0};  ///< model to world; the last row is 0 0 0 1
-  int object = -1;        ///< index into Scene::objects; -1: it is none of them
+  int object = -1;        ///< index into Scene::objects; -1: none
 };
 
-/// A mesh of the file that stands somewhere: all of its primitives together.
+/// A mesh of the file placed by a node: all of its primitives together.
 struct FileObject {
-  int node = 0, mesh = 0;  ///< places in the file
+  int node = 0, mesh = 0;  ///< indices in the file
 };
 
 /// A camera of the file. It looks along -Z of its own space, +Y up; `world` is a rigid motion.
@@ -183,9 +184,9 @@ struct FileCamera {
   bool orthographic = false;
   double viewAngle = 0.6;   ///< radians, vertical; perspective only
   double halfHeight = 1.0;  ///< world units; orthographic only
-  double aspect = 0.0;      ///< width / height of its frame; 0 where the picture decides
-  double near = 0.0;        ///< 0 where the file gives none
-  double far = 0.0;         ///< 0 where the file gives none (infinite)
+  double aspect = 0.0;      ///< width / height of its frame; 0: determined by the picture
+  double near = 0.0;        ///< 0 if the file gives none
+  double far = 0.0;         ///< 0 if the file gives none (infinite)
 };
 
 /// A light of the file (KHR_lights_punctual).
@@ -194,25 +195,25 @@ struct FileLight {
   std::string name;
   Type type = Type::directional;
   glm::dvec3 position{0.0};        ///< world; point and spot
-  glm::dvec3 direction{0, 0, -1};  ///< unit, world: the way it shines; directional and spot
+  glm::dvec3 direction{0, 0, -1};  ///< unit, world: where it shines; directional and spot
   /// Colour times intensity, linear: lux (directional) or candela (point and spot; metres are world
   /// units), components [0, 1e30].
   glm::dvec3 intensity{1.0};
-  double range = 0;  ///< world units: no light beyond; 0 where there is no such end
+  double range = 0;  ///< world units: no light beyond; 0 for unlimited
   double innerAngle = 0.0, outerAngle = 0.785398163397448;  ///< radians from the spot's axis
 };
 
 struct FileAnimation {
   std::string name;     ///< may be empty
-  double duration = 0;  ///< seconds, from 0 to its last key
+  double duration = 0;  ///< seconds, from 0 to the last key frame
 };
 
-/// An extension of glTF that the file names, and what is made of it.
+/// A glTF extension that the file names, and how it is handled.
 struct FileExtension {
-  enum class Use { read, approximated, ignored, unseen };  ///< unseen: nothing of it shows
+  enum class Use { read, approximated, ignored, unseen };  ///< unseen: has no visible effect
   std::string name;
   Use use = Use::ignored;
-  std::string note;       ///< how far, may be empty; or why not, to follow "which is"
+  std::string note;       ///< extent of support, may be empty; or the reason, to follow "which is"
   bool required = false;  ///< by the file
 };
 
@@ -227,21 +228,21 @@ struct FileMorph {
   std::vector<std::string> targets;  ///< their names, which may be empty
 };
 
-/// All that is drawn, by value. World space: +Y up, right-handed, metres by glTF's word.
+/// Everything that is drawn, by value. World space: +Y up, right-handed, metres as glTF defines.
 struct Scene {
-  std::string name;  ///< file name without folder and ending
+  std::string name;  ///< file name without folder and extension
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<FileObject> objects;  ///< of a file; empty where a scene was made otherwise
+  std::vector<FileObject> objects;  ///< from a file; empty if the scene was made otherwise
   std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
   std::vector<EncodedImage> images;
   std::vector<FileCamera> cameras;
   std::vector<FileLight> lights;
-  /// What the file's lights are multiplied by unless a look says otherwise; see lights.h.
+  /// The factor for the file's lights unless a look sets one; see lights.h.
   double lightScale = 1;
   std::vector<FileAnimation> animations;
-  std::vector<std::string> scenes;        ///< names of all that the file has, which may be empty
-  std::vector<std::string> variants;      ///< likewise, of its materials
+  std::vector<std::string> scenes;        ///< of all scenes in the file; names may be empty
+  std::vector<std::string> variants;      ///< likewise, of its material variants
   std::vector<FileExtension> extensions;  ///< for `glint info`, as are skins and morphs
   std::vector<FileSkin> skins;
   std::vector<FileMorph> morphs;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the readers of option texts are made of.
+// Building blocks for the parsers of option texts.
 
 #include <charconv>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace glint::parts {
 
-/// The parts between separators; at least one, which may be empty.
+/// Splits at a separator; at least one part, which may be empty.
 inline std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   for (char c : text) {
@@ -24,13 +24,13 @@ inline std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Throws the InputError of a text that is not what is expected.
+/// Throws an InputError for a text that is not as expected.
 [[noreturn]] inline void refuse(const std::string& what, const std::string& text,
                                 const std::string& expected) {
   throw InputError(what + ": '" + text + "' is not " + expected);
 }
 
-/// Reads a number that takes the whole text, perhaps with a + before it.
+/// Reads a number that takes up the whole text, optionally with a leading +.
 template <typename Number>
 bool readAll(const std::string& text, Number& value) {
   const char *begin = text.data(), *end = begin + text.size();

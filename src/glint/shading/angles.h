@@ -4,6 +4,6 @@
 
 namespace glint {
 
-inline constexpr double radians = std::numbers::pi / 180;  ///< in a degree
+inline constexpr double radians = std::numbers::pi / 180;  ///< per degree
 
 }  // namespace glint

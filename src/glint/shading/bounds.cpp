@@ -11,21 +11,21 @@ namespace {
 
 using rounding::u;
 
-constexpr double vectorError = 6.5e-7;  // of D
+constexpr double vectorError = 6.5e-7;  // in D
 
-// Of the dot product c of unit vectors that are rounded: each has its length off by 2.5 u (a dot
-// product's half, the root and the division), which counts with c, and its components by u each;
-// the three products and two sums round by 3 u.
+// The error of the dot product c of rounded unit vectors: the length of each is off by 2.5 u (half
+// of a dot product's error, the root and the division), which is multiplied by c, and its
+// components by u each; the three products and two sums add 3 u of rounding.
 double cosineError(double c) { return 5.0 * u * (1.0 + c); }
 
 // ---- Lobes -----------------------------------------------------------------------------------
 //
 // With f = (1 - x)^a the lobe and g a form, the difference g - f is stationary where log(-g') =
 // log(-f'). s = log(g'/f') vanishes there, and s' is a quotient whose numerator has one root in x,
-// besides, for Pade, a root at 0 (below, form by form). So s has at most one extremum inside, hence
-// at most two roots, one on each side of it; bisection finds them. The ends count too: where g is
-// cut off (x = 1 / beta), from where on the difference is -f, and x = 1, from where on it is g;
-// both fall from there.
+// apart from a root at 0 for Pade (below, form by form). So s has at most one extremum inside,
+// hence at most two roots, one on each side of it; bisection finds them. The ends count too: the
+// point where g is cut off (x = 1 / beta), after which the difference is -f, and x = 1, after which
+// it is g; both fall from there.
 
 struct Difference {
   double alpha, beta;
@@ -42,7 +42,7 @@ struct Difference {
       return gamma * (std::log1p(-0.5 * (1.0 + beta) * x) - std::log1p(0.5 * (beta - 1.0) * x));
     return gamma * std::log1p(-beta * x);
   }
-  // f (exp(log g - log f) - 1) keeps its digits where both are nearly the same.
+  // f (exp(log g - log f) - 1) keeps its digits where the two are nearly equal.
   double at(double x) const {
     if (x >= 1.0) return std::exp(logForm(x));
     const double logExact = alpha * std::log1p(-x);
@@ -64,14 +64,15 @@ struct Difference {
         return std::log(gamma * beta / alpha) + (gamma - 1) * std::log1p(-beta * x) - exact;
     }
   }
-  // The root of s' between 0 and the end, or a value outside.
+  // The root of s' between 0 and the end, or a value outside if there is none.
   double extremum() const {
     switch (form) {
       case Highlight::gaussian:  // -beta + (a - 1) / (1 - x)
         return 1.0 - (alpha - 1.0) / beta;
       case Highlight::pade: {
         // -(g - 1) p / t - (g + 1) m / b + (a - 1) / (1 - x) with p = 1 + beta, m = beta - 1,
-        // t = 2 - p x, b = 2 + m x: times t b (1 - x) a quadratic in x without constant term.
+        // t = 2 - p x, b = 2 + m x: multiplied by t b (1 - x), a quadratic in x without constant
+        // term.
         const double p = 1.0 + beta, m = beta - 1.0, g = gamma;
         const double linear =
             -(g - 1) * p * (m - 2) + (g + 1) * m * (p + 2) + (alpha - 1) * 2 * (m - p);
@@ -101,12 +102,12 @@ double largestBetween(const Difference& d, double low, double high) {
 
 double largestDifference(const Difference& d) {
   if (!(d.beta > 0.0)) return 1.0;
-  // The end of the form: beyond it, up to 1, only the exact lobe is left.
+  // The end of the form: from there to 1 only the exact lobe is left.
   double end = 1.0;
   if (d.form == Highlight::pade) end = std::min(2.0 / (1.0 + d.beta), 1.0);
   if (d.form == Highlight::lyon) end = std::min(1.0 / d.beta, 1.0);
   double largest = end < 1.0 ? std::pow(1.0 - end, d.alpha) : 0.0;
-  if (end == 1.0) largest = std::max(largest, d.at(1.0));  // what leaks past 90 degrees
+  if (end == 1.0) largest = std::max(largest, d.at(1.0));  // the leak past 90 degrees
   const double inside = end * (1.0 - 1e-15), between = d.extremum();
   if (between > 0.0 && between < inside)
     return std::max({largest, largestBetween(d, 0.0, between), largestBetween(d, between, inside)});
@@ -122,9 +123,9 @@ struct Reflectance {
   double approximate(double c) const { return reflectance(form, c, input); }
 };
 
-// Bounds |approximate - exact| over [low, high]: the approximations fall with c, R_perp too, R_par
-// falls to Brewster's angle (c = 1 / sqrt(n^2 + 1)) and rises from there. Subdivides until that is
-// within `slack` of the largest error seen.
+// Bounds |approximate - exact| over [low, high]. The approximations fall with c, and so does
+// R_perp; R_par falls down to Brewster's angle (c = 1 / sqrt(n^2 + 1)) and rises after it.
+// Subdivides until the bound is within a quarter of the largest error seen.
 struct Subdivision {
   const Reflectance& r;
   double brewster, largest;
@@ -152,7 +153,7 @@ struct Subdivision {
   }
 };
 
-// Lengths of the subdivision: depth 48 is 4e-15, below which no index in [1e-3, 1e3] has features.
+// Depth 48 is a cell of 4e-15, and no index in [1e-3, 1e3] has smaller features.
 constexpr int deepest = 48;
 
 }  // namespace
@@ -178,25 +179,26 @@ double gaussianBound(double alpha) {
   return largestDifference({alpha, alpha + gaussianShift, 1, Highlight::gaussian});
 }
 
-// Between entries h = 1 / steps apart the chord is off by the mean of |f''| = a |a - 1| x^(a - 2)
-// by a kernel that is the same in each step (Peano), so that the step where |f''| is largest has
-// the largest error: the last one for a >= 2, the first one below, where f'' has no bound at 0. In
-// a step from b to c the chord of the slope m is farthest away where f' = m.
+// Between entries h = 1 / steps apart, the error of the chord is the mean of |f''| = a |a - 1|
+// x^(a - 2) weighted by a kernel that is the same in each step (Peano). So the error is largest in
+// the step where |f''| is largest: the last one for a >= 2, otherwise the first one, where f'' is
+// unbounded at 0. In a step from b to c the chord with slope m is farthest away where f' = m.
 double tableBound(double alpha, int steps) {
   const double h = 1.0 / std::max(steps, 1);
   if (alpha == 1.0) return 0.0;
-  if (alpha < 2.0)  // at s h of the first step, s = a^(-1 / (a - 1)): h^a |s - s^a|
+  if (alpha < 2.0)  // at s h in the first step, s = a^(-1 / (a - 1)): h^a |s - s^a|
     return std::pow(h, alpha) * std::abs(1.0 - 1.0 / alpha) *
            std::exp(-std::log(alpha) / (alpha - 1.0));
-  // 1 - (1 - h)^a and what the lobe is below 1 where its slope is the chord's: with their digits.
+  // 1 - (1 - h)^a, and how far the lobe is below 1 where its slope is the chord's, without
+  // cancellation.
   const double fall = -std::expm1(alpha * std::log1p(-h)), slope = fall / h;
-  const double logAway = std::log(slope / alpha) / (alpha - 1.0);  // of the cosine, below 0
+  const double logAway = std::log(slope / alpha) / (alpha - 1.0);  // of that cosine, negative
   return std::max(-std::expm1(alpha * logAway) + slope * std::expm1(logAway), 0.0);
 }
 
 double lobeFormulaBound(Highlight form, int gamma, double alpha) {
   const HighlightRow& of = row(form);
-  // At the exponent 0 every form is 1, or drawn as the exact one.
+  // At exponent 0 every form is 1, or is drawn as the exact one.
   if (!of.formulaBound || (!(alpha > 0.0) && !of.atZero)) return 0.0;
   return of.formulaBound(alpha, gamma);
 }
@@ -206,14 +208,15 @@ double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent) 
   const Reflectance r{form, reflectanceInput(form, std::min(n1, n2), std::max(n1, n2), exponent)};
   const FresnelConstants& constants = r.input.constants;
   Subdivision s{r, 1.0 / std::sqrt(constants.nSquaredPlus1), 1e-9};
-  // First a look around, so that little needs subdividing: half of the angles within the scale on
+  // A first scan, so that little needs subdividing: half of the angles lie within the scale on
   // which R falls.
   const double scale = std::sqrt(constants.e) / constants.nSquaredPlus1;
   for (int i = 0; i < 256; ++i) {
     const double t = (i + 0.5) / 256, c = scale * t / (1.0 - t + scale * t);
     s.largest = std::max(s.largest, std::abs(r.approximate(c) - fresnelExact(c, constants)));
   }
-  // At 0 both are 1 (exponent 0 aside, whose form is 1 throughout); right of it too.
+  // At 0 both are 1, and so are their limits from the right (for exponent 0 the form is 1
+  // everywhere).
   s.cover(0.0, 1.0, {1.0, 1.0}, fresnelPolarized(1.0, constants), 1.0, r.approximate(1.0), deepest);
   return std::min(1.25 * s.largest, 1.0);
 }
@@ -221,7 +224,7 @@ double fresnelFormulaBound(Fresnel form, double n1, double n2, double exponent) 
 double lobeTurnBound(double alpha, bool blinn, double turn) {
   const double off = blinn ? 8.0 * turn : turn;
   // The steepest slope of (1 - t^2/2)^a is at t^2 = 1 / (a - 1/2), or at the end, t^2 = 2, where
-  // the lobe of an exponent below 1 falls with infinite slope: y^a moves by at most (dy)^a.
+  // the lobe of an exponent below 1 falls with infinite slope: y^a changes by at most (dy)^a.
   double geometry = 0.0;
   if (alpha >= 1.0) {
     const double t2 = 1.0 / (alpha - 0.5);
@@ -239,9 +242,9 @@ double lobeRoundingBound(Highlight form, int gamma, double alpha, bool blinn) {
 
 double fresnelRoundingBound(Fresnel form, double n1, double n2, double exponent) {
   if (n1 == n2) return 0.0;
-  // 0 from the thinner side: grazing incidence. R falls from there, for large indices soon to rise
-  // again. On the way of one rounding the largest and the least of it count; from there on its
-  // slope changes by less than a tenth from one sample to the next.
+  // `steep` is 0 from the thinner side: grazing incidence. R falls from there but, for large
+  // indices, soon rises again. Within the distance of one rounding error its maximum and minimum
+  // are compared; beyond it, its slope changes by less than a tenth from one sample to the next.
   const double steep = criticalCosine(n1, n2), error = cosineError(steep);
   const double from = std::max(steep + criticalRing(n1, n2) - error, steep);
   const auto after = [&](double way) {
@@ -264,7 +267,7 @@ double criticalRing(double n1, double n2) {
 }
 
 double largestRadiance(BuiltinEnvironment environment) {
-  // The largest of a search over all directions, which the test repeats: 2.24 and 2.94.
+  // The maxima from a search over all directions, which the test repeats: 2.24 and 2.94.
   switch (environment) {
     case BuiltinEnvironment::white:
       return 1.0;
@@ -277,10 +280,10 @@ double largestRadiance(BuiltinEnvironment environment) {
 }
 
 double steepestRadiance(BuiltinEnvironment environment) {
-  // A smoothstep of width w is as steep as 1.5 / w: the studio's strip of 2.1 with edges of 0.1 by
-  // 31.5, where its other side and the room behind it are flat. The sun's disc, 1.2 over half the
-  // squared distance from 0.002 to 0.01, by 25.3 at a distance of 0.114, where its glow adds 2.9. A
-  // search finds 31.4 and 28.3, which the test repeats.
+  // A smoothstep of width w has a slope of up to 1.5 / w: 31.5 for the studio's strip of 2.1 with
+  // edges of 0.1, where its other axis and the room behind it are flat. The sun's disc, 1.2 over
+  // half the squared distance from 0.002 to 0.01, reaches 25.3 at a distance of 0.114, where its
+  // glow adds 2.9. A search finds 31.4 and 28.3, which the test repeats.
   switch (environment) {
     case BuiltinEnvironment::white:
       return 0.0;

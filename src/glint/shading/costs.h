@@ -7,42 +7,42 @@
 
 namespace glint {
 
-/// What a reflectance costs, for each pixel.
+/// The cost of the reflectance forms, per pixel.
 struct ReflectanceCosts {
   double exact, textbook;
-  double schlick;          ///< with the exponent 5, a power by squaring
-  double schlickExponent;  ///< with another
+  double schlick;          ///< with exponent 5, a power by squaring
+  double schlickExponent;  ///< with other exponents
   double schlickExp2, rational;
   bool operator==(const ReflectanceCosts&) const = default;
 };
 
-/// What the forms cost beside each other, in hundredths of what the exact lobe costs: a lobe for
-/// each pixel and light, a reflectance for each pixel. What stands here ships with the project, so
-/// that the choice by --max-error is the same on every machine; docs/approximations.md says where
-/// it comes from, and how to measure a table on another driver.
+/// The relative costs of the forms, in hundredths of the exact lobe's: a lobe per pixel and light,
+/// a reflectance per pixel. These values ship with the project, so that --max-error makes the same
+/// choice on every machine; docs/approximations.md says where they come from and how to measure a
+/// table on another driver.
 struct CostTable {
-  /// The shipped one.
+  /// The shipped table.
   CostTable();
 
-  /// Of each form that has its own, as HighlightRow::costs has them.
+  /// For each form with its own costs, laid out as HighlightRow::costs.
   std::map<Highlight, std::vector<double>> lobes;
 
   ReflectanceCosts fresnel{31, 42, 21, 77, 28, 30};
-  /// Where some side is seen from the denser medium.
+  /// If some side is seen from the denser medium.
   ReflectanceCosts fresnelDenser{67, 44, 78, 167, 101, 77};
 
-  /// Of going on to lights of another form: one more loop, whose cost is too small to be measured.
-  /// Above 0, so that a form more has to pay.
+  /// The cost of switching to lights with another form: one more loop, too cheap to measure. Above
+  /// 0, so that an additional form has to pay for itself.
   static constexpr double change = 1;
 
-  /// Of a lobe. `power` is gamma, or of `integer` the exponent.
+  /// The cost of a lobe. `power` is gamma, or the exponent for `integer`.
   double lobe(Highlight form, int power) const;
   double reflectance(Fresnel form, double schlickExponent, bool denserSide) const;
   bool operator==(const CostTable&) const = default;
 };
 
-/// The multiplications of a power from 1 to 128 by squaring: one for each bit after the first and
-/// one more for each of those that is set.
+/// The multiplications for a power from 1 to 128 by squaring: one for each bit after the first, and
+/// one more for each of those bits that is set.
 int productsOf(int power);
 
 }  // namespace glint

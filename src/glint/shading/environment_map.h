@@ -5,12 +5,12 @@
 namespace glint {
 
 // The built-in environments: radiance in linear light that arrives from a direction d in world
-// space, +Y up. Analytic, of polynomials of direction cosines alone, so that single precision
-// evaluates them to 1e-5 (measured: 6.5e-6) and nothing in them is sharper than a pixel of a small
-// picture.
+// space, +Y up. They are analytic, using only polynomials of direction cosines, so that single
+// precision evaluates them to 1e-5 (measured: 6.5e-6) and nothing in them is sharper than a pixel
+// of a small picture.
 //
-// The formulas, for GLSL as well; d = (x, y, z) is normalised first, s(a, b, t) is smoothstep,
-// mix(a, b, t) = a + (b - a) t. The constants are the structs below.
+// The formulas, shared with GLSL: d = (x, y, z) is normalised first, s(a, b, t) is smoothstep,
+// mix(a, b, t) = a + (b - a) t. The constants are in the structs below.
 //
 //     white   E = 1
 //
@@ -48,7 +48,7 @@ struct SkyConstants {
   double wide = 0.30;
   double narrow = 0.55;
   double disc = 1.2;
-  double discInner = 0.002;  ///< of 1 - d.sun: 3.6 degrees
+  double discInner = 0.002;  ///< in 1 - d.sun: 3.6 degrees
   double discOuter = 0.010;  ///< 8.1 degrees
 };
 
@@ -85,8 +85,8 @@ struct StudioConstants {
 inline constexpr SkyConstants skyConstants{};
 inline constexpr StudioConstants studioConstants{};
 
-/// E(direction); the direction need not be unit. A zero or not finite direction counts as the zero
-/// vector, for which the formulas above give a finite value too.
+/// E(direction); the direction need not be a unit vector. A zero or non-finite direction counts as
+/// the zero vector, for which the formulas above also give a finite value.
 glm::dvec3 environmentRadiance(BuiltinEnvironment environment, const glm::dvec3& direction);
 
 }  // namespace glint

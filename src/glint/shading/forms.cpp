@@ -12,27 +12,27 @@ namespace {
 
 using rounding::u;
 
-/// A power by squaring.
+/// Rounding of a power by squaring.
 double powerRounding(double power) { return (1.5 * power + 4.0) * u; }
 
-// The rounding of pow: the cosine of rounded vectors by 1e-6, log2 by 2^-21 log 2, alpha times
-// both.
+// Rounding of pow: 1e-6 from the cosine of rounded vectors and 2^-21 log 2 from log2, each times
+// alpha.
 double powRounding(double alpha, int) { return 1e-6 + 1.4e-6 * alpha; }
 
-// The cosine of rounded vectors is off by 1e-6, and a chord as steep as alpha at most, or the first
-// one of an exponent below 1. Entries and what lies between them round by 4 u.
+// The cosine of rounded vectors is off by 1e-6, times a chord with a slope of at most alpha or, for
+// an exponent below 1, of the first chord. Entries and the interpolation between them round by 4 u.
 double tableRounding(double alpha, int steps) {
   return 1e-6 * std::max(alpha, std::pow(double(std::max(steps, 1)), 1.0 - alpha)) + 4.0 * u;
 }
 
-// The quotient q = top / bottom by 4 u of top, over a bottom of at least 2 (4 beta / (1 + beta) for
-// beta < 1), and 9 u of itself, the division's 5 u included.
+// The quotient q = top / bottom: 4 u of top, over a bottom of at least 2 (4 beta / (1 + beta) for
+// beta < 1), and 9 u of itself, including the division's 5 u.
 double padeRounding(double alpha, int gamma) {
   return gamma * 12.0 * u * std::max(1.0, 0.5 + 0.5 * gamma / std::max(alpha, 1e-9));
 }
 
-// The textbook's square under the root and its two differences lose what n2 - n1 is small by, and
-// all of it from the denser side.
+// The textbook's square under the root and its two differences lose digits in proportion to how
+// small n2 - n1 is, and all of them from the denser side.
 double textbookRounding(double n1, double n2, double) {
   return n2 > n1 ? std::min(1e-6 + 1e-7 / ((n2 - n1) / n1), 1.0) : 1.0;
 }
@@ -46,7 +46,7 @@ constexpr ShadingRow shadings[] = {
     {Shading::automatic, "auto", true, false},
 };
 
-// What the forms cost, as costs.h says; it ships with the project.
+// The costs of the forms, as defined in costs.h; they ship with the project.
 constexpr double exactCosts[] = {100};
 constexpr double powCosts[] = {68};
 constexpr double integerCosts[] = {22, 23, 24, 25, 26, 27, 29, 30, 31, 32, 33, 34, 35};
@@ -56,7 +56,7 @@ constexpr double padeCosts[] = {29, 30, 31, 32, 33, 35, 38};
 constexpr double gaussianCosts[] = {34};
 constexpr double tableCosts[] = {90, 90, 90, 90, 90, 90, 90};
 
-// Missing initialisers are meant: a row says what is not the default.
+// Missing initialisers are intentional: a row lists what differs from the defaults.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 constexpr HighlightRow highlights[] = {

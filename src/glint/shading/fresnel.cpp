@@ -12,7 +12,7 @@ namespace {
 
 double validIndex(double n) { return std::isnan(n) ? 1.0 : clampTo(n, 1e-9, 1e9); }
 
-/// n < 1 and steep: there 1 - c^2 is small, and formed as (1 - c)(1 + c) keeps its digits.
+/// n < 1 and steep: 1 - c^2 is small there, and keeps its digits if computed as (1 - c)(1 + c).
 bool steepFromDenser(double c, const FresnelConstants& k) { return k.n < 1.0 && c * c > 0.5; }
 
 /// g^2 = n^2 cos^2(theta_t) = n^2 - 1 + c^2; not positive in total reflection.
@@ -20,7 +20,7 @@ double gSquared(double c, const FresnelConstants& k) {
   return steepFromDenser(c, k) ? k.nSquared - (1.0 - c) * (1.0 + c) : k.e + c * c;
 }
 
-/// The cosine on the thinner side, which Schlick's family is written in; nothing in total
+/// The cosine on the thinner side, in terms of which Schlick's family is written; empty for total
 /// reflection.
 std::optional<double> thinnerCosine(double c, const FresnelConstants& k) {
   if (k.n >= 1.0) return c;
@@ -34,7 +34,7 @@ double fifthPower(double x) {
   return x2 * x2 * x;
 }
 
-/// The frame of Schlick's family: policies, and the falling function that stands for (1 - c)^5.
+/// The common part of Schlick's family: edge cases, and the falling function in place of (1 - c)^5.
 template <class Fall>
 double schlickWith(double cosTheta, const FresnelConstants& k, Fall fall) {
   if (k.e == 0.0) return 0.0;
@@ -55,7 +55,7 @@ FresnelConstants fresnelConstants(double n1, double n2) {
   const double d = (n2 - n1) / n1;
   FresnelConstants k;
   k.n = n2 / n1;
-  // Below 0.7 the direct square is the accurate one: 1 + e would cancel.
+  // Below 0.7 squaring directly is more accurate: 1 + e would cancel.
   const bool direct = k.n < 0.7;
   k.e = direct ? k.n * k.n - 1.0 : d * (2.0 + d);
   k.nSquared = direct ? k.n * k.n : 1.0 + k.e;
@@ -148,7 +148,7 @@ double rationalSlope(double n1, double n2) {
 double rationalMinimax(double n1, double n2) {
   const FresnelConstants constants = fromThinner(n1, n2);
   if (constants.e == 0.0) return 0.0;
-  // R falls from 1 as 1 - 2 c / scale at grazing, so half of the angles go to c < scale.
+  // At grazing R falls from 1 as 1 - 2 c / scale, so half of the samples are at c < scale.
   const double scale = std::sqrt(constants.e) / constants.nSquaredPlus1;
   struct Sample {
     double c, exact;

@@ -5,22 +5,22 @@
 
 namespace glint {
 
-// Reflection and refraction at the smooth boundary of two dielectrics.
+// Reflection and refraction at the smooth boundary between two dielectrics.
 //
-// Throughout: the ray comes from the medium with index n1, cosTheta is the cosine of the angle
-// between the normal and the direction back along the ray. It is clamped to [0, 1] (NaN gives 0).
-// Indices are meant to lie in [1e-3, 1e3] and are clamped to [1e-9, 1e9]; whoever reads them from a
-// user refuses what lies outside. Equal indices are no boundary: the reflectance is 0, at grazing
-// incidence too. Total reflection, and grazing incidence on unequal media, give exactly 1.
+// Throughout: the ray comes from the medium with index n1; cosTheta is the cosine of the angle
+// between the normal and the direction back along the ray, clamped to [0, 1] (NaN gives 0). Indices
+// should lie in [1e-3, 1e3] and are clamped to [1e-9, 1e9]; code that reads them from a user
+// rejects values outside. Equal indices are no boundary: the reflectance is 0, even at grazing
+// incidence. Total reflection, and grazing incidence on unequal media, give exactly 1.
 
-/// What depends on the two indices alone, for one direction through the boundary: computed once per
-/// material and side in double, and what the shaders are given. n = n2 / n1.
+/// Values that depend only on the two indices, for one direction through the boundary: computed in
+/// double once per material and side, and passed to the shaders. n = n2 / n1.
 struct FresnelConstants {
   double n = 1.0;              ///< n2 / n1
   double nSquared = 1.0;       ///< n^2
   double nSquaredPlus1 = 2.0;  ///< n^2 + 1
-  /// n^2 - 1, formed as d (2 + d) with d = (n2 - n1) / n1, where the difference of close indices is
-  /// exact. Formed from n^2 it would lose all digits as n2 nears n1. Not 0 unless n1 == n2.
+  /// n^2 - 1, computed as d (2 + d) with d = (n2 - n1) / n1, where the difference of close indices
+  /// is exact. Computed from n^2 it would lose all digits as n2 nears n1. Not 0 unless n1 == n2.
   double e = 0.0;
   double r0 = 0.0;  ///< the reflectance at normal incidence, ((n1 - n2) / (n1 + n2))^2
 };
@@ -45,10 +45,10 @@ struct PolarizedReflectance {
 /// Fresnel's equations without cancellation. With g = n cos(theta_t), n = n2 / n1:
 ///     rs = e / (c + g)^2,  rp = e q / (n^2 c + g)^2,  q = (n^2 + 1) c^2 - 1,  g^2 = e + c^2,
 /// the textbook amplitudes multiplied by their conjugates, so that no difference of nearly equal
-/// rounded values is left but q, which vanishes where rp itself does. g^2 and q are formed from
-/// (1 - c)(1 + c) where c^2 > 1/2 and n < 1. Error below 1e-12 farther than 1e-4 from the critical
-/// cosine for n in [1e-3, 1e3]; nearer, where the slope is infinite, the error of g^2 (about
-/// 8 * 2^-53 c^2) divided by g.
+/// rounded values is left except q, which vanishes where rp itself does. g^2 and q are computed
+/// from (1 - c)(1 + c) where c^2 > 1/2 and n < 1. For n in [1e-3, 1e3] the error is below 1e-12 at
+/// cosines more than 1e-4 from the critical one; closer, where the slope is infinite, it is the
+/// error of g^2 (about 8 * 2^-53 c^2) divided by g.
 PolarizedReflectance fresnelPolarized(double cosTheta, const FresnelConstants& constants);
 PolarizedReflectance fresnelPolarized(double cosTheta, double n1, double n2);
 
@@ -57,8 +57,8 @@ PolarizedReflectance fresnelPolarized(double cosTheta, double n1, double n2);
 double fresnelExact(double cosTheta, const FresnelConstants& constants);
 double fresnelExact(double cosTheta, double n1, double n2);
 
-/// The textbook's equations, with the half (E1): from n1, n2 and cos(theta_t). For plots
-/// and for the cost table; loses digits near n1 = n2 and near the critical angle.
+/// The textbook equations, including the half (E1), from n1, n2 and cos(theta_t). For plots and the
+/// cost table; loses digits near n1 = n2 and near the critical angle.
 double fresnelTextbook(double cosTheta, double n1, double n2);
 
 /// Schlick 1994: R0 + (1 - R0)(1 - c)^exponent; c is cosTheta where n1 < n2 and the cosine of the
@@ -77,15 +77,15 @@ double schlickRational(double cosTheta, const FresnelConstants& constants, doubl
 /// with n the larger index over the smaller. Both directions have the same k; 0 if n1 == n2.
 double rationalSlope(double n1, double n2);
 
-/// The k with the smallest maximum error over all angles. The error at any angle falls as k grows,
+/// The k with the smallest maximum error over all angles. At every angle the form falls as k grows,
 /// so the largest overestimate falls and the largest underestimate grows with k: the best k is
 /// where they are equal, found by bisection in [0, 64 (rationalSlope + 1)] to a relative 1e-7, on
-/// 512 angles crowded towards grazing. Above n = 11 the overestimate is the larger for every k; the
-/// end of the interval is then as good as any (error 0.2 and more: no form of this family suits
-/// such n). About 0.1 ms: once per material.
+/// 512 angles concentrated towards grazing. Above n = 11 the overestimate is larger for every k;
+/// the end of the interval is then as good as any (error 0.2 and more: no form of this family suits
+/// such n). Takes about 0.1 ms: once per material.
 double rationalMinimax(double n1, double n2);
 
-/// The cosine at and below which all light is reflected: sqrt(1 - (n2/n1)^2); 0 unless n1 > n2.
+/// The cosine up to which all light is reflected: sqrt(1 - (n2/n1)^2); 0 unless n1 > n2.
 double criticalCosine(double n1, double n2);
 
 /// The angle of incidence in radians at which R_par is 0: atan(n2 / n1).
@@ -97,11 +97,11 @@ glm::dvec3 metalReflectance(double cosTheta, const glm::dvec3& color);
 /// The mirror direction of a unit incident direction: i - 2 (i.N) N.
 glm::dvec3 reflect(const glm::dvec3& incident, const glm::dvec3& normal);
 
-/// The refracted unit direction of a unit incident direction (which points to the surface), with
-/// the normal on the side it comes from; nothing in total reflection, which is where fresnelExact
-/// gives 1 because g^2 <= 0. In two parts: tangential (n1/n2)(i - (i.N) N), normal -sqrt(1 -
-/// |tangential|^2) N, so that the length is 1 whatever the rounding. Equal indices give the
-/// incident direction itself.
+/// The refracted unit direction for a unit incident direction (which points to the surface), with
+/// the normal on the side it comes from; empty for total reflection, that is where fresnelExact
+/// gives 1 because g^2 <= 0. Computed in two parts: tangential (n1/n2)(i - (i.N) N), normal
+/// -sqrt(1 - |tangential|^2) N, so that the length is 1 regardless of rounding. Equal indices give
+/// the incident direction itself.
 std::optional<glm::dvec3> refract(const glm::dvec3& incident, const glm::dvec3& normal, double n1,
                                   double n2);
 

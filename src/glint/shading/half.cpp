@@ -9,10 +9,10 @@ std::uint16_t halfBits(double x) {
   if (std::isnan(x)) return std::uint16_t(sign | 0x7e00);
   const double size = std::abs(x);
   if (size >= 65520) return std::uint16_t(sign | 0x7c00);
-  // In steps of the last bit, 2^-24 below the smallest normal number 2^-14.
+  // In units of the last bit, 2^-24 below the smallest normal number 2^-14.
   const int exponent = size < 0x1p-14 ? -14 : std::ilogb(size);
   const double steps = std::nearbyint(std::ldexp(size, 10 - exponent));  // ties to even
-  // Of normal numbers steps are 1024 to 2048, of which 2048 carries into the exponent by itself.
+  // Normal numbers have 1024 to 2048 steps; 2048 carries into the exponent by itself.
   return std::uint16_t(sign | (std::uint32_t(exponent + 14) * 1024 + std::uint32_t(steps)));
 }
 

@@ -16,14 +16,14 @@ double powerOfTwo(double x, int gamma) {
   return x;
 }
 
-/// The power of two that powerOfTwo raises to.
+/// The power of two to which powerOfTwo raises.
 int validGamma(int gamma) {
   int valid = 1;
   while (2 * valid <= std::min(gamma, largestGamma)) valid *= 2;
   return valid;
 }
 
-/// The policies that all forms share, and the form itself for what is left: lambda in [0, 2],
+/// The edge cases that all forms share, and the form itself for the rest: lambda in [0, 2],
 /// alpha > 0.
 template <class Form>
 double lobeWith(double lambda, double alpha, Form form) {
@@ -71,7 +71,7 @@ double lobeInteger(double lambda, double alpha) {
 }
 
 float lobeTableEntry(int place, double alpha, int steps) {
-  // In long double, so that the float is the nearest.
+  // In long double, so that rounding gives the nearest float.
   return float(std::pow((long double)(place) / steps, (long double)(alpha)));
 }
 

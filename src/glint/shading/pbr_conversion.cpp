@@ -56,7 +56,7 @@ MetalShare metalShare(const SpecularGlossiness& from) {
     return std::max({clampTo(v.x, 0, 1), clampTo(v.y, 0, 1), clampTo(v.z, 0, 1)});
   };
   const double f0 = largest(from.specular);
-  // A little above 0.04, so that the share does not jump where a file rounds that number.
+  // Rises gradually from 0.04, so that the share does not jump if a file rounds that number.
   const double start = clampTo((f0 - dielectricF0) / dielectricF0, 0, 1);
   return {f0 > 0 ? start * clampTo(1 - largest(from.diffuse) / f0, 0, 1) : 0, f0};
 }

@@ -5,14 +5,14 @@
 
 namespace glint {
 
-// glTF's physically based material, as Phong's material. Base colour becomes C and is left to
-// the caller; so are transmission, alpha and emission.
+// Converts glTF's physically based material to Phong's. Base colour becomes C and is left to the
+// caller, as are transmission, alpha and emission.
 
-/// What a glTF material says, with glTF's defaults. Values out of range are clamped.
+/// The parameters of a glTF material, with glTF's defaults. Values out of range are clamped.
 struct PbrParameters {
   double metallic = 1.0;        ///< [0, 1]
   double roughness = 1.0;       ///< [0, 1], perceptual: GGX's alpha is its square
-  double ior = 1.5;             ///< KHR_materials_ior, >= 1; 0 stands for an infinite index
+  double ior = 1.5;             ///< KHR_materials_ior, >= 1; 0 means an infinite index
   double specularFactor = 1.0;  ///< KHR_materials_specular, [0, 1]
 };
 
@@ -30,7 +30,7 @@ struct ConvertedParameters {
 /// The m_d of a metal.
 inline constexpr double metalDiffuse = 0.6;
 
-/// The smallest roughness that has an exponent of its own; less counts as this.
+/// The smallest roughness with an exponent of its own; smaller values count as this.
 inline constexpr double smallestRoughness = 0.1;
 
 /// Phong's alpha = alpha' / 4 with Blinn's alpha' = 2 / r^4 - 2, for which the Blinn-Phong
@@ -41,26 +41,26 @@ double exponentFromRoughness(double roughness);
 /// The inverse: (2 / (4 alpha + 2))^(1/4), clamped to [0.1, 1].
 double roughnessFromExponent(double exponent);
 
-/// The m_s of the conversion, in [0, 1): how bright the peak of the highlight is of a material of
+/// The m_s of the conversion, in [0, 1): the brightness of the highlight's peak for a material with
 /// reflectance F0 at normal incidence and Phong exponent alpha = alpha' / 4.
 ///
 /// The energy-normalised Blinn-Phong lobe F0 (alpha' + 8) / (8 pi) (N.H)^alpha', in units in which
 /// a white diffuse surface sends 1, peaks at F0 (alpha' + 8) / 8 (Akenine-Moeller et al., Real-Time
-/// Rendering). Of this, F0 is the peak of the uniform lobe alpha' = 0, which is diffuse light; what
-/// stands above it is F0 alpha' / 8. A lobe of alpha < 1 ends at 90 degrees in a visible edge, so
-/// the share alpha' / (alpha' + 8) that stands above is taken once more:
+/// Rendering). Of this, F0 is the peak of the uniform lobe alpha' = 0, which is diffuse light; the
+/// excess is F0 alpha' / 8. A lobe of alpha < 1 ends at 90 degrees in a visible edge, so the excess
+/// is multiplied by its share of the peak, alpha' / (alpha' + 8), once more:
 ///     x = F0 (alpha' / 8) alpha' / (alpha' + 8).
-/// A picture ends at 1, so x is bent over: x / (1 + x), the same for a weak highlight and never
-/// above what white paper sends.
+/// A picture's range ends at 1, so x is compressed to x / (1 + x): unchanged for a weak highlight,
+/// and never brighter than white paper.
 double highlightPeak(double f0, double exponent);
 
-/// F0 = ((n-1)/(n+1))^2 specularFactor of a dielectric.
+/// F0 = ((n-1)/(n+1))^2 specularFactor for a dielectric.
 double dielectricReflectance(const PbrParameters& pbr);
 
 /// The conversion. F0 = ((n-1)/(n+1))^2 specularFactor for dielectrics and 1 for metals, whose
-/// colour the highlight gets by m_sm = metallic; m_s = highlightPeak, m_d = 1 for dielectrics and
-/// 0.6 for metals, so that they keep their colour where there is no environment to reflect; both
-/// interpolated by `metallic`, and so is the share, F0. m_a = 1.
+/// highlight gets their colour through m_sm = metallic; m_s = highlightPeak; m_d = 1 for
+/// dielectrics and 0.6 for metals, so that they keep their colour if there is no environment to
+/// reflect. Both are interpolated by `metallic`, and so is the share, F0. m_a = 1.
 ConvertedParameters convertPbr(const PbrParameters& pbr);
 
 /// KHR_materials_pbrSpecularGlossiness, with its defaults. Linear RGB, [0, 1]; values out of range
@@ -71,20 +71,20 @@ struct SpecularGlossiness {
   double glossiness = 1.0;   ///< 1 - roughness
 };
 
-/// How much of a metal it is, and how much it reflects at normal incidence, both in [0, 1]; see
+/// How metallic the material is, and its reflectance at normal incidence, both in [0, 1]; see
 /// below.
 struct MetalShare {
   double metallic = 0, reflectance = 0;
 };
 MetalShare metalShare(const SpecularGlossiness&);
 
-/// The same in the notes' parameters, with C.
+/// The conversion to the notes' parameters, with C.
 ///
-/// A material that has less diffuse light than mirror light is a metal by that share
-/// mu = 1 - max(diffuse) / max(specular) (0 where specular is at most 0.04, as of every
-/// dielectric): m_sm = mu, and C goes from `diffuse` to `specular` with it. The rest is
-/// convertPbr() with metallic mu, roughness 1 - glossiness and the n whose reflectance at normal
-/// incidence is max(specular). A coloured highlight of a dielectric becomes white.
+/// A material with less diffuse than specular colour is a metal with the share
+/// mu = 1 - max(diffuse) / max(specular) (0 if specular is at most 0.04, as for every dielectric):
+/// m_sm = mu, and C goes from `diffuse` to `specular` with it. The rest is convertPbr() with
+/// metallic mu, roughness 1 - glossiness and the n whose reflectance at normal incidence is
+/// max(specular). A dielectric's coloured highlight becomes white.
 std::pair<ConvertedParameters, glm::dvec3> convertSpecularGlossiness(const SpecularGlossiness&);
 
 }  // namespace glint

@@ -5,11 +5,11 @@
 
 namespace glint {
 
-// Specular anti-aliasing: a highlight that is narrower than what a pixel sees of the normals is
-// widened to that, and dimmed so that it sends the same light: --specular-antialiasing.
+// Specular anti-aliasing: a highlight narrower than the spread of normals within a pixel is widened
+// to that spread, and dimmed so that it sends the same light: --specular-antialiasing.
 
-/// By what it is widened: how normals turn from pixel to pixel, or how far those that a smaller
-/// level of the normal map stands for are apart.
+/// What determines the widening: how normals turn from pixel to pixel, or how far apart the normals
+/// averaged in a smaller level of the normal map are.
 enum class SpecularAntialiasing { none, kaplanyan, toksvig };
 
 inline constexpr std::array<std::string_view, 3> specularAntialiasingNames{"none", "kaplanyan",
@@ -20,39 +20,40 @@ inline constexpr std::array<std::string_view, 3> specularAntialiasingNames{"none
 // Specular Antialiasing, 2019, and Stable Geometric Specular Antialiasing with Projected-Space NDF
 // Filtering, 2021: the width a^2 of the distribution of normals grows by
 //     k = min(2 s^2 (|dN/dx|^2 + |dN/dy|^2), 0.18),  s^2 = 1 / (2 pi) pixels^2,
-// s^2 the variance of the pixel's kernel, a Gaussian. The exponent and a go by a^2 = 2 / (n + 2)
-// (Walter et al. 2007; n Blinn-Phong's; four times Phong's), and the peak by the normalisation of
-// that distribution, (n + 2) / (2 pi). The sum of both directions stands for either: of normals
-// that turn in one direction alone twice the variance is too much by a factor of one, of a sphere's
-// by two, so that what is filtered is a little too wide, never too narrow.
+// where s^2 is the variance of the pixel's kernel, a Gaussian. The exponent and a are related by
+// a^2 = 2 / (n + 2) (Walter et al. 2007; n is Blinn-Phong's, four times Phong's), and the peak by
+// the normalisation of that distribution, (n + 2) / (2 pi). The sum over both directions is used
+// for each. Compared with twice the variance, it is exact for normals that turn in one direction
+// only and too large by a factor of two for a sphere's, so the result is a little too wide, never
+// too narrow.
 //
-// Normals alone count: the change of H by near lights or a near eye is left out. So it is meant for
-// lights and eyes farther away than the surface is curved.
+// Only normals count: the change of H due to near lights or a near eye is ignored. This is
+// therefore meant for lights and eyes at distances larger than the surface's radius of curvature.
 
 inline constexpr double pixelVariance = 0.15915494309189535;  ///< s^2, pixels^2
 inline constexpr double largestWidening = 0.18;               ///< of a^2
 
-/// What a lobe becomes.
+/// The filtered lobe.
 struct FilteredLobe {
   double exponent = 0;
   double scale = 1;  ///< of its peak, (0, 1]
 };
 
-/// `turn` is |dN/dx|^2 + |dN/dy|^2 of the unit normal from pixel to pixel, at least 0 (below, and
-/// NaN, it counts as that); exponent >= 0 of the lobe of Blinn-Phong or of Phong.
+/// `turn` is |dN/dx|^2 + |dN/dy|^2 of the unit normal from pixel to pixel, at least 0 (negative
+/// values and NaN count as 0); exponent >= 0, of the Blinn-Phong or Phong lobe.
 FilteredLobe filteredLobe(double exponent, bool blinn, double turn);
 
 // Toksvig, Mipmapping Normal Maps, Journal of Graphics Tools 10 (3), 2005: the mean N of unit
-// normals is the shorter the farther they are apart; of slopes that are normally distributed with
-// the variance v it is about 1 / (1 + v) long, so that v = (1 - |N|) / |N|. Blinn-Phong's lobe of
-// the exponent n becomes that of n / (1 + n v), its peak (1 + n') / (1 + n) of what it was. Phong's
-// R turns twice as far as N: a becomes a / (1 + 4 a v), the peak likewise, which keeps all of its
-// light, 2 pi / (a + 1).
+// normals is shorter the farther apart they are; for slopes that are normally distributed with
+// variance v its length is about 1 / (1 + v), so that v = (1 - |N|) / |N|. Blinn-Phong's lobe with
+// exponent n becomes that of n' = n / (1 + n v), its peak (1 + n') / (1 + n) of what it was.
+// Phong's R turns twice as far as N: a becomes a / (1 + 4 a v), and the peak changes likewise,
+// which keeps all of its light, 2 pi / (a + 1).
 //
-// |N| cannot be had from a level's own texels: of 8 bits, they are off by up to 0.007 in length, as
-// if an exponent of 140 were the most there is. src/glint/render/normal_lengths.h computes it.
+// |N| cannot be computed from a level's own texels: with 8 bits their lengths are off by up to
+// 0.007, as if no exponent could exceed 140. src/glint/render/normal_lengths.h computes it.
 
-/// `variance` is v, at least 0 (below, and NaN, it counts as that).
+/// `variance` is v, at least 0 (negative values and NaN count as 0).
 FilteredLobe toksvigLobe(double exponent, bool blinn, double variance);
 
 }  // namespace glint

@@ -14,8 +14,8 @@ glm::dvec3 validIntensity(const glm::dvec3& v) {
   return {clampTo(v.x, 0.0, 1e30), clampTo(v.y, 0.0, 1e30), clampTo(v.z, 0.0, 1e30)};
 }
 
-/// Both terms of one light; `lambda` is asked for only where the light's front side shows, so that
-/// no half vector is formed where there may be none.
+/// Both terms of one light. `lambda` is called only if the light is in front of the surface, so
+/// that no half vector is formed where none may exist.
 template <class Lambda>
 LightTerms light(const SumParameters& p, const glm::dvec3& N, const glm::dvec3& L,
                  const glm::dvec3& V, const glm::dvec3& intensity, bool blinn, double alpha,
