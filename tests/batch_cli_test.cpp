@@ -470,8 +470,13 @@ TEST(Batch, ReferencesAreComparedAtOnce) {
   EXPECT_THAT(run(darker), ElementsAre(1, 1, 1));
   EXPECT_THAT(run({darker[0], darker[1], "--reference-threshold", "0.5"}), ElementsAre(0, 0, 0));
   EXPECT_THAT(run({darker[0], darker[1], "--reference-threshold", "0.0001"}), ElementsAre(1, 1, 1));
+  // A picture that is there already is not drawn anew, but compared all the same.
+  EXPECT_THAT(run({darker[0], darker[1], "--resume"}), ElementsAre(1, 1, 1));
+  EXPECT_THAT(run({"--resume"}), ElementsAre(0, 0, 0));
+  EXPECT_THAT(run({"--resume"}), ElementsAre(0, 0, 0));
   std::ofstream(folder / "baseline/torus.png") << "no picture";
   EXPECT_THAT(run({}), ElementsAre(2, 0, 2));
+  EXPECT_THAT(run({"--resume"}), ElementsAre(2, 0, 2));
   EXPECT_THAT(run(darker), ElementsAre(2, 1, 2));
 }
 

@@ -309,4 +309,25 @@ TEST(StructuralSimilarity, ClosedCases) {
   }
 }
 
+TEST(StructuralSimilarity, HoldsForValuesFarAboveOne) {
+  const auto stripes = [](double even, double odd) {
+    StoredImage image{16, 16, 3, std::vector<float>()};
+    for (int i = 0; i < 16 * 16; ++i)
+      std::get<2>(image.values)
+          .insert(std::get<2>(image.values).end(), 3, float(i % 2 ? odd : even));
+    return image;
+  };
+  const auto flat = [&](double value) { return stripes(value, value); };
+  for (const double v : {30.0, 1e4, 1e10, 1e20, 3e38}) {
+    EXPECT_NEAR(ssim(flat(v), flat(v)), 1, 1e-12) << v;
+    EXPECT_NEAR(ssim(flat(v), flat(-v)), -1, 1e-4 / v) << v;
+    // Even pictures: the luminance term alone, of values encoded by the power of the sRGB curve.
+    // Its offset and C1 are 0.055 and 1e-4 beside 4.3 and more; floats are rounded to 6e-8.
+    const double ratio = std::pow(0.5, 1 / 2.4), offset = 0.055 / std::pow(v, 1 / 2.4);
+    EXPECT_NEAR(ssim(flat(v), flat(v / 2)), 2 * ratio / (1 + ratio * ratio), offset + 1e-6) << v;
+    // The same stripes in the other order: equal variances, opposite covariance.
+    if (v >= 1e4) EXPECT_NEAR(ssim(stripes(v, 1.1 * v), stripes(1.1 * v, v)), -1, 2e-3) << v;
+  }
+}
+
 }  // namespace glint::test::compare_test

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "glint/image/mipmaps.h"
 #include "reference_scenes.h"
@@ -36,6 +37,18 @@ Sampler sampler(Filter filter, Wrap wrap, MipFilter mip = MipFilter::none) {
 
 // Codes decode to floats: half an ulp.
 constexpr double decoding = 3e-8;
+
+TEST(ReferenceTexture, CoordinatesBeyondAllBoundsGiveSomeTexel) {
+  const ByteImage image = grey(4, {10, 60, 120, 250});
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const Filter filter : {Filter::nearest, Filter::linear})
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirroredRepeat, Wrap::clampToEdge})
+      for (const double u : {1e300, 1e308, std::numeric_limits<double>::max(), inf, std::nan("")})
+        for (const glm::dvec2 at : {glm::dvec2(u, 0.5), glm::dvec2(-u, 0.5), glm::dvec2(0.5, u)}) {
+          const double red = TextureSampler(image, {}, sampler(filter, wrap)).sampleLevel(at, 0).r;
+          EXPECT_TRUE(red >= linear(10) - decoding && red <= linear(250) + decoding) << u;
+        }
+}
 
 TEST(ReferenceTexture, NearestTexelUnderEveryWrap) {
   const ByteImage image = grey(4, {10, 60, 120, 250});

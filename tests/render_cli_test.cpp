@@ -211,6 +211,30 @@ TEST(Render, ASavedLookGivesTheSameBytes) {
   EXPECT_EQ(contents(folder / "look.json"), contents(folder / "info.json"));
 }
 
+// The reference's own default, no anti-aliasing, gives way to a look's as to the command line's.
+TEST(Render, TheReferenceKeepsTheAntiAliasingOfALook) {
+  Folder folder("reference_look");
+  for (const std::vector<std::string>& given : std::vector<std::vector<std::string>>{
+           {}, {"--anti-aliasing", "msaa:4"}, {"--anti-aliasing", "msaa:2"}}) {
+    std::vector<std::string> first{"render",
+                                   sphere,
+                                   "-o",
+                                   folder / "a.png",
+                                   "--resolution",
+                                   "24,24",
+                                   "--rendering-backend",
+                                   "reference",
+                                   "--save-look",
+                                   folder / "look.json"};
+    first.insert(first.end(), given.begin(), given.end());
+    expectDone(runGlint(first));
+    expectDone(runGlint({"render", sphere, "-o", folder / "b.png", "--rendering-backend",
+                         "reference", "--look", folder / "look.json"}));
+    EXPECT_EQ(contents(folder / "a.png"), contents(folder / "b.png"))
+        << testing::PrintToString(given);
+  }
+}
+
 // A picture says how it was made, and that makes it again.
 TEST(Render, ThePictureHoldsItsLook) {
   Folder folder("picture_look");

@@ -8,6 +8,7 @@
 #include "glint/options/help.h"
 #include "glint/options/look_options.h"
 #include "glint/options/process.h"
+#include "glint/options/ranges.h"
 #include "glint/options/read_options.h"
 
 int main(int argc, char** argv) {
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
   app.add_option("--scale", options.scale,
                  "size of text and widgets, 0.5 to 4 [default: the screen's]")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.5, 4.0).description(""));
+      ->check(numberIn(0.5, 4.0));
   glint::addConfineOption(app);
   glint::addDecodeLimitOption(app);
   const auto makeLook = glint::addLookOptions(app);

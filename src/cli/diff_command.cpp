@@ -7,6 +7,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/options/help.h"
+#include "glint/options/ranges.h"
 
 namespace glint {
 namespace {
@@ -89,7 +90,7 @@ Command addDiff(CLI::App& app) {
       ->add_option("--scale", request.settings.scale,
                    "factor of |a - b| in that picture [default: 1]")
       ->type_name("K")
-      ->check(CLI::Range(0.0, 1e6).description(""));
+      ->check(numberIn(0.0, 1e6));
   text("--json", request.json, "FILE", "write all metrics as JSON; - is stdout");
   text("--junit", request.junit, "FILE", "write the results as JUnit XML, for a CI server");
   text("--markdown", request.markdown, "FILE", "write a summary for a merge request; - is stdout");
@@ -100,7 +101,7 @@ Command addDiff(CLI::App& app) {
       ->add_option("--jobs", request.jobs,
                    "number of pairs compared at the same time [default: the number of processors]")
       ->type_name("N")
-      ->check(CLI::Range(1, 256).description(""));
+      ->check(wholeNumberIn(1, 256));
   text("--conditions", request.conditions, "FILE",
        "of folders: lines PATTERN OPTION... for some pairs [default: glint-diff.txt in A]");
   CLI::Option* updating =

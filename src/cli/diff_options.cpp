@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/options/ranges.h"
 
 namespace glint {
 namespace {
@@ -23,6 +25,7 @@ double numberOf(const std::string& text, const char* option) {
   return value;
 }
 
+// Numbers that are 0 or more.
 std::vector<double> numbersOf(const std::string& text, const std::string& separators,
                               const char* option, const char* form) {
   std::vector<double> values;
@@ -32,7 +35,7 @@ std::vector<double> numbersOf(const std::string& text, const std::string& separa
     double value = 0;
     const char* last = text.data() + (end == std::string::npos ? begin : end);
     const auto result = std::from_chars(text.data() + std::min(begin, text.size()), last, value);
-    if (end == std::string::npos || result.ec != std::errc() || result.ptr != last)
+    if (end == std::string::npos || result.ec != std::errc() || result.ptr != last || !(value >= 0))
       throw InputError(std::string(option) + " '" + printablePath(text) + "': give " + form);
     values.push_back(value);
     begin = end + 1;
@@ -43,7 +46,7 @@ std::vector<double> numbersOf(const std::string& text, const std::string& separa
 PixelBox boxOf(const std::string& text) {
   const auto v = numbersOf(text, ",-,", "--ignore", "x1,y1-x2,y2, whole pixels");
   for (const double value : v)
-    if (value < 0 || value > 1e6 || value != std::floor(value))
+    if (value > 1e6 || value != std::floor(value))
       throw InputError("--ignore '" + printablePath(text) + "': give x1,y1-x2,y2, whole pixels");
   return {int(std::min(v[0], v[2])), int(std::min(v[1], v[3])), int(std::max(v[0], v[2])),
           int(std::max(v[1], v[3]))};
@@ -65,7 +68,10 @@ std::array<float, 3> colourOf(const std::string& text) {
       return colour;
     }
   }
-  const auto v = numbersOf(text, ",,", "--alpha over:", "r,g,b in linear light, or #rrggbb");
+  const char* form = "r,g,b in linear light, 0 to 1e6, or #rrggbb";
+  const auto v = numbersOf(text, ",,", "--alpha over:", form);
+  if (std::ranges::max(v) > 1e6)
+    throw InputError("--alpha over: '" + printablePath(text) + "': give " + form);
   return {float(v[0]), float(v[1]), float(v[2])};
 }
 
@@ -103,19 +109,19 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
           "--tolerance", given.tolerance,
           "of a pixel, 0 to 1: a distance, the same as pixelmatch's threshold [default: 0.1]")
       ->type_name("T")
-      ->check(CLI::Range(0.0, 1.0).description(""));
+      ->check(numberIn(0.0, 1.0));
   text("--pixelmatch", given.pixelmatch, "7|8",
        "the version of pixelmatch whose distance is used: 7 in YIQ, 8 HyAB in OKLab [default: 7]");
   command
       .add_option("--shift", given.shift,
                   "do not count pixels that the other picture has up to N pixels away")
       ->type_name("N")
-      ->check(CLI::Range(0, 16).description(""));
+      ->check(wholeNumberIn(0, 16));
   command
       .add_option("--window", given.window,
                   "count in the worst window of N x N pixels instead of in the whole picture")
       ->type_name("N")
-      ->check(CLI::Range(1, 1 << 20).description(""));
+      ->check(wholeNumberIn(1, 1 << 20));
   command.add_flag("--ignore-anti-aliasing", given.ignoreAntiAliasing,
                    "do not count pixels that look anti-aliased");
   command.add_option("--ignore", given.ignored, "ignore a rectangle, corners included; repeatable")
@@ -135,14 +141,14 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
       .add_option("--pixels-per-degree", given.pixelsPerDegree,
                   "viewing condition of FLIP [default: 67.0206]")
       ->type_name("P")
-      ->check(CLI::Range(1e-3, 1000.0).description(""));
+      ->check(numberIn(1e-3, 1000.0));
   text("--screen", given.screen, "distance,pixels,width",
        "viewing condition of FLIP by metres to the screen, its width in pixels, and in metres");
   text("--start-exposure", given.startExposure, "EV", "for HDR-FLIP [default: from the baseline]");
   text("--stop-exposure", given.stopExposure, "EV", "for HDR-FLIP [default: from the baseline]");
   command.add_option("--exposures", given.exposures, "for HDR-FLIP [default: one a stop]")
       ->type_name("N")
-      ->check(CLI::Range(1, 64).description(""));
+      ->check(wholeNumberIn(1, 64));
   text("--tone-mapper", given.toneMapper, "aces|hable|reinhard", "for HDR-FLIP [default: aces]");
 }
 

@@ -45,12 +45,8 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   plan.noteInputs(std::filesystem::exists(options.json, ignored) ||
                   std::filesystem::exists(saveFile, ignored));
   const std::vector<Sweep> sweeps(options.sweeps.begin(), options.sweeps.end());
-  Look look = makeLook();
-  if (reference) {
-    if (!options.antiAliasingGiven && look.antiAliasing == AntiAliasing{})
-      look.antiAliasing.mode = AntiAliasing::Mode::none;
-    checkReferenceAntiAliasing(look.antiAliasing);
-  }
+  const Look look = makeLook(reference ? referenceDefaults() : Look{});
+  if (reference) checkReferenceAntiAliasing(look.antiAliasing);
   if (makeLook.savesResolved(look) && plan.count() != std::size_t(1))
     throw InputError(
         "--save-look: the forms that --max-error or --shading auto choose differ from picture to "
@@ -112,11 +108,7 @@ Command addRender(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*command, *options);
   auto look = addLookOptions(*command);
-  const CLI::Option* antiAliasing = command->get_option("--anti-aliasing");
-  return [options, look, antiAliasing] {
-    options->antiAliasingGiven = antiAliasing->count() > 0;
-    return render(*options, look);
-  };
+  return [options, look] { return render(*options, look); };
 }
 
 }  // namespace glint

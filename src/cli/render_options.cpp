@@ -4,6 +4,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/options/ranges.h"
 #include "glint/options/read_options.h"
 
 namespace glint {
@@ -28,7 +29,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "of a JPEG or WebP, 1 to 100; from 90 on a JPEG has colours at full resolution, "
                   "at 100 a WebP is without loss [default: 90]")
       ->type_name("Q")
-      ->check(CLI::Range(1, 100).description(""));
+      ->check(wholeNumberIn(1, 100));
   command
       .add_option("--output-format", options.formatName,
                   "the pictures' format, whatever their names; raw is for programs, several on "
@@ -54,13 +55,13 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
           "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
           "right")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000).description(""));
+      ->check(wholeNumberIn(1, 100000));
   command
       .add_option("--frames", options.frames,
                   "draw N pictures (1 to 100000) spread evenly over the animation; the last is one "
                   "step before its end, so that the sequence can loop")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000).description(""));
+      ->check(wholeNumberIn(1, 100000));
   command
       .add_option(
           "--sweep", options.sweeps,
@@ -91,7 +92,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "number of models read and decoded at the same time, 1 to 1024 [default: the "
                   "number of processors, at most 8]")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024).description(""))
+      ->check(wholeNumberIn(1, 1024))
       ->group(batch);
   command
       .add_flag("--resume", options.resume,
@@ -114,7 +115,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "the largest mean FLIP that counts as the same; without it pictures must be "
                   "identical")
       ->type_name("T")
-      ->check(CLI::Range(0.0, 1e30).description(""))
+      ->check(numberIn(0.0, 1e30))
       ->group(batch);
 }
 

@@ -27,7 +27,6 @@ struct RenderOptions {
   std::vector<std::string> sweeps;
   std::string reference;
   std::optional<double> referenceThreshold;
-  bool antiAliasingGiven = false;
 
   bool usesReference() const { return backend == "reference"; }
   bool hasList() const { return !list.empty(); }

@@ -15,6 +15,7 @@
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
+#include "glint/options/ranges.h"
 #include "glint/scene/look_text.h"
 #include "glint/stability/plots.h"
 #include "glint/stability/profile.h"
@@ -167,7 +168,7 @@ Command addStability(CLI::App& app) {
           "scenes, half of them pathological, and fail if anything is NaN or infinite; 1e8 "
           "takes minutes")
       ->type_name("COUNT")
-      ->check(CLI::Range(1.0, 1e12).description(""))
+      ->check(numberIn(1.0, 1e12))
       ->take_last();
   command->add_flag("--list", options->list, "list the cases instead of running them");
   text("--output", options->output, "DIR",

@@ -16,6 +16,7 @@
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
+#include "glint/options/ranges.h"
 #include "glint/options/read_options.h"
 #include "glint/scene/look_text.h"
 #include "glint/study/cost_measurement.h"
@@ -251,13 +252,13 @@ Command addStudy(CLI::App& app) {
           "frames measured of each variant, after 10 that are not [default: 60; with --quick "
           "30]")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000).description(""));
+      ->check(wholeNumberIn(1, 100000));
   command
       ->add_option("--time-budget", given->timeBudget,
                    "stop after this time, as Ctrl-C does, and report what was measured by then and "
                    "what is missing")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.001, 1e6).description(""));
+      ->check(numberIn(0.001, 1e6));
   command
       ->add_option("--clock", given->clock,
                    "what times are compared by: wall, until a frame is done; cpu, what all threads "
@@ -270,7 +271,7 @@ Command addStudy(CLI::App& app) {
                    "no front where one program measured twice differs from itself by more than "
                    "this [default: 10]")
       ->type_name("PERCENT")
-      ->check(CLI::Range(0.0, 1e6).description(""));
+      ->check(numberIn(0.0, 1e6));
   command
       ->add_option("--rendering-backend", given->backend,
                    "how to open GL; auto tries egl, then osmesa [default: auto]")

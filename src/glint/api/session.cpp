@@ -124,12 +124,8 @@ GpuScene& Session::State::upload(const std::shared_ptr<Model::State>& model, con
 template <typename Draw>
 auto Session::State::with(const std::shared_ptr<Model::State>& model, const Options& options,
                           Draw draw) {
-  Look look = lookFrom(options);
+  const Look look = lookFrom(options, context ? Look{} : referenceDefaults());
   if (!context) {
-    const bool given = std::ranges::any_of(
-        options, [](const auto& each) { return each.first == "anti-aliasing"; });
-    if (!given && look.antiAliasing == AntiAliasing{})
-      look.antiAliasing.mode = AntiAliasing::Mode::none;
     checkReferenceAntiAliasing(look.antiAliasing);
   } else {
     checkFork();

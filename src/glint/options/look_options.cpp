@@ -62,14 +62,14 @@ LookSource addLookOptions(CLI::App& app) {
   return LookSource(state);
 }
 
-Look LookSource::operator()() const {
+Look LookSource::operator()(const Look& defaults) const {
   std::vector<std::pair<std::string, std::string>> given;
   if (!options_->lookFile.empty()) given.emplace_back("look", options_->lookFile);
   for (const auto& [p, option] : options_->options) {
     if (option->count() == 0) continue;
     for (const std::string& text : option->results()) given.emplace_back(p->name, text);
   }
-  const Look look = lookFrom(given);
+  const Look look = lookFrom(given, defaults);
   if (!options_->saveFile.empty() && !hasBudget(look))
     writeText(options_->saveFile, saveLook(look));
   return look;

@@ -17,9 +17,9 @@ struct LookOptions;
 class LookSource {
  public:
   explicit LookSource(std::shared_ptr<LookOptions> options) : options_(std::move(options)) {}
-  /// The look that they add up to (options over look file over defaults). Writes the --save-look
+  /// The look that they add up to (options over look file over `defaults`). Writes the --save-look
   /// file, unless the look has an error budget, since its forms then depend on the scene.
-  Look operator()() const;
+  Look operator()(const Look& defaults = {}) const;
   /// The --save-look file; empty if none.
   const std::string& saveFile() const;
   /// Whether --save-look has to wait until the forms are chosen.

@@ -44,8 +44,8 @@ void mergeMaterials(Look& look, const Look& options) {
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
 }
 
-Look lookFrom(const GivenOptions& options) {
-  Look look, materials;
+Look lookFrom(const GivenOptions& options, const Look& defaults) {
+  Look look = defaults, materials;
   for (const auto& [name, text] : options)
     if (name == "look") readLookFile(look, text);
   checkContradictions(options);

@@ -80,9 +80,10 @@ void readLookOver(Look& look, const std::string& json, const std::string& source
 
 /// The look that results from options, given by their names without "--" and their texts: later
 /// values override earlier ones of the same name, except that lights and materials accumulate.
-/// "look" is a look file, which all others override, wherever it comes. Throws InputError, also for
-/// contradictory options.
-Look lookFrom(const std::vector<std::pair<std::string, std::string>>& options);
+/// "look" is a look file, which all others override, wherever it comes. What neither sets is that
+/// of `defaults`. Throws InputError, also for contradictory options.
+Look lookFrom(const std::vector<std::pair<std::string, std::string>>& options,
+              const Look& defaults = {});
 
 /// Merges the options' materials into the look. They override its own, even if an option is for all
 /// materials and the look's edit for a single one.

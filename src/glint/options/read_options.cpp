@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "glint/gltf/file.h"
+#include "glint/options/ranges.h"
 #include "glint/render/decode.h"
 
 namespace glint {
@@ -25,7 +26,7 @@ void addDecodeLimitOption(CLI::App& command) {
           "refused, as is an environment's picture of three times that "
           "[default: 256, or 128 times their size in the file]")
       ->type_name("MIB")
-      ->check(CLI::Range(1.0, 1048576.0).description(""))
+      ->check(numberIn(1.0, 1048576.0))
       ->take_last();
 }
 

@@ -27,6 +27,12 @@ int scaleOf(const AntiAliasing& antiAliasing) {
 
 }  // namespace
 
+Look referenceDefaults() {
+  Look look;
+  look.antiAliasing.mode = AntiAliasing::Mode::none;
+  return look;
+}
+
 void checkReferenceAntiAliasing(const AntiAliasing& antiAliasing) {
   reference::samplePattern(antiAliasing);
 }

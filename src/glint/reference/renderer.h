@@ -92,6 +92,10 @@ class ReferenceRenderer {
   std::atomic<int> rowsDone_ = 0;
 };
 
+/// What the reference draws with where nothing else is asked for: the default look without
+/// anti-aliasing.
+Look referenceDefaults();
+
 /// Throws InputError if the reference cannot draw with this anti-aliasing.
 void checkReferenceAntiAliasing(const AntiAliasing&);
 

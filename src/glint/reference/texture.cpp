@@ -56,7 +56,10 @@ glm::dvec4 TextureSampler::filter(int number, Filter filter, const glm::dvec2& a
 
 glm::dvec4 TextureSampler::sampleLevel(const glm::dvec2& at, double levelOfDetail) const {
   if (base_->width <= 0 || base_->height <= 0) return glm::dvec4(1.0);
-  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return sampleLevel(glm::dvec2(0.0), 0);
+  // Coordinates so far out have no fraction left, and their product with a size may overflow.
+  constexpr double farthest = 1e300;
+  if (!(std::abs(at.x) <= farthest && std::abs(at.y) <= farthest))
+    return sampleLevel(glm::dvec2(0.0), 0);
   if (!(levelOfDetail > 0)) return filter(0, sampler_.magnify, at);
   const int last = int(smaller_.size());
   const double lod = std::min(levelOfDetail, double(last));

@@ -79,7 +79,7 @@ class Study {
     result_.exponents.assign(exponents.begin(), exponents.end());
     for (StudyVariant& v :
          studyVariants(scene_.scene, scene_.bounds, options_.look, options_.filter))
-      result_.variants.push_back({std::move(v), {}, 0, 0, {}, {}, {}, {}, {}, {}});
+      result_.variants.emplace_back().variant = std::move(v);
     if (result_.variants.empty())
       throw InputError(
           "no variant is left to study: give no --shading, --highlight or --fresnel, "
