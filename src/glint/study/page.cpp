@@ -16,14 +16,14 @@ extern const ReportPage studyPageText;  // study_page.html
 
 namespace {
 
-/// Larger pictures are made smaller by a whole factor.
+/// Larger pictures are reduced by a whole factor.
 constexpr int mostPixels = 400;
 
 int shrinking(const Image& image) {
   return (std::max(image.width, image.height) + mostPixels - 1) / mostPixels;
 }
 
-/// Calls use(place in the small picture, the pixels of the block that it stands for).
+/// Calls use(index in the small picture, the pixels of the block that it covers).
 template <class Use>
 void forBlocks(const Image& image, int factor, const Use& use) {
   const int width = (image.width + factor - 1) / factor;
@@ -101,10 +101,10 @@ std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& res
   page += jsonElement("data",
                       json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
   for (const auto& [model, truth] : result.truths) {
-    // Whose pixels outside the mask are shown makes no difference: those of the exact form.
+    // Outside the mask any variant's pixels would do: those of the exact form.
     const auto found =
         std::find_if(result.variants.begin(), result.variants.end(),
-                     [wanted = model](const VariantResult& v) {  // Clang 14 captures no binding
+                     [wanted = model](const VariantResult& v) {  // Clang 14 captures no bindings
                        return modelOf(v.variant.program) == wanted;
                      });
     if (found == result.variants.end() || found->picture.values.empty()) continue;
