@@ -57,8 +57,8 @@ FormChoice choiceFor(const std::string& name, const SurfaceErrors& errors, const
   return choice;
 }
 
-// Adds the surfaces of one picture; returns how many of its triangles are blended. A bound of
-// interpolation above `enough` may be any value above it.
+// Adds the surfaces of one picture; returns how many of its triangles are blended. An interpolation
+// bound above `enough` may be any value above it.
 std::size_t addSurfaces(ErrorsByMaterial& byMaterial, const Scene& scene, const LitScene& lit,
                         Shading program, double enough) {
   std::size_t blended = 0;

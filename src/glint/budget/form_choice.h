@@ -18,7 +18,7 @@ struct LightReach {
   glm::dvec3 of(std::size_t from, std::size_t end) const;
 };
 
-/// What the forms' bounds need to know of surfaces that share forms.
+/// What the forms' bounds need to know about surfaces that share forms.
 struct FormNeeds {
   bool specular = false, dielectric = false;
   std::vector<double> exponents;  ///< of the lobe as drawn; all that occur

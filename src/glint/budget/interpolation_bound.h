@@ -43,8 +43,8 @@ struct PlacedMesh {
 ///    the 1/3 of 1.).
 /// 3. diffuse: (n.L)'' <= 2hl + |L''|. N.L is n.L / |n|, above n.L by 1 - |n| of itself. Where N.L
 ///    changes sign, the kink of max(N.L, 0) adds at most pq/(p + q), with p and -q its largest and
-///    least value at the corners. By the kink Gouraud shows too much, by the missing renormalising
-///    too little, so that the larger of the two counts.
+///    least value at the corners. The kink makes Gouraud too bright, the missing renormalising too
+///    dark, so that the larger of the two counts.
 /// 4. highlight: let c = R.V, with R'' and V'' as above, and let R and V turn by r + v <= s = 2w +
 ///    l + v. Then |c'| <= s sin and -s^2 - t sin <= c'' <= s^2 (1 - c)/2 + t sin with t <= 2w^2 +
 ///    4wl + l^2 + v^2 + 3.16 (h/|n|)^3. For an exponent a of at least 2, (c^a)'' <= a s^2

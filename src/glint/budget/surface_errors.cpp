@@ -76,7 +76,7 @@ std::vector<double> exponentsOf(const Material& material, const Variant& v, cons
   return exponents;
 }
 
-// The error of the sum by turned directions to lamps and viewer: N.L moves by the turn, a lobe by
+// The error of the sum from turned directions to lamps and viewer: N.L moves by the turn, a lobe by
 // the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by its
 // slope.
 double turnError(const LitScene& lit, const ShadingParameters& m,
@@ -100,7 +100,7 @@ double turnError(const LitScene& lit, const ShadingParameters& m,
   return error + largest(lit.reach.together) * shine * lobeMoves(lit.viewTurn);
 }
 
-// The error of a filtered lobe by rounding, relative to its peak. With w = 1 / a^2, the pixel's
+// The error of a filtered lobe from rounding, relative to its peak. With w = 1 / a^2, the pixel's
 // variance s^2 and the turn T, w' = w / (1 + 2 w s^2 T). Each of two normals is off by 4 u, so that
 // T is off by 23 u sqrt(T), and w' by 2 w s^2 23 u sqrt(T) / (1 + 2 w s^2 T) of itself, at most 23
 // u s sqrt(w / 2) = 6.5 u sqrt(w); T's own sums and the formula add 12 u. The peak moves with w',
@@ -108,7 +108,7 @@ double turnError(const LitScene& lit, const ShadingParameters& m,
 // change; a lobe with an exponent below 0.05 is almost constant.
 //
 // For Toksvig's filter, given its look-up: the width is off by 2 u, its square by 5 u, n' by 12 u
-// and the peak by 20 u; by n', a lobe is off by 1 / e of that.
+// and the peak by 20 u; a lobe is off by 1 / e of the error of n'.
 double filterRounding(const std::vector<double>& exponents, bool blinn, bool toksvig) {
   if (toksvig) return 25 * u;
   const double perBlinn = blinn ? 1 : 4;
@@ -175,7 +175,7 @@ LitScene litSceneFor(const Scene& scene, const Bounds& bounds, const Look& look)
 
 ShadingParameters brightestNumbers(const Material& material, const Variant& v, const Look& look) {
   ShadingParameters m = material.shading;
-  if (v.textured & textured::diffuse) m.diffuse = 1;    // of pbr_conversion.h, as is
+  if (v.textured & textured::diffuse) m.diffuse = 1;    // the largest of pbr_conversion.h
   if (v.textured & textured::specular) m.specular = 1;  // the bound of highlightPeak(), and of F0
   const std::vector<double> exponents = exponentsOf(material, v, look);
   m.specular *= lobeNormalization(look.normalization, usesBlinn(look.shading),

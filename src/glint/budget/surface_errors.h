@@ -14,8 +14,8 @@
 
 namespace glint {
 
-/// How bright an environment is and how fast it changes with direction. A picture changes by its
-/// filtering, which the bound does not cover.
+/// How bright an environment is and how fast it changes with direction. An environment picture
+/// changes with its filtering, which the bound does not cover.
 struct Surroundings {
   double radiance = 0, steep = 0;
 };
@@ -39,7 +39,7 @@ struct LitScene {
 
 LitScene litSceneFor(const Scene&, const Bounds&, const Look&);
 
-/// What the bounds need to know of the surfaces with materials of one name.
+/// What the bounds need to know about the surfaces of one material name.
 struct SurfaceErrors {
   FormNeeds needs;
   double interpolation = 0;  ///< of shading once per face or vertex

@@ -17,7 +17,7 @@ class PixelShader {
   /// Everything that shading reads at the sample (column, row); rows count from the top.
   Attributes attributes(int item, std::uint32_t primitive, int column, int row);
 
-  /// Linear colour, straight alpha: what GL's fragment shader puts out.
+  /// Linear colour, straight alpha: what GL's fragment shader outputs.
   glm::dvec4 fragment(int item, std::uint32_t primitive, int column, int row);
 
  private:

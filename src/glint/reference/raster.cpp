@@ -77,7 +77,7 @@ bool makeLine(Primitive& p, const Corner& a, const Corner& b) {
   p.to = glm::dvec2(last.window) / last.window.z;
   p.low = glm::min(p.from, p.to);
   p.high = glm::max(p.from, p.to);
-  // t, the place along the line on the screen, as a function of (x, y, 1).
+  // t, the position along the line on the screen, as a function of (x, y, 1).
   const glm::dvec2 way = p.to - p.from;
   const double square = glm::dot(way, way);
   glm::dvec3 t(0.0);

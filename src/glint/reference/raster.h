@@ -10,7 +10,7 @@
 #include "glint/reference/scene.h"
 
 // GL's rasterisation in double, without snapping vertices to a subpixel grid: a driver that snaps
-// to 1/256 of a pixel covers other samples where an edge passes a centre more closely than that.
+// to 1/256 of a pixel covers other samples where an edge passes closer to a centre than that.
 namespace glint::reference {
 
 /// Where a sample lies in its primitive: the vertices' weights divided by w (they add up to 1 / w,
@@ -45,8 +45,8 @@ struct Primitive {
   Footprint fragment(int column, int row, int rows, const glm::dvec2& place) const;
 };
 
-/// Nothing if it is culled, has no area or length, or lies entirely before the near plane or, for
-/// lines and points, beyond the far plane.
+/// Nothing if it is culled, has no area or length, or lies entirely in front of the near plane or,
+/// for lines and points, beyond the far plane.
 std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertices,
                                        std::uint32_t number);
 

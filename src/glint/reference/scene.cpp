@@ -69,8 +69,8 @@ Frame frameFor(const Look& look, const Camera& camera) {
   return frame;
 }
 
-// Normals transform by (M^-1)^T. The cofactors are that times the determinant, whose sign is taken
-// out again; they are finite where M has no inverse.
+// Normals transform by (M^-1)^T. The cofactors are that times the determinant, whose sign is
+// removed again, and are finite even where M has no inverse.
 glm::dmat3 normalMatrix(const glm::dmat3& m) {
   double size = 0;
   for (int i = 0; i < 3; ++i)

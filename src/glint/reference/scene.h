@@ -40,7 +40,7 @@ struct Item {
   double alphaCutoff = 0;
   FaceSide faces = FaceSide::both;
   std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
-  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of those
+  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of these
   double normalScale = 1;
   unsigned textured = 0;  ///< bits of namespace textured that the following give
   ParameterTextures parameters;

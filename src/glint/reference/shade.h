@@ -51,7 +51,7 @@ struct Numbers {
 struct Surface {
   Shading program = Shading::phong;
   bool unlit = false;
-  bool twoSided = false;  ///< back faces turn the normal
+  bool twoSided = false;  ///< the normal is turned on back faces
   /// The forms of the lobe, each for the lights from a rank on.
   struct Lobe {
     Highlight form = Highlight::exact;
@@ -62,7 +62,7 @@ struct Surface {
   Fresnel fresnel = Fresnel::exact;
   Numbers numbers;  ///< where no texture gives them
   Normalization normalization = Normalization::none;
-  SpecularAntialiasing filter = SpecularAntialiasing::none;  ///< only of per-pixel programs
+  SpecularAntialiasing filter = SpecularAntialiasing::none;  ///< only for per-pixel programs
   double blinnFactor = 4, schlickExponent = 5;
   double ior = 1.5, mediumIor = 1;
   FresnelSides sides;        ///< of ior and mediumIor
@@ -78,7 +78,7 @@ struct Attributes {
   glm::dvec3 barycentrics{0.0};
   double depth = 0;  ///< 1 at the near plane, 0 at the far one
   /// Triangles: the distance from the sample to the nearest edge, in samples. A driver that snaps
-  /// vertices to 1/256 of a sample may put samples closer than 1/256 on the other side.
+  /// vertices to 1/256 of a sample may place samples closer than that on the other side.
   double edgeDistance = 0;
   glm::dvec3 position{0.0};    ///< interpolated
   glm::dvec3 normal{0.0};      ///< interpolated, neither renormalised nor turned

@@ -13,7 +13,7 @@
 namespace glint {
 namespace {
 
-// Shorter arrays are copied: a buffer of their own costs more.
+// Shorter arrays are copied: a separate buffer costs more.
 constexpr std::size_t leastInPlace = std::size_t(1) << 20;  // bytes
 
 // Makes the driver read a buffer from the program's own memory.

@@ -51,8 +51,8 @@ class GpuScene {
   /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);
 
-  /// Whether an image has been given, uploaded or not; for a normal map, if so asked, with the
-  /// lengths of its normals.
+  /// Whether an image has been given, uploaded or not; for a normal map, with the lengths of its
+  /// normals if asked for.
   bool hasImage(int image, bool withNormalLengths) const;
   /// Replaces images that are there already.
   void addImages(DecodedImages&& images);

@@ -8,7 +8,7 @@
 
 namespace glint {
 
-/// Something of a material that the file has and the picture does not use.
+/// Something that a material of the file has and the picture does not use.
 struct LeftOut {
   std::string material, what;
   std::string reason;  ///< follows "is not used: "

@@ -22,7 +22,7 @@ struct PictureTerm {
     reflection,  ///< F E(reflect) of the program environment
     refraction,  ///< t (1 - F) C E(refract), likewise
     emission,    ///< emission, and the colour of what is unlit
-    background,  ///< what is seen beside and through the surfaces
+    background,  ///< what is seen around and through the surfaces
     normal,      ///< shading normal of opaque surfaces, unit, world space; 0 where there is none
     depth,       ///< distance along the view, world units; infinite where there is nothing opaque
     ids,         ///< idsOf() the opaque surface, alpha 1; where there is none -1, alpha 0

@@ -83,7 +83,7 @@ struct Probe::Function {
   std::vector<int> floats;  // of each argument
   int resultFloats = 1;
   Program program;
-  GLint count = -1;  // uniform locations, as steps
+  GLint count = -1;  // uniform locations: of `count` and of the steps
   std::vector<GLint> steps;
 };
 

@@ -120,7 +120,7 @@ glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection
       high = glm::max(high, place);
     }
   }
-  // Two pixels more on every side: points and lines are a pixel wide, and all of this is rounded.
+  // Two extra pixels on every side: points and lines are a pixel wide, and all of this is rounded.
   const glm::ivec2 first(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
   const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(first), size));
   return {first, end - first};

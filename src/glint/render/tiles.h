@@ -21,7 +21,7 @@ struct TileLayout {
   int tileWidth = 0;
   int scale = 1;    ///< ssaa: pixels drawn for each pixel of the picture, in x and in y
   int samples = 1;  ///< msaa
-  std::vector<std::vector<Tile>> bands;  ///< from the top; each from the left
+  std::vector<std::vector<Tile>> bands;  ///< from the top; the tiles of each from the left
 };
 
 /// At most 2 Mi samples a tile, 32 MiB of colour, and at most 8192 pixels a side.

@@ -70,7 +70,7 @@ struct Variant {
   /// Where each of those is looked up: an index into parameterPlaces(), or -1 for the colour
   /// texture's coordinates.
   std::array<int, 4> parameterPlaces{};
-  int parameterPlaceCount = 0;  ///< of parameterPlaces(), 0 if none is read
+  int parameterPlaceCount = 0;  ///< size of parameterPlaces(), 0 if none is read
   /// The highlight is normalised in the shader, since a texture gives what the factor depends on;
   /// otherwise the material's numbers include the factor.
   bool normalized = false;
@@ -78,7 +78,7 @@ struct Variant {
   // Only for the program environment:
   Environment environment = Environment::studio;
   Fresnel fresnel = Fresnel::exact;
-  bool schlickFifth = false;  ///< Schlick's exponent is 5: products in place of pow
+  bool schlickFifth = false;  ///< Schlick's exponent is 5: products instead of pow
   bool dielectric = false, metal = false, refraction = false;
   bool denserSide = false;    ///< some side that shows is seen from the denser medium
   bool multisampled = false;  ///< shaded where the triangle covers samples

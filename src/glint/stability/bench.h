@@ -108,7 +108,8 @@ struct LightTolerances {
 
 /// Checks all five programs on the driver, and the reference, at each geometry: diffuse strength 1,
 /// specular strength 1, white light of intensity 1. A form that is not exact is compared with the
-/// reference, whose own values are then not checked here. Records the worst of each program.
+/// reference, whose own values are then not checked here. Records the worst finding of each
+/// program.
 void expectLight(Bench&, Record&, const std::string& what, double exponent,
                  const std::vector<Geometry>& geometries, const std::vector<LightValues>& expected,
                  const LightTolerances& tolerances, Light::Type type = Light::Type::directional);

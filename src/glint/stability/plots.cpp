@@ -198,7 +198,7 @@ std::vector<std::pair<double, double>> pairsOf(const std::vector<double>& x,
 
 void fresnelPlots(Bench& bench, Json& plots) {
   const std::vector<std::string> pair{"textbook", "exact"};
-  // 1 - R goes like the root of the distance from the critical cosine: shows both sides of it.
+  // 1 - R varies as the root of the distance from the critical cosine: plots both sides of it.
   for (const double n : {1.5, 1 + std::exp2(-23)}) {
     Json plot = plotJson(
         n == 1.5 ? "Reflectance near the critical angle, 1.5 to 1"

@@ -278,7 +278,7 @@ std::vector<glm::dvec3> referenceShade(const PointScene& scene, const Points& po
 
 std::vector<double> referenceReflectance(const PointScene& scene, const std::vector<float>& cosines,
                                          bool entering) {
-  // In a white room an unlit dielectric shows its reflectance.
+  // In a white room without lights, a dielectric shows its reflectance.
   ReferencePoints reference(scene);
   std::vector<double> values;
   for (float cosine : cosines) {

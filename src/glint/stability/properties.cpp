@@ -218,7 +218,7 @@ void p12(Bench& bench, Record& record) {
 }
 
 void p14(Bench& bench, Record& record) {
-  // A lamp of a file with a range of 10, straight above the place: 1/d^2, windowed to 0 at 10.
+  // A file's lamp with a range of 10, straight above the place: 1/d^2, windowed to 0 at 10.
   for (Shading shading : everyShading) {
     Look look = bench.look(shading);
     Light lamp;

@@ -11,7 +11,7 @@
 
 namespace glint::stability {
 
-/// What a search for NaN and infinity has done and found.
+/// What a search for NaN and infinity did and found.
 struct SearchReport {
   std::uint64_t evaluations = 0;  ///< of programs, one point each
   std::uint64_t variants = 0, materials = 0;

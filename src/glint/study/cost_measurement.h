@@ -33,7 +33,7 @@ struct CostMeasuring {
 
 /// Measures in the current context. Lobes: a bent sheet that fills the picture under 64 directional
 /// lights, drawn by Phong's program, minus the same without a highlight. Reflectances: the same
-/// sheet in a white environment, minus that of a metal, which has none of Fresnel's forms. All
+/// sheet in a white environment, minus that of a metal, which uses none of Fresnel's forms. All
 /// pictures take turns. The programs are rebuilt several times, since where a driver puts a program
 /// can change how long it takes. The fastest frame of each build counts, and of these the lower
 /// quartile.

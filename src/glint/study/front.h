@@ -15,7 +15,7 @@ struct FrontCandidate {
 };
 
 /// Where a candidate is, as far as the intervals show: certainly on the front, certainly dominated,
-/// or undecided. If the intervals of two runs hold the true ratios, one never says "on" and the
+/// or undecided. If the intervals of two runs hold the true ratios, one run never says "on" and the
 /// other "dominated" of the same candidate.
 struct FrontPlace {
   bool onFront = false;  ///< certain: faster than each rival that is at least as accurate
@@ -49,7 +49,7 @@ std::vector<FrontPlace> paretoFront(std::span<const double> errors,
                                     const std::function<bool(int, int)>& isFasterThan,
                                     const std::function<bool(int)>& isRival = {});
 
-/// The largest spread with which a front is made. Where a machine at rest has a spread of 1 to 3 %,
+/// The largest spread with which a front is made. On a machine at rest the spread is 1 to 3 %, and
 /// forms of one light's highlight differ by 3 to 15 % of a frame: with more than this every step of
 /// such a front would be noise.
 inline constexpr double largestSpread = 0.10;

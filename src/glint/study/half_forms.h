@@ -5,7 +5,8 @@
 
 #include "glint/shading/forms.h"
 
-// What the forms of the lobe lose in half floats, as phones and browsers compute them (mediump).
+// How much accuracy the forms of the lobe lose in half floats, which phones and browsers compute
+// with (mediump).
 namespace glint {
 
 /// A form as in glsl/lobe.glsl, with every number and every operation in half precision, powers and

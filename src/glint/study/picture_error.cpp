@@ -17,7 +17,7 @@
 namespace glint {
 namespace {
 
-/// Rows at a time: attributes take a few hundred bytes a pixel.
+/// The rows computed at a time: attributes take a few hundred bytes a pixel.
 constexpr int bandRows = 64;
 
 double largestSize(const glm::dvec3& v) {

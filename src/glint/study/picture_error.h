@@ -23,11 +23,11 @@ struct StudyMask {
   std::vector<std::uint32_t> pixels;  ///< y * width + x, ascending
   std::vector<DriverInput> inputs;    ///< of the same pixels
 
-  std::size_t covered = 0;  ///< pixels that the driver or the reference covers; of them:
-  std::size_t onlyOne = 0;  ///< covered by only one of them: the error of rasterisation
-  double onlyOneEdge = 0;   ///< the largest distance of those from an edge, pixels
-  std::size_t edge = 0;   ///< with a neighbour that is not covered, or 1/256 from a triangle's edge
-  std::size_t other = 0;  ///< that show another surface, or something blended
+  std::size_t covered = 0;     ///< pixels that the driver or the reference covers; of them:
+  std::size_t onlyOne = 0;     ///< covered by only one of them: the error of rasterisation
+  double onlyOneEdge = 0;      ///< the largest distance of those from an edge, pixels
+  std::size_t edge = 0;        ///< next to an uncovered pixel, or within 1/256 of a triangle's edge
+  std::size_t other = 0;       ///< that show another surface, or something blended
   bool sampledColors = false;  ///< there are textures: the driver's own samples are used
 };
 

@@ -71,8 +71,8 @@ std::optional<StudySeries> bumpsMotionSeries(const SeriesTools&);
 /// line.
 void setOrders(StudySeries& series);
 
-/// Compares the scene drawn by the variants it needs with the same by ones with every feature of
-/// the program.
+/// Compares the scene drawn by the variants it needs with the scene drawn by variants with every
+/// feature of the program.
 std::vector<Specialisation> specialisations(const SeriesTools&);
 
 }  // namespace glint

@@ -43,9 +43,9 @@ struct QuartileSamples {
 QuartileSamples quartileSamples(std::span<const double> rounds);
 
 /// The ratio of the lower quartiles of the rounds that both have. Other work on the machine, or an
-/// unlucky place of one build of a program, only ever adds time, and the lower quartile leaves that
-/// out as long as it affects fewer than three rounds of four. Bootstrap: rounds are drawn for a and
-/// b together, so that a machine that slows down or speeds up changes both.
+/// unlucky placement of one build of a program, only ever adds time, and the lower quartile leaves
+/// that out as long as it affects fewer than three rounds of four. Bootstrap: rounds are drawn for
+/// a and b together, so that a machine that slows down or speeds up changes both.
 TimeRatio timeRatio(std::span<const double> a, std::span<const double> b);
 /// Both must have the same number of rounds.
 TimeRatio timeRatio(const QuartileSamples& a, const QuartileSamples& b);

@@ -56,7 +56,7 @@ class Study {
     result_.clock = clockFor(options_.clock, result_.gl.renderer, elapsedTimer()->works());
     result_.spreadLimit = options_.spreadLimit;
     {
-      Renderer renderer;  // the variants' programs must first be compiled when that is timed
+      Renderer renderer;  // the variants' programs must not be compiled before that is timed
       result_.mask = maskOf(renderer, gpu_, scene_, options_.look);
     }
     if (result_.mask.pixels.empty())

@@ -98,8 +98,7 @@ struct Specialisation {
   double difference = 0;  ///< the largest between the two pictures
 };
 
-/// How well a clock repeats one program's time: of variants measured twice, with programs built
-/// separately.
+/// How repeatable a clock's times are, from variants measured twice with programs built separately.
 struct ClockNoise {
   std::vector<TimeRatio> ratios;  ///< of the second measurement to the first
   double spread = 0;              ///< noise floor of a ratio of times; 0 if there is no such clock
@@ -136,7 +135,7 @@ struct StudyResult {
 /// clock. Throws InputError if the one asked for does not work with this driver.
 FrameClock clockFor(std::optional<FrameClock> asked, std::string_view renderer, bool hasGpuTimer);
 
-/// Why there are no fronts by this clock, and what to do; empty if there are.
+/// Why there are no fronts with this clock, and what to do; empty if there are.
 std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameClock clock,
                        double spreadLimit);
 

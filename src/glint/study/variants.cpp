@@ -117,7 +117,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     if (v.program == Shading::automatic) continue;  // one of the others
     const bool environment = v.program == Shading::environment;
     const bool perPixel = v.program == modelOf(v.program);
-    // The form that is asked for, with any number, or all forms.
+    // The form that is asked for, whatever its number, or all forms.
     const std::string& only = environment ? filter.fresnel : filter.highlight;
     const std::string& other = environment ? filter.highlight : filter.fresnel;
     if (!wanted(other, "exact")) continue;  // a form that this program does not have

@@ -15,7 +15,7 @@ struct WholeTruth {
   Shading model = Shading::phong;
   int samples = 0;   ///< N
   Image picture;     ///< premultiplied, without background; empty if it was stopped
-  PictureError own;  ///< of N/2 x N/2 samples against it: an upper estimate of its own
+  PictureError own;  ///< of N/2 x N/2 samples against it: more than its own error
 };
 
 /// The error against a WholeTruth, in linear light before exposure.
@@ -31,7 +31,7 @@ WholeTruth wholeTruthOf(const StudyScene& scene, const Look& look, Shading model
 WholeError wholeErrorOf(const WholeTruth& truth, const Image& drawn, const StudyMask& mask,
                         double exposureScale);
 
-/// A way of drawing a model, with or without something against aliasing.
+/// A way of drawing a model, with or without a treatment of aliasing.
 struct StudyWay {
   std::string name;  ///< "phong exact kaplanyan msaa:4"
   Shading model = Shading::phong;
