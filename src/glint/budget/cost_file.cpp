@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr int version = 1;
 constexpr double mostCost = 1e6;
 
-// The one list of what is in a file: calls visit(group, name, where it stands in the table).
+// The only list of a file's contents: calls visit(group, name, cost in the table) for each entry.
 template <class Table, class Visit>
 void forCosts(Table& table, const Visit& visit) {
   for (auto& [form, costs] : table.lobes) visit("highlight", row(form).name, costs);

@@ -8,21 +8,21 @@
 
 namespace glint {
 
-/// A table of costs with where it was measured.
+/// A table of costs and where it was measured.
 struct CostFile {
   CostTable costs;
   GlStrings gl;
-  double noise = 0;  ///< hundredths: costs nearer to each other could not be told apart
+  double noise = 0;  ///< hundredths: costs closer together than this cannot be told apart
 };
 
 /// The JSON text of a file for `--cost-table`.
 std::string costFileText(const CostFile&);
 
-/// Reads such a file. Throws InputError if it is missing, no JSON, of another version, or if a cost
-/// is missing or none: "PATH: what: what to do".
+/// Reads such a file. Throws InputError if it is missing, is not JSON or has another version, or if
+/// a cost is missing or invalid: "PATH: what: what to do".
 CostFile readCostFile(const std::string& path);
 
-/// The table that a look's choice goes by: that of its file, or the shipped one.
+/// The table by which a look's forms are chosen: that of its file, or the shipped one.
 CostTable costTableFor(const Look&);
 
 }  // namespace glint

@@ -57,8 +57,8 @@ FormChoice choiceFor(const std::string& name, const SurfaceErrors& errors, const
   return choice;
 }
 
-// Of one picture. Gives how many triangles of it are blended. Interpolation above `enough` is only
-// known to be so.
+// Adds the surfaces of one picture; returns how many of its triangles are blended. An interpolation
+// bound above `enough` may be any value above it.
 std::size_t addSurfaces(ErrorsByMaterial& byMaterial, const Scene& scene, const LitScene& lit,
                         Shading program, double enough) {
   std::size_t blended = 0;
@@ -81,7 +81,7 @@ std::size_t addSurfaces(ErrorsByMaterial& byMaterial, const Scene& scene, const 
   return blended;
 }
 
-// A form that all have in common stands in the look, several with their materials.
+// A form that all materials share goes into the look; different ones go into the materials' edits.
 template <typename Form>
 void spread(Look& look, const std::vector<FormChoice>& choices, bool FormChoice::*applies,
             Form FormChoice::*form, Form Look::*common, std::optional<Form> MaterialEdit::*own) {
@@ -101,7 +101,7 @@ void spread(Look& look, const std::vector<FormChoice>& choices, bool FormChoice:
     if (c.*applies) look.material[c.material].*own = c.*form;
 }
 
-// The exact forms everywhere.
+// Sets the exact forms everywhere.
 void clearForms(Look& look) {
   for (auto& [name, edit] : look.material) edit.highlight.reset(), edit.fresnel.reset();
   std::erase_if(look.material, [](const auto& each) { return each.second == MaterialEdit{}; });
@@ -116,7 +116,7 @@ void setForms(Look& look, const std::vector<FormChoice>& choices) {
          &MaterialEdit::fresnel);
 }
 
-// Of two pictures: a bound of what lights bring to either.
+// Combines two pictures into a bound of what lights bring to either.
 void include(LightReach& reach, const LightReach& other) {
   for (std::size_t i = 0; i < reach.most.size() && i < other.most.size(); ++i)
     reach.most[i] = glm::max(reach.most[i], other.most[i]);
@@ -144,9 +144,9 @@ glm::dvec3 activeIntensity(const std::vector<glm::dvec3>& directions,
   glm::dvec3 all(0.0);
   for (const glm::dvec3& each : intensities) all += each;
   if (count < 2 || count > 32) return all;
-  // The sets of lights that a normal sees are the cells that the planes N.L = 0 divide the sphere
-  // into. Each has a corner where two planes meet; of the lights whose planes pass there, all that
-  // lie on one side of a line may join in.
+  // The planes N.L = 0 divide the sphere into cells of normals that see the same lights. Each cell
+  // has a corner where two planes meet; of the lights whose planes pass through it, a cell may see
+  // all that lie on one side of a line.
   glm::dvec3 most(0.0);
   const auto tryNormal = [&](const glm::dvec3& normal) {
     glm::dvec3 sure(0.0), maybe(0.0);
@@ -221,7 +221,7 @@ ResolvedLook resolveSequence(std::size_t count,
 
   std::vector<LitScene> litScenes;
   std::size_t vertices = 0;
-  // By one program, within the budget in every picture.
+  // The choice for one program, within the budget in every picture.
   const auto chosenBy = [&](Shading program) {
     ErrorsByMaterial byMaterial;
     LitScene all;
@@ -251,7 +251,7 @@ ResolvedLook resolveSequence(std::size_t count,
   resolved = chosenBy(asked.shading);
   if (!automatic) return resolved;
   resolved.programReason = "phong: neither flat nor gouraud is within " + number(*budget);
-  // Per face or vertex pays while there are fewer of them than pixels.
+  // Shading per face or vertex pays only if there are at most half as many of them as pixels.
   if (double(vertices) > 0.5 * asked.resolution.x * asked.resolution.y) {
     resolved.programReason = "phong: the model has more vertices than the picture pixels";
     return resolved;

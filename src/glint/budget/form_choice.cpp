@@ -12,9 +12,9 @@
 namespace glint {
 namespace {
 
-constexpr std::size_t mostForms = 3;  // of one material: another saves less than its loop costs
+constexpr std::size_t mostForms = 3;  // of one material: a fourth saves less than its loop costs
 
-// A form of the lobe for one light of intensity 1 on a surface of m_s S = 1.
+// A form of the lobe for one light of intensity 1 on a surface with m_s S = 1.
 struct Lobe {
   HighlightForm form;
   double error = 0, rounding = 0, cost = 0;
@@ -33,7 +33,7 @@ Lobe lobeOf(const HighlightForm& form, const FormNeeds& needs, const CostTable& 
   return lobe;
 }
 
-// All forms that may pay, from the most exact to the cheapest: each costs less than all that are
+// The forms that may pay, from the most exact to the cheapest: each costs less than all that are
 // more exact.
 std::vector<Lobe> lobeCandidates(const FormNeeds& needs, const CostTable& costs, bool blinn) {
   const bool aboveZero = std::ranges::all_of(needs.exponents, [](double e) { return e > 0; });
@@ -55,7 +55,7 @@ std::vector<Lobe> lobeCandidates(const FormNeeds& needs, const CostTable& costs,
   return kept;
 }
 
-// Lobes of all lights, and what they add up to.
+// The lobe forms of all lights, and their total errors and cost.
 struct Lobes {
   struct Run {
     const Lobe* form = nullptr;
@@ -73,11 +73,10 @@ struct Lobes {
   }
 };
 
-// Looks for the cheapest way to give the lights from the brightest to the dimmest forms of falling
-// exactness.
+// Finds the cheapest forms for the lights, less exact ones for dimmer lights.
 class LobeSearch {
  public:
-  /// A change of form costs `change`.
+  /// `change` is the cost of a change of form.
   LobeSearch(const std::vector<Lobe>& candidates, double change, const FormNeeds& needs,
              const LightReach& lights)
       : candidates_(candidates),
@@ -89,11 +88,11 @@ class LobeSearch {
         weight(from, end) = largest(needs.shine * lights.of(from, end));
   }
 
-  /// All lights by one form.
+  /// One form for all lights.
   Lobes all(const Lobe& form) { return extended({}, form, 0, count_); }
 
-  /// Puts what costs less than `best`, or as much with a smaller error, and is within `budget` in
-  /// its place.
+  /// Replaces `best` by forms within `budget` that cost less, or as much with a smaller error, if
+  /// there are any.
   void improve(Lobes& best, double budget) {
     best_ = &best;
     budget_ = budget;

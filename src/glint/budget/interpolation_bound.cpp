@@ -16,12 +16,11 @@ namespace glint {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-const double bentDirection = 2 / std::sqrt(3.0);  // |L''| in l^2
+const double bentDirection = 2 / std::sqrt(3.0);  // |L''| in units of l^2
 
 double squared(double x) { return x * x; }
 
-// What a function of the points of a triangle and its derivatives along a way as long as an edge
-// are at most.
+// Bounds of a function over a triangle and of its derivatives along a path as long as an edge.
 struct Derivatives {
   double most = 1, slope = 0, bend = 0;
 };
@@ -31,8 +30,8 @@ Derivatives operator*(const Derivatives& f, const Derivatives& g) {
           f.bend * g.most + 2 * f.slope * g.slope + f.most * g.bend};
 }
 
-// sup over c in (0, 1] of what the derivatives of c^a are made of (4 of the header). With x = a (1
-// - c) each varies by less than a percent from one sample to the next.
+// The suprema over c in (0, 1] of the terms in the derivatives of c^a (4. of the header). In steps
+// of x = a (1 - c), each varies by less than a percent from one sample to the next.
 struct Steepness {
   double bend = 1, slope = 0;
   explicit Steepness(double a) {
@@ -56,18 +55,18 @@ struct Corner {
   double axis = 0;      // -L.axis
 };
 
-// How one light reaches a triangle: its intensity beside the full one, and how L turns.
+// How one light reaches a triangle: its share of the full intensity, and how L turns.
 struct LightOnTriangle {
   Derivatives share;
-  double cap = 1;   // the most that it is
-  double step = 0;  // what `share` is too large or too small by beyond the ramp of a spot
+  double cap = 1;   // the largest share
+  double step = 0;  // the error of `share` beyond the ramp of a spot
   double turn = 0;
   bool known = true;
 };
 
 using Corners = std::array<const Corner*, 3>;
 
-// Empty where nothing arrives; `cap` infinite where anything may.
+// Empty if no light arrives; `cap` is infinite if there is no bound.
 std::optional<LightOnTriangle> lightOnTriangle(const Light& light, const Triangle& triangle,
                                                const Corners& corners, Shading program) {
   LightOnTriangle onTriangle;
@@ -100,7 +99,7 @@ std::optional<LightOnTriangle> lightOnTriangle(const Light& light, const Triangl
   }
   if (light.type != Light::Type::spot) return onTriangle;
   const double bend = bentDirection * squared(onTriangle.turn);
-  // The least is that of a corner: what is linear over what is convex, where it is positive.
+  // The minimum is at a corner: a linear function over a convex one, where it is positive.
   high = std::min(high + bend / 6, 1.0);
   const double outer = std::cos(light.outerAngle * radians);
   const double inner = std::cos(light.innerAngle * radians), range = inner - outer;
@@ -124,7 +123,7 @@ std::optional<LightOnTriangle> lightOnTriangle(const Light& light, const Triangl
 
 struct Errors {
   double diffuse = 0, specular = 0;
-  double most = 0;  // that the light brings
+  double most = 0;  // the most that the light brings
 };
 
 struct PowerLobe {
@@ -135,8 +134,8 @@ struct PowerLobe {
     const double c = std::cos(angle);
     return c > 0 ? std::pow(c, exponent) : 0.0;
   }
-  // With `turn` of R and V and `bent` of their second derivatives; below an exponent of 2 `bend` is
-  // six times the error, and below 1 `slope` 3/2 of what 2/3 of an edge may change.
+  // `turn` is how far R and V turn, `bent` bounds their second derivatives. For exponents below 2
+  // `bend` is six times the error, and below 1 `slope` is 3/2 of the change over 2/3 of an edge.
   Derivatives over(double most, double turn, double bent) const {
     const double a = exponent;
     if (turn == 0) return {most, 0, 0};
@@ -208,7 +207,7 @@ Errors errorsOf(const Light& light, const Triangle& triangle, const Corners& cor
   return e;
 }
 
-// Of these vertices.
+// The corners at these vertices.
 std::vector<Corner> cornersOf(const ShadedTriangles& set,
                               const std::vector<std::uint32_t>& vertices, const Light& light,
                               const PlacedMesh& p, double side) {
@@ -234,13 +233,13 @@ std::vector<Corner> cornersOf(const ShadedTriangles& set,
   return corners;
 }
 
-// What the errors of all lights are multiplied by.
+// The factors of all lights' errors.
 struct Weights {
   glm::dvec3 matte, shine;
   glm::dvec3 ambient;  // the error of the ambient light
 };
 
-// The largest error on some triangles that lie next to each other, of one side.
+// The largest error on consecutive triangles, for one of their sides.
 double worstOf(const ShadedTriangles& set, std::size_t begin, std::size_t end, const PlacedMesh& p,
                const PowerLobe& lobe, const Weights& weights, double side, Shading program) {
   std::vector<std::uint32_t> vertices;
@@ -265,7 +264,7 @@ double worstOf(const ShadedTriangles& set, std::size_t begin, std::size_t end, c
           errorsOf(light, set.triangles[begin + i], {&corners[a], &corners[b], &corners[c]}, lobe,
                    set.offFace, program);
       if (!(e.most < unbounded)) return unbounded;
-      // The driver interpolates what is carried: a few roundings of it.
+      // The driver interpolates the carried light: a few roundings of it.
       errors[i] += light.intensity * (weights.matte * (e.diffuse + 4e-6 * e.most) +
                                       weights.shine * (e.specular + 4e-6 * e.most));
     }
@@ -279,9 +278,9 @@ double worstOf(const ShadedTriangles& set, std::size_t begin, std::size_t end, c
 
 double interpolationBound(const PlacedMesh& p, Shading program, double enough) {
   const Variant& v = p.variant;
-  if (v.textured != 0) return unbounded;  // per face or vertex the texture is another
+  if (v.textured != 0) return unbounded;  // per face or vertex, the texture is sampled elsewhere
   if (v.directionalLights + v.pointLights + v.spotLights == 0) return 0;
-  if (v.normalTexture || v.specularAntialiasing) return unbounded;  // of pixels alone
+  if (v.normalTexture || v.specularAntialiasing) return unbounded;  // only per pixel
   const ShadedTriangles set = shadedTriangles(p, program);
   if (set.offFace > flatLimit) return unbounded;
   const ShadingParameters& m = p.material.shading;

@@ -8,13 +8,14 @@
 
 namespace glint {
 
-/// How near the triangles, lines and points of a scene come to a place in world space. Boxes around
-/// runs of triangles leave most of them out, so that many lamps and many triangles cost little.
+/// The distance from a place in world space to a scene's nearest triangle, line or point. Boxes
+/// around runs of triangles rule most of them out, so that many lamps and many triangles cost
+/// little.
 class SceneDistance {
  public:
   explicit SceneDistance(const Scene& scene);
 
-  /// Infinite of an empty scene.
+  /// Infinite for an empty scene.
   double to(const glm::dvec3& point) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace glint {
 namespace {
 
-// The transform of normals: cofactors, the sign of a mirror taken out.
+// The transform of normals: the cofactors, without the sign of a mirror.
 glm::dmat3 normalTransform(const glm::dmat3& m) {
   double size = 0;
   for (int i = 0; i < 3; ++i)
@@ -20,8 +20,8 @@ glm::dmat3 normalTransform(const glm::dmat3& m) {
   return glm::dot(n[0], c[0]) < 0 ? -1.0 * c : c;
 }
 
-// Whether a triangle shows its back alone, and so nothing: seen from more than a degree behind its
-// plane, which rounding does not turn.
+// Whether a triangle shows only its back, and so nothing: the eye is more than a degree behind its
+// plane, which rounding cannot undo.
 bool isTurnedAway(const PlacedMesh& p, const ShadedTriangles& set, const Triangle& triangle,
                   bool mirrored) {
   const auto& [a, b, c] = triangle.corners;
@@ -83,7 +83,7 @@ ShadedTriangles shadedTriangles(const PlacedMesh& p, Shading program) {
       near = std::min(near, glm::length(set.points[a]));
       if (set.normals[a] == glm::dvec3(0.0)) triangle.known = false;
     }
-    // 2. of the header asks for corners whose normals see each other.
+    // 2. of interpolation_bound.h needs corner normals close to each other.
     if (!(triangle.chord <= 1)) triangle.known = false;
     if (!triangle.known) continue;
     const double length = std::sqrt(1 - triangle.chord * triangle.chord / 3);

@@ -33,12 +33,12 @@ Surroundings surroundingsOf(const Look& look) {
   return {largestRadiance(map), steepestRadiance(map)};
 }
 
-// How far rounding turns the refracted direction, times the share 1 - F that is refracted: what
-// lies along the surface by 2e-6 n, n the larger index over the smaller, and the root of x = 1 -
-// |along|^2, whose square is off by 2e-6, by min(sqrt(2e-6), 2e-6 / sqrt(x)). Into the denser
-// medium x is at least 1 - 1/n^2. Out of it, x is 0 at the critical angle, but there 1 - F is at
-// most the slope of the reflectance times sqrt(x), save for a metal's share. Equal indices refract
-// everything, at grazing incidence too.
+// How far rounding turns the refracted direction, times the share 1 - F that is refracted. The part
+// along the surface is off by 2e-6 n, with n the larger index over the smaller. The root of x = 1 -
+// |along|^2, whose square is off by 2e-6, is off by min(sqrt(2e-6), 2e-6 / sqrt(x)). Into the
+// denser medium, x is at least 1 - 1/n^2. Out of it, x is 0 at the critical angle, but there 1 - F
+// is at most the slope of the reflectance times sqrt(x), except for a metal's share. Equal indices
+// refract everything, even at grazing incidence.
 double refractionError(const ShadingParameters& m, const Look& look, bool twoSided) {
   const double n = std::max(m.ior / look.mediumIor, look.mediumIor / m.ior), square = 2e-6;
   const double root = std::sqrt(square), rest = 1 - 1 / (n * n);
@@ -51,10 +51,11 @@ double refractionError(const ShadingParameters& m, const Look& look, bool twoSid
   return 2e-6 * n + worst;
 }
 
-// The exponents of the lobe that occur. A texture may hold every roughness up to the material's:
-// then both ends, and some between them. Over the exponent the error of a form falls to its root
-// (where there is one) and rises from there, so that an end has the largest.
-// So do a pixel's, filtered by how the normals turn over it: from the widest lobe on.
+// The exponents of the lobe that may occur. A texture may hold any roughness up to the material's:
+// then both ends, and some values between them. As a function of the exponent, the error of a form
+// falls to its root (if there is one) and rises from there, so that it is largest at an end. An
+// exponent filtered by how the normals turn over the pixel varies likewise, from that of the widest
+// lobe on.
 std::vector<double> exponentsOf(const Material& material, const Variant& v, const Look& look) {
   const bool varies = (v.textured & textured::exponent) != 0;
   if (!varies && !v.specularAntialiasing) return {lobeExponent(material, look)};
@@ -75,9 +76,9 @@ std::vector<double> exponentsOf(const Material& material, const Variant& v, cons
   return exponents;
 }
 
-// What the turn of the directions to lamps and viewer adds to the sum: N.L moves by the turn, a
-// lobe by the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by
-// its slope.
+// The error of the sum from turned directions to lamps and viewer: N.L moves by the turn, a lobe by
+// the turn of both, 1 / d^2 by three times the turn (while that is small), a spot's ramp by its
+// slope.
 double turnError(const LitScene& lit, const ShadingParameters& m,
                  const std::vector<double>& exponents, const glm::dvec3& C, const glm::dvec3& S,
                  const Variant& v) {
@@ -99,15 +100,15 @@ double turnError(const LitScene& lit, const ShadingParameters& m,
   return error + largest(lit.reach.together) * shine * lobeMoves(lit.viewTurn);
 }
 
-// How far rounding moves what filtering makes of a lobe, over its peak. With w = 1 / a^2, s^2 the
-// pixel's variance and T the turn, w' = w / (1 + 2 w s^2 T). Each of two normals is off by 4 u, so
-// that T is by 23 u sqrt(T), and w' by 2 w s^2 23 u sqrt(T) / (1 + 2 w s^2 T) of itself, at most
-// 23 u s sqrt(w / 2) = 6.5 u sqrt(w); 12 u more are of T's own sums and of the formula. The peak
-// moves with w', and the exponent n by (n + 2) / n of that, which changes a lobe by at most
-// 1 / (e n) of the change; a lobe of an exponent below 0.05 is all but even.
+// The error of a filtered lobe from rounding, relative to its peak. With w = 1 / a^2, the pixel's
+// variance s^2 and the turn T, w' = w / (1 + 2 w s^2 T). Each of two normals is off by 4 u, so that
+// T is off by 23 u sqrt(T), and w' by 2 w s^2 23 u sqrt(T) / (1 + 2 w s^2 T) of itself, at most 23
+// u s sqrt(w / 2) = 6.5 u sqrt(w); T's own sums and the formula add 12 u. The peak moves with w',
+// and the exponent n by (n + 2) / n of that, which changes a lobe by at most 1 / (e n) of the
+// change; a lobe with an exponent below 0.05 is almost constant.
 //
-// Of Toksvig's, its look-up given: the width is off by 2 u, its square by 5, n' by 12 and the peak
-// by 20; of n' a lobe is off by 1 / e of that.
+// For Toksvig's filter, given its look-up: the width is off by 2 u, its square by 5 u, n' by 12 u
+// and the peak by 20 u; a lobe is off by 1 / e of the error of n'.
 double filterRounding(const std::vector<double>& exponents, bool blinn, bool toksvig) {
   if (toksvig) return 25 * u;
   const double perBlinn = blinn ? 1 : 4;
@@ -122,17 +123,17 @@ LitScene litSceneFor(const Scene& scene, const Bounds& bounds, const Look& look)
   LitScene s;
   s.given = look;
   s.costs = costTableFor(look);
-  s.given.costTable.clear();  // with the budget, which is gone already: the choice is made
+  s.given.costTable.clear();  // like the budget, cleared already: the choice replaces both
   s.look = withFileLights(scene, look);
   s.camera = cameraFor(scene, bounds, look);
   s.blinn = usesBlinn(look.shading);
   if (look.shading == Shading::environment) s.surroundings = surroundingsOf(look);
   const std::vector<glint::Light> given = lightsOf(s.look);
   for (const std::size_t i : shiningLights(given)) s.lights.push_back(given[i]);
-  // Positions are floats in eye space, whose rounding is that of the largest coordinates on the way
-  // to them: of the vertices (three products, three sums, the model's own coordinates) and of the
-  // interpolation between them, 16 roundings in all. A lamp or an eye at the distance d sees
-  // them turned by that over d.
+  // Positions are floats in eye space, rounded as the largest coordinates in their computation are:
+  // those of the vertices (three products, three sums, the model's own coordinates) and of the
+  // interpolation between them, 16 roundings in all. This turns the direction to a lamp or an eye
+  // at the distance d by that over d.
   const double reach = glm::length(s.camera.eye - bounds.center) + 3 * bounds.radius;
   const double placeError = 16 * u * reach;
   const auto turnAt = [&](double distance) {
@@ -154,7 +155,7 @@ LitScene litSceneFor(const Scene& scene, const Bounds& bounds, const Look& look)
     }
     const double way = distance.to(light.position);
     s.turns.push_back(turnAt(way));
-    // A lamp that weakens with distance is at its brightest where the scene comes nearest to it.
+    // A lamp that weakens with distance is brightest where the scene comes nearest to it.
     double most = 1;
     if (light.fallsOff) {
       most = 1 / std::pow(std::max(way, 1e-6), 2);
@@ -174,7 +175,7 @@ LitScene litSceneFor(const Scene& scene, const Bounds& bounds, const Look& look)
 
 ShadingParameters brightestNumbers(const Material& material, const Variant& v, const Look& look) {
   ShadingParameters m = material.shading;
-  if (v.textured & textured::diffuse) m.diffuse = 1;    // of pbr_conversion.h, as is
+  if (v.textured & textured::diffuse) m.diffuse = 1;    // the largest of pbr_conversion.h
   if (v.textured & textured::specular) m.specular = 1;  // the bound of highlightPeak(), and of F0
   const std::vector<double> exponents = exponentsOf(material, v, look);
   m.specular *= lobeNormalization(look.normalization, usesBlinn(look.shading),
@@ -201,7 +202,7 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
     exponents = exponentsOf(material, v, lit.look);
     needs.specular = true;
     needs.varyingExponent = needs.varyingExponent || exponents.size() > 1;
-    // What lets light through shows that much less of the sum.
+    // A surface that transmits light shows that much less of the sum.
     const bool veiled =
         v.program == Shading::environment && (v.textured & textured::transmission) == 0;
     const double shown = veiled ? 1 - m.transmission : 1.0;
@@ -214,23 +215,25 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
   const double matte =
       largest(C * (m.ambient * lit.look.ambientLight + (v.diffuse ? m.diffuse : 0.0) * light));
   // Each light adds a rounding of the sum so far, and a few per term; N.L is off by cosineError,
-  // and so is what a spot's ramp magnifies.
+  // and so is the cosine that a spot's ramp magnifies.
   double rounding = (8.0 + double(lit.lights.size())) * u * (matte + shine) +
                     cosineError * (v.diffuse ? m.diffuse * largest(C * light) : 0.0) +
                     cosineError * lit.spotSteepness *
                         ((v.diffuse ? m.diffuse * largest(C) : 0.0) +
                          (v.specular ? m.specular * largest(S) : 0.0)) +
                     2.0 * u * largest(material.emission);
-  // An exponent of the relative error e changes a lobe by at most e / exp(1); the fourth power, two
-  // products and a difference give 8 u, where the exponent is above 1, and at most 8 u of it below.
+  // An exponent with the relative error e changes a lobe by at most e / exp(1). The fourth power,
+  // two products and a difference give 8 u where the exponent is above 1; below, they change the
+  // lobe by at most 8 u.
   if (v.textured & textured::exponent) rounding += 8.0 * u * shine;
-  // A normalization is as far off as the exponent, by another 6 u of its power of two, a division
-  // and three products.
+  // A normalization is as far off as the exponent, and by another 6 u from its power of two, a
+  // division and three products.
   if (v.normalized) rounding += 20.0 * u * shine;
   if (v.specularAntialiasing) rounding += filterRounding(exponents, lit.blinn, v.toksvig) * shine;
   rounding += turnError(lit, m, exponents, C, S, v);
   if (v.program == Shading::environment) {
-    // F E(reflect) + t (1 - F) C E(refract): dF times the difference of two radiances.
+    // F E(reflect) + t (1 - F) C E(refract): an error dF counts times the difference of two
+    // radiances.
     const auto [radiance, steep] = lit.surroundings;
     const double through = v.refraction ? std::max(1.0, largest(C)) : 1.0;
     if (v.dielectric) {
@@ -241,7 +244,7 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
         needs.mirrors.push_back(mirror);
     }
     // The reflected direction is off by 2e-6, the look-up by 1e-5, a metal's Schlick term by 5
-    // cosines.
+    // cosine errors.
     rounding +=
         1e-5 + (2e-6 + 2 * lit.viewTurn) * steep +
         (m.metalness > 0 ? m.metalness * (1e-6 + 5.0 * cosineError) * radiance * through : 0.0);
@@ -255,7 +258,7 @@ void addSurface(SurfaceErrors& errors, const LitScene& lit, const Material& mate
 }
 
 void addBlending(ErrorsByMaterial& byMaterial, std::size_t triangles, const Look& look) {
-  constexpr double mostLayers = 1024;  // of the renderer's
+  constexpr double mostLayers = 1024;  // the renderer's limit
   double brightest = look.noBackground ? 0.0 : largest(look.backgroundColor);
   for (const auto& [name, errors] : byMaterial) brightest = std::max(brightest, errors.radiance);
   const double rounding = 8.0 * u * std::min(double(triangles), mostLayers) * brightest;

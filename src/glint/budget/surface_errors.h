@@ -14,8 +14,8 @@
 
 namespace glint {
 
-/// How bright an environment is and how fast it changes with direction. A picture's changes are
-/// those of its filtering, of which the bound does not speak.
+/// How bright an environment is and how fast it changes with direction. An environment picture
+/// changes with its filtering, which the bound does not cover.
 struct Surroundings {
   double radiance = 0, steep = 0;
 };
@@ -30,35 +30,35 @@ struct LitScene {
   /// How far rounding turns the direction to each light, and to the viewer; radians.
   std::vector<double> turns;
   double viewTurn = 0;
-  double spotTurn = 0;       ///< the same, each times the turn of its light
-  double spotSteepness = 0;  ///< the sum of the intensities of spots times the slope of their ramps
-  Surroundings surroundings;  ///< of the program environment
+  double spotTurn = 0;        ///< as spotSteepness, each term times the turn of its light
+  double spotSteepness = 0;   ///< the sum over spots of intensity times the slope of the ramp
+  Surroundings surroundings;  ///< only for the program environment
   bool blinn = false;
   CostTable costs;
 };
 
 LitScene litSceneFor(const Scene&, const Bounds&, const Look&);
 
-/// What the bounds read of the surfaces of a material's name.
+/// What the bounds need to know about the surfaces of one material name.
 struct SurfaceErrors {
   FormNeeds needs;
   double interpolation = 0;  ///< of shading once per face or vertex
-  double rounding = 0;       ///< but for the lobes' and the reflectances'
+  double rounding = 0;       ///< except that of lobes and reflectances
   double radiance = 0;       ///< the most that such a surface shows
 };
 
 using ErrorsByMaterial = std::map<std::string, SurfaceErrors>;
 
-/// The numbers of the material, and where textures give them the largest that they can give; m_s
-/// with what it is multiplied by, which grows with the exponent.
+/// The numbers of the material; where textures give them, the largest that they can give. m_s
+/// includes its normalization, which grows with the exponent.
 ShadingParameters brightestNumbers(const Material&, const Variant&, const Look&);
 
-/// Adds what is drawn of a mesh in a material.
+/// Adds a mesh drawn with a material.
 void addSurface(SurfaceErrors&, const LitScene&, const Material&, const Mesh&, const Variant&);
 
-/// What lies over one another is a mean of its layers, so that errors of shading do not grow. Each
-/// layer rounds alpha, its complement, two products and a sum, and alpha itself is interpolated:
-/// within 8 u of the brightest. No more layers are drawn than there are triangles.
+/// Adds the rounding of blending. Blended layers are averaged, so that errors of shading do not
+/// grow. Each layer rounds alpha, its complement, two products and a sum, and alpha itself is
+/// interpolated: within 8 u of the brightest surface. There are no more layers than triangles.
 void addBlending(ErrorsByMaterial&, std::size_t triangles, const Look&);
 
 }  // namespace glint

@@ -26,7 +26,7 @@ auto mean(const Footprint& f, Get get) {
   return mean(f, f.weights, get);
 }
 
-// By one level of detail for the square, from the largest of its four steps.
+// Uses one level of detail for the 2x2 square of pixels, from the largest of its four steps.
 glm::dvec4 sampleTexture(const TextureSampler& sampler, std::span<const glm::dvec2> texcoords,
                          const Footprint& f) {
   const auto get = [&](std::uint32_t i) { return texcoords[i]; };
@@ -67,8 +67,8 @@ double edgeDistanceOf(const Footprint& f) {
 
 bool carriesLight(const Surface& s) { return !s.unlit && !isPerPixel(s.program); }
 
-// The numbers of the material, as gltf's physically based one is converted (pbr_conversion.h), from
-// what `texel` finds in a texture.
+// The material's numbers, converted from glTF's physically based ones (pbr_conversion.h) with the
+// texels that `texel` returns.
 template <typename Texel>
 Numbers numbersOf(const Item& item, Texel texel) {
   Numbers numbers = item.surface.numbers;
@@ -107,7 +107,8 @@ Numbers numbersAt(const Item& item, const Footprint& f) {
   });
 }
 
-// At the mean of some vertices, from the full size: neither a vertex nor a face has a footprint.
+// At the mean of some vertices, from the full-size level: neither a vertex nor a face has a
+// footprint.
 Numbers numbersAt(const Item& item, std::span<const std::uint32_t> vertices) {
   if (item.textured == 0) return item.surface.numbers;
   return numbersOf(item, [&](const Looked& looked) {
@@ -140,7 +141,7 @@ void PixelShader::select(int item, std::uint32_t number) {
     if (carriesLight(it.surface)) light();
     return;
   }
-  // From model space, where differences of positions are exact.
+  // Edges come from model space, where differences of positions are exact.
   const auto& t = primitive_.vertex;
   const glm::dvec3 a(it.mesh->positions[t[0]]);
   const glm::dvec3 ab = v.eyeFromModel * (glm::dvec3(it.mesh->positions[t[1]]) - a);
@@ -151,8 +152,8 @@ void PixelShader::select(int item, std::uint32_t number) {
   if (carriesLight(it.surface)) light();
 }
 
-// What flat shading carries from the face's centroid, and Gouraud shading from the vertices: the
-// light on the side that is seen.
+// Computes the light, on the side that is seen, that flat shading carries from the face's centroid
+// and Gouraud shading from the vertices.
 void PixelShader::light() {
   const Item& item = stage_.items[std::size_t(item_)];
   const Vertices& v = stage_.vertices[item.vertices];

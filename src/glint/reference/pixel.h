@@ -8,16 +8,16 @@ namespace glint::reference {
 /// C and alpha of material, vertex colour and texture.
 glm::dvec4 baseColor(const Item& item, const Footprint& footprint);
 
-/// The attributes and the shading of samples, one after the other. Keeps the last primitive, which
-/// the next sample mostly shares: use one for each thread.
+/// Computes the attributes and the shading of one sample after another. Caches the last primitive,
+/// which the next sample usually shares: use one object per thread.
 class PixelShader {
  public:
   explicit PixelShader(const Stage& stage) : stage_(stage) {}
 
-  /// All that shading reads at the sample (column, row); rows count from the top.
+  /// Everything that shading reads at the sample (column, row); rows count from the top.
   Attributes attributes(int item, std::uint32_t primitive, int column, int row);
 
-  /// Linear colour, straight alpha: what GL's fragment shader puts out.
+  /// Linear colour, straight alpha: what GL's fragment shader outputs.
   glm::dvec4 fragment(int item, std::uint32_t primitive, int column, int row);
 
  private:
@@ -29,7 +29,7 @@ class PixelShader {
   std::uint32_t number_ = 0;
   Primitive primitive_;
   glm::dvec3 faceNormal_{0.0};
-  std::array<Terms, 3> carried_;    ///< flat: the first; gouraud: of the vertices
+  std::array<Terms, 3> carried_;    ///< flat: only the first; gouraud: one per vertex
   std::array<Numbers, 3> numbers_;  ///< likewise
 };
 

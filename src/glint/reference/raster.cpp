@@ -7,7 +7,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A vertex in window and clip space; what lies between two of them is linear.
+// A vertex in window and clip space; both are linear between two vertices.
 struct Corner {
   glm::dvec3 window;
   double depth;
@@ -25,7 +25,7 @@ void include(Primitive& p, const glm::dvec3& window) {
   p.high = glm::max(p.high, place);
 }
 
-// The box around the part between near and far plane; false if there is none.
+// The box around the part beyond the near plane; false if there is none.
 bool findBounds(Primitive& p, const std::array<Corner, 3>& corners) {
   p.low = glm::dvec2(infinity);
   p.high = glm::dvec2(-infinity);
@@ -77,7 +77,7 @@ bool makeLine(Primitive& p, const Corner& a, const Corner& b) {
   p.to = glm::dvec2(last.window) / last.window.z;
   p.low = glm::min(p.from, p.to);
   p.high = glm::max(p.from, p.to);
-  // t, the place along the line on the screen, as a function of (x, y, 1).
+  // t, the position along the line on the screen, as a function of (x, y, 1).
   const glm::dvec2 way = p.to - p.from;
   const double square = glm::dot(way, way);
   glm::dvec3 t(0.0);
@@ -110,7 +110,7 @@ Footprint Primitive::footprint(double x, double y) const {
     f.dx[i] = edge.x;
     f.dy[i] = edge.y;
   }
-  // The weights times w sum up to 1 but for rounding, which a tiny triangle magnifies.
+  // The weights times w add up to 1 except for rounding, which a tiny triangle magnifies.
   f.depth = glm::dot(f.weights, vertexDepth) / glm::dot(f.weights, vertexW);
   return f;
 }
@@ -118,7 +118,7 @@ Footprint Primitive::footprint(double x, double y) const {
 Footprint Primitive::fragment(int column, int row, int rows, const glm::dvec2& place) const {
   const auto middleOf = [rows](int y) { return rows - y - 0.5; };
   Footprint f = footprint(column + 0.5 + place.x, middleOf(row) + place.y);
-  // Squares begin at the lower left.
+  // Squares of 2x2 pixels begin at the picture's lower left.
   const int below = (rows - 1 - row) % 2 == 0 ? row - 1 : row + 1;
   const int columns[] = {column, column ^ 1}, lines[] = {row, below};
   for (std::size_t i = 0; i < 4; ++i)
@@ -154,7 +154,7 @@ std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertice
 Columns columnsAt(const Primitive& p, double y, int width) {
   double low = p.low.x - 1, high = p.high.x;
   for (const glm::dvec3& edge : p.edges) {
-    // One column more on either side: the test of each sample decides.
+    // One extra column on either side: each sample is tested anyway.
     if (edge.x > 0)
       low = std::max(low, -(edge.y * y + edge.z) / edge.x - 1.5);
     else if (edge.x < 0)

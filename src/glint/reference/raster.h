@@ -10,51 +10,52 @@
 #include "glint/reference/scene.h"
 
 // GL's rasterisation in double, without snapping vertices to a subpixel grid: a driver that snaps
-// to 1/256 of a pixel covers other samples where an edge passes a centre more closely than that.
+// to 1/256 of a pixel covers other samples where an edge passes closer to a centre than that.
 namespace glint::reference {
 
-/// Where a sample lies in its primitive: the weights of the vertices over w (their sum is 1 / w, so
-/// that an attribute is the mean by these weights), and their change from sample to sample.
+/// Where a sample lies in its primitive: the vertices' weights divided by w (they add up to 1 / w,
+/// so that an attribute is their weighted mean), and their change from sample to sample.
 struct Footprint {
   std::array<std::uint32_t, 3> vertex{};
   glm::dvec3 weights{0.0}, dx{0.0}, dy{0.0};
-  /// The weights in the middles of the four pixels of the square by which GL takes differences: the
-  /// pixel's own, the others across, along, and across both. The first alone counts unless it is a
-  /// fragment's.
+  /// The weights at the centres of the four pixels of the 2x2 square over which GL takes
+  /// differences: the pixel itself, its neighbours in x, in y, and in both. Only
+  /// Primitive::fragment() sets them.
   std::array<glm::dvec3, 4> square{};
   double depth = 0;  ///< 1 at the near plane, 0 at the far one
 };
 
-/// A point, line or triangle made ready for the grid. Triangles are rasterised in homogeneous
-/// coordinates (Olano and Greer 1997): the three edge functions hold where w changes its sign too,
-/// so that nothing is clipped but by the depth of each sample.
+/// A point, line or triangle prepared for rasterisation. Triangles are rasterised in homogeneous
+/// coordinates (Olano and Greer 1997): the three edge functions hold even where w changes sign, so
+/// that nothing is clipped except by the depth of each sample.
 struct Primitive {
   Topology topology = Topology::triangles;
   std::array<std::uint32_t, 3> vertex{};
   std::array<glm::dvec3, 3> edges{};  ///< weights * size as functions of (x, y, 1)
   double scale = 1;                   ///< 1 / size
   glm::dvec3 vertexDepth{0.0}, vertexW{0.0};
-  bool front = true;               ///< of triangles: which side is seen
+  bool front = true;               ///< triangles: the front side is seen
   glm::dvec2 low{0.0}, high{0.0};  ///< around all samples that it may cover
-  glm::dvec2 from{0.0}, to{0.0};   ///< of lines and points: the ends, within the depth range
+  glm::dvec2 from{0.0}, to{0.0};   ///< lines and points: the ends, within the depth range
 
   Footprint footprint(double x, double y) const;
 
-  /// That of a fragment of the pixel (column, row from the top) of a picture of `rows` rows, shaded
-  /// at `place` from the pixel's middle.
+  /// The footprint of a fragment in the pixel (column, row from the top) of a picture of `rows`
+  /// rows, shaded at `place` from the pixel's centre.
   Footprint fragment(int column, int row, int rows, const glm::dvec2& place) const;
 };
 
-/// Nothing if it is culled, without area, or beyond the near or the far plane as a whole.
+/// Nothing if it is culled, has no area or length, or lies entirely in front of the near plane or,
+/// for lines and points, beyond the far plane.
 std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertices,
                                        std::uint32_t number);
 
 std::size_t primitiveCount(const Mesh& mesh);
 
 /// Whether a sample on an edge belongs to the triangle on the side where the edge's function is
-/// positive. GL leaves it to the driver, as long as one of two triangles gets it. Here: edges on
-/// the left, and level ones at the bottom of the picture (their inside is above), as llvmpipe has
-/// it in framebuffer objects: its top-left rule counts rows as they lie in memory, bottom first.
+/// positive. GL leaves that to the driver, as long as one of the two triangles gets it. Here: left
+/// edges, and horizontal edges at the bottom (their inside is above), as in llvmpipe's framebuffer
+/// objects: its top-left rule counts rows as they lie in memory, bottom first.
 inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0 && edge.y > 0); }
 
 inline double at(const glm::dvec3& f, double x, double y) { return f.x * x + f.y * y + f.z; }
@@ -68,23 +69,23 @@ inline bool covers(const Primitive& p, double x, double y) {
   return true;
 }
 
-/// The samples from column first to column last that the triangle may cover in the row at height y.
+/// The first and the last column whose samples the triangle may cover in the row at height y.
 struct Columns {
   int first, last;
 };
 Columns columnsAt(const Primitive&, double y, int width);
 
-/// Whether a line's fragment lies in this column (of a steep line: in this row), and where across.
-/// GL's diamond-exit rule: the sample next to the line counts unless the line begins beyond its
-/// middle and outside of its diamond, or ends inside of its diamond.
+/// The row of a line's fragment in this column (for a steep line, the column in this row), if it
+/// has one. GL's diamond-exit rule: the sample next to the line counts unless the line begins
+/// beyond its centre and outside its diamond, or ends inside its diamond.
 std::optional<int> lineSample(const Primitive& line, int along);
 inline bool isSteep(const Primitive& line) {
   return std::abs(line.to.y - line.from.y) > std::abs(line.to.x - line.from.x);
 }
 
 /// Calls visit(column, row) for each sample covered, rows counted from the top, in [firstRow,
-/// endRow); row by row. `sample` is where in each pixel, from its middle; lines and points cover
-/// all samples of a pixel.
+/// endRow); row by row. `sample` is the place in each pixel, from its centre; lines and points
+/// cover all samples of a pixel.
 template <typename Visit>
 void forEachSample(const Primitive& p, const glm::ivec2& grid, int firstRow, int endRow,
                    const glm::dvec2& sample, Visit visit) {

@@ -16,7 +16,8 @@ namespace {
 
 using reference::PixelShader;
 
-// Depths that differ by less are the same surface, computed from vertices in another order.
+// Depths that differ by less belong to the same surface, computed from its vertices in another
+// order.
 constexpr double sameDepth = 1e-12;
 
 constexpr int maxStripSamples = 1 << 16;
@@ -93,7 +94,7 @@ void ReferenceRenderer::findVisible(int firstRow, int endRow, Strip& strip) cons
   const auto& primitives = strips_[stripOf(firstRow)];
   for (std::size_t k = 0; k < primitives.size(); ++k) {
     const reference::Item& item = stage_.items[primitives[k].item];
-    if (item.blended) break;  // those are the last
+    if (item.blended) break;  // blended items come last
     const auto p =
         reference::makePrimitive(item, stage_.vertices[item.vertices], primitives[k].primitive);
     if (!p) continue;
@@ -155,7 +156,7 @@ void ReferenceRenderer::drawSamples(int firstRow, int endRow, Strip& strip) cons
     strip.color[i] = sum[i] / double(stage_.samples.size());
 }
 
-// Exactly: at each sample all that is blended and nearer than what is opaque, from the back.
+// Blends exactly: at each sample, everything blended in front of the opaque surface, back to front.
 void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
   const std::size_t width = std::size_t(stage_.grid.x);
   const auto& primitives = strips_[stripOf(firstRow)];
@@ -176,7 +177,7 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
     };
     reference::forEachSample(*p, stage_.grid, firstRow, endRow, strip.sample, visit);
   }
-  // Stable: of surfaces that coincide the last drawn lies on top.
+  // Stable: of coinciding surfaces, the last drawn lies on top.
   std::ranges::stable_sort(strip.fragments, [](const Fragment& a, const Fragment& b) {
     return a.at != b.at ? a.at < b.at : a.depth < b.depth;
   });

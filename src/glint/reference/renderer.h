@@ -13,27 +13,28 @@ struct Primitive;
 
 namespace glint {
 
-/// Draws a scene and look on the CPU in double precision, without GL: the truth for every error
-/// figure. The same picture whatever the number of threads and however the rows are asked for.
+/// Draws a scene and look on the CPU in double precision, without GL: the reference for every error
+/// figure. The picture does not depend on the number of threads or on how its rows are requested.
 ///
 /// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
 /// perspective-correct interpolation, samples between the near and the far plane) but does not snap
-/// vertices to a subpixel grid. Multisampled, a pixel that a triangle covers in part is shaded for
-/// it at the mean of the samples covered. Where depths agree to 1e-12 the first drawn stays in
-/// front. What is blended is composed exactly, at every sample from the back to the front.
+/// vertices to a subpixel grid. With multisampling, a pixel that a triangle covers in part is
+/// shaded at the mean of the samples covered. Where depths agree to 1e-12, the first drawn stays in
+/// front. Blended surfaces are composited exactly, back to front at every sample.
 class ReferenceRenderer {
  public:
-  /// Transforms and sorts by strips of rows; draws nothing yet. Scene and images must outlive it.
-  /// `threads` 0: as many as the processor has. Throws InputError for a number of samples without a
-  /// pattern (samples.h), and for a camera or a material that the scene does not have.
+  /// Transforms the scene and sorts it into strips of rows; draws nothing yet. Scene and images
+  /// must outlive it. `threads` 0: as many as the processor has. Throws InputError for a number of
+  /// samples without a pattern (samples.h), and for a camera or a material that the scene does not
+  /// have.
   ReferenceRenderer(const Scene& scene, const DecodedImages& images, const Bounds& bounds,
                     const Look& look, int threads = 0);
 
-  /// Before anything is drawn: where a multisampled picture's samples lie in each pixel, from its
-  /// middle, y upwards, as a driver has them.
+  /// Call before drawing: sets where a multisampled picture's samples lie in each pixel, from its
+  /// centre, y upwards, so as to match a driver.
   void sampleAt(std::vector<glm::dvec2> samples);
 
-  /// Before anything is drawn: leaves one term of the picture (see picture_terms.h) to be drawn.
+  /// Call before drawing: reduces the picture to one term (picture_terms.h).
   void keep(const PictureTerm& term);
 
   /// Rows y0 to y0 + rows - 1 from the top: linear, premultiplied by alpha over the background,
@@ -44,11 +45,11 @@ class ReferenceRenderer {
   /// A number of rows that keeps all threads busy and memory small.
   int bandRows() const;
 
-  /// Rows done so far by drawRows, all calls together; may be asked from another thread.
+  /// Rows done so far by drawRows, all calls together; may be called from another thread.
   int rowsDone() const { return rowsDone_; }
 
-  /// What is seen at the pixels of these rows, row by row: the front-most that is not blended. With
-  /// ssaa, of the samples of the grid (`rows` are then rows of samples).
+  /// What is seen at the pixels of these rows, row by row: the front-most opaque surface. With
+  /// ssaa, at the samples of the grid (`rows` are then rows of samples).
   std::vector<reference::Attributes> attributes(int y0, int rows) const;
 
   /// The parts of the radiance for given attributes.
@@ -69,8 +70,8 @@ class ReferenceRenderer {
   struct Strip {
     std::vector<glm::dvec4> color;
     std::vector<double> depth;
-    std::vector<Fragment> fragments;     ///< of what is blended
-    glm::dvec2 sample{0.0};              ///< where in each pixel, from its middle
+    std::vector<Fragment> fragments;     ///< of blended items
+    glm::dvec2 sample{0.0};              ///< the place in each pixel, from its centre
     std::vector<std::uint32_t> visible;  ///< 1 + index into the strip's primitives; 0 is none
   };
   void sortIntoStrips();

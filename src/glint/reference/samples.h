@@ -8,15 +8,15 @@
 
 namespace glint::reference {
 
-/// Where the samples of a pixel lie, from its middle, y upwards; none without multisampling. The
-/// pattern that Direct3D 11 fixes for 2, 4, 8 and 16 samples, which drivers of GL have too (that of
-/// llvmpipe among them); ReferenceRenderer::sampleAt() takes others. Throws InputError for other
-/// numbers.
+/// Where the samples of a pixel lie, from its centre, y upwards; none without multisampling.
+/// Direct3D 11's standard pattern of 2, 4, 8 and 16 samples, which GL drivers use too (llvmpipe
+/// among them); ReferenceRenderer::sampleAt() takes other patterns. Throws InputError for other
+/// numbers of samples.
 std::vector<glm::dvec2> samplePattern(const AntiAliasing&);
 
-/// Where in a pixel a primitive is shaded, from its middle: the mean of the samples that it covers,
-/// and so never outside of it; the middle itself if it covers all of them. Lines and points cover
-/// whole pixels.
+/// Where in a pixel a primitive is shaded, from the pixel's centre: the mean of the samples that it
+/// covers, which is never outside the primitive; the centre itself if it covers all or none of
+/// them. Lines and points cover whole pixels.
 glm::dvec2 shadingPlace(const Primitive&, const std::vector<glm::dvec2>& samples, double middleX,
                         double middleY);
 

@@ -16,7 +16,8 @@ namespace {
 std::vector<Light> lightsFor(const Look& look, const Camera& camera) {
   const glm::dmat3 turn = glm::transpose(camera.axes);
   std::vector<Light> lights;
-  // Lengths are in units of camera.unit, and so is what falls with their square.
+  // Lengths are in units of camera.unit; intensities that fall off with the square are scaled to
+  // match.
   const std::vector<glint::Light> given = lightsOf(look);
   const std::vector<std::size_t> shining = shiningLights(given);
   for (std::size_t rank = 0; rank < shining.size(); ++rank) {
@@ -68,8 +69,8 @@ Frame frameFor(const Look& look, const Camera& camera) {
   return frame;
 }
 
-// n is perpendicular to what (M^-1)^T n is perpendicular to after M; the cofactors are that times
-// the determinant, whose sign is taken out again, and are finite where M has no inverse.
+// Normals transform by (M^-1)^T. The cofactors are that times the determinant, whose sign is
+// removed again, and are finite even where M has no inverse.
 glm::dmat3 normalMatrix(const glm::dmat3& m) {
   double size = 0;
   for (int i = 0; i < 3; ++i)
@@ -163,7 +164,7 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
   item.blended = from.blended;
   item.mirrored = from.mirrored;
   item.faces = from.faces;
-  // The variant says what is read, and so decoded: no texture without coordinates for it.
+  // Only what the variant reads is decoded, and it reads no texture without coordinates.
   if (from.variant.colorTexture) {
     item.colorTexture = samplerFor(*material.colorTexture, scene, images);
     item.colorTexcoords = texcoordsOf(*item.mesh, *material.colorTexture);
@@ -203,7 +204,7 @@ Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& li
   grid = look.resolution * (ssaa ? look.antiAliasing.count : 1);
   samples = samplePattern(look.antiAliasing);
   const glm::dmat4 toClip = projection(camera, glm::dvec2(0.0), glm::dvec2(1.0), true);
-  std::map<int, std::size_t> placed;  // by instance: blended items stand in the list twice
+  std::map<int, std::size_t> placed;  // by instance: where its vertices are
   for (const DrawItem& from : list.items) {
     Item& item = items.emplace_back(itemFor(from, scene, images, look));
     const auto [place, isNew] = placed.try_emplace(from.instance, vertices.size());

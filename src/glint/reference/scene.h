@@ -12,7 +12,7 @@
 namespace glint::reference {
 
 /// The vertices of an instance. Window space is in samples of the picture, y upwards from the lower
-/// edge, homogeneous: the sample at (x / w, y / w).
+/// edge, homogeneous: the vertex is at (x / w, y / w).
 struct Vertices {
   std::vector<glm::dvec3> window;  ///< x, y, w
   std::vector<double> depth;       ///< z of clip space: depth times w
@@ -23,13 +23,13 @@ struct Vertices {
   glm::dmat3 eyeFromModel{1.0};  ///< without translation
 };
 
-/// A texture and where its mesh looks it up.
+/// A texture and the coordinates at which its mesh reads it.
 struct Looked {
   TextureSampler sampler;
   std::vector<glm::dvec2> texcoords;
 };
 
-/// An item of the draw list with all that the reference reads of it.
+/// An item of the draw list with everything that the reference reads of it.
 struct Item {
   const Mesh* mesh = nullptr;
   std::size_t vertices = 0;  ///< index into Stage::vertices
@@ -40,26 +40,26 @@ struct Item {
   double alphaCutoff = 0;
   FaceSide faces = FaceSide::both;
   std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
-  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of those
+  std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of these
   double normalScale = 1;
-  unsigned textured = 0;  ///< bits of namespace textured: what the following give
+  unsigned textured = 0;  ///< bits of namespace textured that the following give
   ParameterTextures parameters;
   std::optional<Looked> metallicRoughness, occlusion, specular, transmission;
 };
 
-/// A scene before the camera, in double throughout. Of the draw list it takes the order, the
+/// A scene as the camera sees it, in double throughout. From the draw list it takes the order, the
 /// camera, which faces show and which textures are read. Scene and images must outlive it.
 struct Stage {
   Stage(const Scene& scene, const DecodedImages& images, const DrawList& list, const Look& look);
 
-  glm::ivec2 grid{0};               ///< samples across and down; multisampled, pixels
+  glm::ivec2 grid{0};               ///< samples across and down; pixels if multisampled
   std::vector<glm::dvec2> samples;  ///< multisampled: where in a pixel they lie (samples.h)
   Frame frame;
   std::vector<Vertices> vertices;
   std::vector<Item> items;
   Camera camera;
 
-  /// To where the ray through a place of the grid goes, eye space; not unit.
+  /// The direction of the ray through a place of the grid, eye space; not unit.
   glm::dvec3 ray(double x, double y) const;
 };
 

@@ -27,8 +27,8 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   glm::dvec3 F(0.0);
   if (m < 1) F += (1 - m) * dielectricReflectance(surface, boundary, entering, cosine);
   if (m > 0) F += m * metalReflectance(cosine, C);
-  // A picture is looked up over the angle by which the direction turns from pixel to pixel, the
-  // largest of the square's.
+  // An environment picture is averaged over the angle by which the direction turns from pixel to
+  // pixel, the largest in the square.
   const auto spread = [&](const auto& directionAt) {
     std::array<glm::dvec3, 4> d;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -48,8 +48,8 @@ void addEnvironment(const Frame& frame, const Surface& surface, const Attributes
   if (terms.transparency == 0) return;
   const double n1 = entering ? surface.mediumIor : surface.ior;
   const double n2 = entering ? surface.ior : surface.mediumIor;
-  // Where a neighbour reflects totally, its refracted ray is taken to run along the surface, to
-  // which it tends at the critical angle.
+  // Where a neighbour reflects totally, its refracted ray is taken to run along the surface, its
+  // limit at the critical angle.
   const auto refracted = [&](const Attributes& at) {
     const glm::dvec3 v = toViewer(frame, at.position), n = shadingNormal(surface, at);
     if (const auto direction = refract(-v, n, n1, n2)) return safeNormalize(*direction);
@@ -112,7 +112,7 @@ glm::dvec3 shadingNormal(const Surface& surface, const Attributes& a) {
 
 namespace {
 
-// |dN/dx|^2 + |dN/dy|^2: of the largest turns across and along the square.
+// |dN/dx|^2 + |dN/dy|^2, from the square's largest turns in x and in y.
 double normalTurn(const Surface& surface, const Attributes& a) {
   std::array<glm::dvec3, 4> n;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -127,18 +127,18 @@ double normalTurn(const Surface& surface, const Attributes& a) {
   return std::max(apart(0, 1), apart(2, 3)) + std::max(apart(0, 2), apart(1, 3));
 }
 
-// The numbers of the pixel's lights.
+// The numbers with which the pixel is lit: those of the surface, with the highlight filtered.
 Numbers pixelNumbers(const Surface& surface, const Attributes& a) {
   Numbers numbers = a.numbers;
   if (surface.filter == SpecularAntialiasing::none) return numbers;
-  // Of the lobe as drawn, whose exponent may be a multiple of the material's.
+  // The exponent of the lobe as drawn, which may be a multiple of the material's.
   const bool blinn = usesBlinn(surface.program);
   const double factor = blinn ? surface.blinnFactor : 1;
   const double exponent = factor * numbers.exponent;
   const FilteredLobe filtered = surface.filter == SpecularAntialiasing::toksvig
                                     ? toksvigLobe(exponent, blinn, a.normalWidth * a.normalWidth)
                                     : filteredLobe(exponent, blinn, normalTurn(surface, a));
-  // The normalisation stays that of the surface: what is filtered is its light.
+  // The normalisation stays that of the surface: only its light is filtered.
   numbers.specular *= filtered.scale * lobeNormalization(surface.normalization, blinn, exponent) /
                       lobeNormalization(surface.normalization, blinn, filtered.exponent);
   if (factor > 0) numbers.exponent = filtered.exponent / factor;

@@ -10,13 +10,13 @@
 namespace glint::reference {
 
 /// A texture sampled by GL's rules (OpenGL 3.3, section 3.8) in double. Texels are decoded from
-/// sRGB one by one, before filtering; alpha is linear. Level of detail log2 of the longest of the
-/// footprint's steps in texels of the full size; above 0 the texture is minified, whatever
-/// the filters (GL 3.3 moves the switch to 0.5 for some of them, which is not followed).
+/// sRGB one by one, before filtering; alpha is linear. The level of detail is log2 of the longest
+/// of the footprint's steps, in texels of the full size. Above 0 the texture is minified, whatever
+/// the filters (GL 3.3 moves the switch to 0.5 for some of them; this does not).
 ///
 /// The smaller levels are those of the picture's definition (glint/image/mipmaps.h), rounded to 8
-/// bits as the driver gets them, so that they count as texture and not as an error of filtering.
-/// Without them the full size serves for every level.
+/// bits as the driver gets them, so that this rounding is part of the texture, not an error of
+/// filtering. Without them the full size is used for every level.
 class TextureSampler {
  public:
   /// The pixels must outlive it. An empty picture samples as white.

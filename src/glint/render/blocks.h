@@ -1,7 +1,7 @@
 #pragma once
 
-// The uniform blocks of glsl/blocks.glsl, where each member is described. std140 puts them where
-// C++ does: every vec3 is followed by a float, and vec2 stand in pairs.
+// The uniform blocks of glsl/blocks.glsl, where each member is described. std140 lays them out as
+// C++ does: every vec3 is followed by a float, and vec2s come in pairs.
 
 #include <glm/glm.hpp>
 
@@ -19,7 +19,7 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 688);
 
-/// Of each code of sRGB the linear value, in x: a row of an array takes 16 bytes.
+/// The linear value of each sRGB code, in x: std140 pads array elements to 16 bytes.
 struct CurveBlock {
   glm::vec4 linearOfCode[256];
 };
@@ -39,7 +39,7 @@ static_assert(sizeof(LightEntry) == 64);
 
 struct DrawBlock {
   glm::mat4 eyeFromModel{1};
-  glm::mat3x4 normalMatrix{1};  // std140's mat3: columns of four floats, the last of no meaning
+  glm::mat3x4 normalMatrix{1};  // std140's mat3: columns of four floats, the last unused
   float normalScale = 1;
   float handedness = 1;
   float unused[2] = {};

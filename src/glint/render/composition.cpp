@@ -18,7 +18,8 @@ std::string header(bool fileNames) {
                    : "#version 330 core\n";
 }
 
-// What shades a pixel that is partly covered without leaving the triangle; before everything else.
+// Keeps the shading point of a partly covered pixel inside the triangle; comes right after the
+// header.
 std::string multisampleText(bool multisampled) {
   if (!multisampled) return "#define SHADES_AT_OFFSET 0\n#define VARYING\n";
   return R"(#ifdef GL_ARB_gpu_shader5
@@ -36,7 +37,7 @@ std::string define(std::string_view name, int value) {
   return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
 }
 
-// As GLSL writes it: with a point.
+// With a decimal point, as GLSL floats need.
 std::string realText(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%#.9g", value);
@@ -55,13 +56,13 @@ std::string environmentDefines(Environment environment) {
 
 bool isPerVertex(const Variant& v) { return !v.unlit && !isPerPixel(v.program); }
 
-// In the fragment stage.
+// Whether the fragment stage reads textures.
 bool readsTextures(const Variant& v) {
   return v.colorTexture || v.emissionTexture || v.normalTexture ||
          (v.textured != 0 && !isPerVertex(v));
 }
 
-// Where a texture of parameters is looked up, in the stage that reads it.
+// The coordinates of a parameter texture, in the stage that reads it.
 std::string placeText(const Variant& v, std::size_t texture) {
   const int place = v.parameterPlaces[texture];
   if (place < 0) return "vColorTexcoord";
@@ -105,7 +106,7 @@ std::string textureDefines(const Variant& v) {
   std::string text = define("CODED_TEXTURES", v.colorTexture || v.emissionTexture);
   for (std::size_t i = 0; i < std::size(names); ++i) {
     Sampler sampler = v.samplers[i];
-    // A vertex or a face looks up the full size.
+    // Vertices and faces read the full-size level.
     if (i > 2 && isPerVertex(v)) sampler.mip = MipFilter::none;
     text += std::string("#define ") + names[i] + "_RULE " + ruleText(sampler, i >= coded) + "\n";
   }
@@ -142,15 +143,15 @@ std::string defines(const Variant& v) {
   return text;
 }
 
-// What a form reads in place of the exponent where that comes from a texture: shape() of its row,
-// each of which is linear in the exponent.
+// What a form reads in place of an exponent that varies: its row's shape(), which is linear in the
+// exponent.
 std::string shapeText(const HighlightRow& form, int gamma) {
   const glm::dvec2 at0 = form.shape(0, gamma), slope = form.shape(1, gamma) - at0;
   return "(vec2(" + realText(slope.x) + ", " + realText(slope.y) + ") * p.exponent + vec2(" +
          realText(at0.x) + ", " + realText(at0.y) + "))";
 }
 
-// What lights.glsl is composed with for each form of the highlight.
+// The #defines that lights.glsl is composed with, for each form of the highlight.
 std::vector<std::string> lobeDefines(const Variant& v) {
   std::vector<Variant::Dimmer> forms{{v.highlight, 0, 0, 0}};
   forms.insert(forms.end(), v.dimmer.begin(), v.dimmer.end());
@@ -213,7 +214,7 @@ std::string filterDefines(const Variant& v) {
          (usesBlinn(v.program) ? "1.0" : "4.0") + "\n";
 }
 
-// A file and what is defined before it.
+// A file and the #defines before it.
 struct Part {
   std::string file, defines = {};
 };

@@ -26,8 +26,8 @@ using detail::DecodeJob;
 
 std::atomic<std::uint64_t> givenLimit = 0;
 
-// Of the whole process, however many models are decoded at once: who decodes works itself, and
-// takes others to help as long as there are processors.
+// Helper threads, counted for the whole process however many models are decoded at once: the
+// calling thread works too, and takes helpers only while processors are free.
 class Helpers {
  public:
   explicit Helpers(std::size_t wanted) {
@@ -46,7 +46,7 @@ class Helpers {
   int taken_ = 0;
 };
 
-// The picture that a gloss picture is made of beside its own bytes, or nullptr.
+// The second picture that a gloss picture is made from, or nullptr.
 const EncodedImage* otherOf(const Scene& scene, const EncodedImage& image) {
   return image.gloss && image.gloss->other >= 0 ? &scene.images[std::size_t(image.gloss->other)]
                                                 : nullptr;
@@ -58,7 +58,8 @@ int neededHalvings(const TextureHeader& header) {
   return halvings;
 }
 
-// Decodes jobs one after another, in several threads; a large one waits until there is room.
+// Decodes jobs in order, on several threads; a large one waits until the memory limit has room for
+// it.
 class Decoding {
  public:
   Decoding(const Scene& scene, const std::vector<DecodeJob>& jobs, std::uint64_t room)
@@ -73,7 +74,7 @@ class Decoding {
     for (std::thread& thread : threads) thread.join();
   }
 
-  /// The picture of a job; throws what decoding has thrown.
+  /// The picture of a job; rethrows what decoding threw.
   DecodedImage take(std::size_t job) {
     if (errors_[job]) std::rethrow_exception(errors_[job]);
     return std::move(images_[job]);
@@ -136,7 +137,7 @@ void drawWithout(Scene& scene, int image, const InputError& error) {
       if (*texture && (*texture)->image == image) texture->reset();
 }
 
-// Of a picture of the environment that cannot be read, drawing tells.
+// Warns of corrected texels. Drawing reports an environment picture that cannot be read.
 void tellOfEnvironment(Scene& scene, const Look& look) {
   std::shared_ptr<const EnvironmentImage> image;
   try {

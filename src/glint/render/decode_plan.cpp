@@ -42,7 +42,8 @@ std::uint64_t DecodeJob::kept() const {
 
 std::uint64_t DecodeJob::atWork() const {
   const std::uint64_t decoder = halvings > 0 ? header.reducedWork : header.work;
-  // The first smaller level and the next are floats: 16 bytes a pixel of a quarter and a sixteenth.
+  // The first two smaller levels are held as floats: 16 bytes for a quarter and a sixteenth of the
+  // pixels.
   const std::uint64_t levels = hasLevels ? std::uint64_t(5) * width() * height() : 0;
   return kept() + std::max(decoder, levels);
 }
@@ -53,7 +54,7 @@ std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_
   for (std::size_t i = 0; i < jobs.size(); ++i)
     for (; std::max(jobs[i].width(), jobs[i].height()) > maxTextureSide; ++jobs[i].halvings)
       tooLong[i] = true;
-  // What is halved while it is read takes time all the same.
+  // A picture that is halved while it is read still takes the time of its full size.
   std::uint64_t full = 0;
   for (const DecodeJob& job : jobs) full += std::uint64_t(4) * job.header.width * job.header.height;
   if (full > 3 * limit)

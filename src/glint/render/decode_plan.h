@@ -16,20 +16,20 @@ struct DecodeJob {
   std::uint64_t encoded = 0;  ///< bytes in the file
   bool hasLevels = false;     ///< the smaller levels are made too
   bool needsNormalLengths = false;
-  int halvings = 0;  ///< of its sides, while it is read
+  int halvings = 0;  ///< how often its sides are halved while it is read
 
   int width() const;  ///< pixels, once halved
   int height() const;
-  /// Bytes that are kept: four a pixel, and a third of that for the smaller levels.
+  /// Bytes kept: four a pixel, and a third of that for the smaller levels.
   std::uint64_t kept() const;
-  /// Bytes while it is being decoded: those and what the decoder and the levels need beside them.
+  /// Bytes while it is being decoded: kept() and what the decoder or the levels need in addition.
   std::uint64_t atWork() const;
 };
 
-/// Halves what is longer than maxTextureSide, and where all takes more than `limit` bytes what is
-/// larger than `useful` pixels a side. Gives the warnings. Throws InputError where it is still
-/// more, or where three times as much would have to be read for it or is needed to decode one
-/// alone.
+/// Halves textures longer than maxTextureSide and, while all of them take more than `limit` bytes,
+/// those larger than `useful` pixels a side. Returns the warnings. Throws InputError if they still
+/// exceed the limit, or if all of them in full size, or decoding a single one, would take more than
+/// three times the limit.
 std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_t limit,
                                       int useful);
 

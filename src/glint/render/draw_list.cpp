@@ -23,8 +23,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
   return w / std::sqrt(glm::dot(w, w));
 }
 
-// Eye-space positions far beyond what float can square would only turn into infinities: the
-// direction is what counts there.
+// Eye-space positions beyond what float can square would only become infinities; at such distances
+// only the direction counts.
 glm::vec3 eyePosition(const glm::dvec3& world, const Camera& camera, const glm::dmat3& rotation) {
   const glm::dvec3 p = rotation * (world - camera.eye);
   const double limit = 1e15;
@@ -52,7 +52,7 @@ void addLights(DrawList& list, const Look& look) {
       const glm::dvec3 l = light.type == Light::Type::camera ? unit(light.direction)
                                                              : directions * unit(light.direction);
       e.position = l;
-      // L + V for the one direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
+      // L + V for the constant direction to the viewer, +Z; H = (L + V) / |L + V|, 0 where L = -V.
       const glm::dvec3 between = l + glm::dvec3(0, 0, 1);
       const bool opposed = !(glm::dot(between, between) > 1e-12);
       const glm::dvec3 half = opposed ? glm::dvec3(0.0) : unit(between);
@@ -60,7 +60,7 @@ void addLights(DrawList& list, const Look& look) {
     } else {
       e.position = eyePosition(light.position, camera, rotation);
     }
-    if (light.fallsOff) {  // distances are in units of the camera's unit
+    if (light.fallsOff) {  // distances are multiples of camera.unit
       const double square = camera.unit * camera.unit;
       e.intensity = glm::min(light.intensity / square, 1e30);
       e.fallsOff = 1;
@@ -139,8 +139,8 @@ std::vector<glm::vec4> lobeTablesOf(const Variant& v, double exponent) {
   return tables;
 }
 
-// Model to eye space in double up to the last step, and the matrix for normals: the rotation itself
-// where there is one scale, else the cofactors, both scaled to entries of about 1.
+// Model to eye space in double up to the last step. The normal matrix is the rotation itself where
+// the scale is uniform, else the cofactors; both are scaled to entries of about 1.
 DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& camera) {
   const glm::dmat3 rotation = eyeRotation(camera), linear(world);
   const glm::dmat3 toEye = rotation * linear;
@@ -169,7 +169,7 @@ DrawBlock drawBlock(const Mesh& mesh, const glm::dmat4& world, const Camera& cam
   return block;
 }
 
-// The sign of the determinant, of columns scaled so that their product neither under- nor
+// Whether the determinant is negative; its columns are scaled so that it neither under- nor
 // overflows.
 bool isMirrored(const glm::dmat4& world) {
   return glm::dot(unit(world[0]), glm::cross(unit(world[1]), unit(world[2]))) < 0;
@@ -220,7 +220,7 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
     item.material = mesh.material;
     item.instance = int(i);
     item.draw = drawBlock(mesh, instance.world, list.camera);
-    if (!finite(item.draw.eyeFromModel)) continue;  // beyond what float can place
+    if (!finite(item.draw.eyeFromModel)) continue;  // beyond the range of float
     item.variant = variantFor(mesh, material, instance.world, look, list.camera.orthographic);
     item.materialBlock = materialBlock(material, item.variant, look);
     item.lobeTables = lobeTablesOf(item.variant, lobeExponent(material, look));
@@ -241,8 +241,8 @@ DrawList makeDrawList(const Scene& scene, const Bounds& bounds, const Look& give
 }
 
 std::vector<DrawCall> drawCalls(const std::vector<DrawItem>& items) {
-  // Fewer are drawn one by one, by the program that all others use: one for instances costs more to
-  // compile than it saves.
+  // Fewer are drawn one by one, with the program that everything else uses: a program for instances
+  // costs more to compile than it saves.
   constexpr std::size_t fewest = 8;
   const auto alike = [](const DrawItem& a, const DrawItem& b) {
     return !a.blended && !b.blended && a.mesh == b.mesh && a.material == b.material &&

@@ -22,7 +22,8 @@ struct Span {
   std::vector<double> weights;  ///< of `first` and those after it; their sum is 1
 };
 
-/// What each of `to` texels covers of `from`; with `weight` of a texel's number.
+/// The texels, of `from` in all, that each of `to` texels covers; `weight(i)` scales the share of
+/// texel i.
 template <typename Weight>
 std::vector<Span> spansOf(int from, int to, const Weight& weight) {
   std::vector<Span> spans(static_cast<std::size_t>(to));
@@ -45,7 +46,7 @@ Level halved(const Level& from) {
   Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
   to.rgb.reserve(std::size_t(3) * to.width * to.height);
   const auto columns = spansOf(from.width, to.width, [](int) { return 1.0; });
-  // A row's share of the sphere goes with the sine of its distance from the pole.
+  // A row's share of the sphere is proportional to the sine of its distance from the pole.
   const auto rows = spansOf(from.height, to.height,
                             [&](int row) { return std::sin((row + 0.5) * pi / from.height); });
   for (const Span& row : rows)
@@ -62,7 +63,7 @@ Level halved(const Level& from) {
   return to;
 }
 
-/// The parts of a row that go with the cosine and the sine of the longitude.
+/// The parts of a row that vary as the cosine and the sine of the longitude.
 struct FirstHarmonic {
   glm::dvec3 cosine{0.0}, sine{0.0};
 };
@@ -97,9 +98,9 @@ std::vector<FirstHarmonic> firstHarmonics(const Level& level) {
   return all;
 }
 
-/// Those of the next level: means over as much of the meridian, not of the sphere. A linear
-/// radiance has the amplitude sin(distance from the pole), whose mean by area is that of a place
-/// nearer to the equator than the middle of the row is.
+/// The harmonics of the next level: means along the meridian, not over the area. A radiance that is
+/// linear in direction has the amplitude sin(distance from the pole), whose mean by area belongs to
+/// a place nearer to the equator than the row's middle.
 std::vector<FirstHarmonic> halved(const std::vector<FirstHarmonic>& from, int rows) {
   std::vector<FirstHarmonic> to;
   for (const Span& span : spansOf(int(from.size()), rows, [](int) { return 1.0; })) {
@@ -112,8 +113,8 @@ std::vector<FirstHarmonic> halved(const std::vector<FirstHarmonic>& from, int ro
   return to;
 }
 
-/// Gives a row the first harmonic `wanted`, but no more of it than keeps the row from falling below
-/// 0: no light is negative.
+/// Gives a row the first harmonic `wanted`, or as much of it as leaves no texel below 0: light is
+/// never negative.
 void keepFirstHarmonic(float* row, const std::vector<glm::dvec2>& around,
                        const FirstHarmonic& wanted) {
   const int count = int(around.size());
@@ -134,14 +135,15 @@ void keepFirstHarmonic(float* row, const std::vector<glm::dvec2>& around,
   }
 }
 
-/// The mean of each texel's row over `width` texels about it, around the sphere.
+/// Replaces each texel by the mean of the row over `width` texels around it, wrapping around the
+/// sphere.
 void widenRow(float* row, int count, double width) {
   if (width <= 1) return;
   std::vector<glm::dvec3> sums(std::size_t(count) + 1, glm::dvec3(0.0));
   for (int i = 0; i < count; ++i)
     sums[std::size_t(i) + 1] =
         sums[std::size_t(i)] + glm::dvec3(row[3 * i], row[3 * i + 1], row[3 * i + 2]);
-  const auto before = [&](double x) {  // the integral up to x, which may lie on the next round
+  const auto before = [&](double x) {  // the integral up to x, which may lie beyond the row's ends
     const double round = std::floor(x / count);
     x -= round * count;
     const std::size_t i = std::min(std::size_t(x), std::size_t(count) - 1);
@@ -158,7 +160,7 @@ void widenTowardsPoles(Level& level, const std::vector<FirstHarmonic>& harmonics
   const auto around = longitudes(level.width);
   for (int y = 0; y < level.height; ++y) {
     const double sine = std::sin((y + 0.5) * pi / level.height);
-    // At a pole's row the height of a texel reaches around the pole.
+    // In the row next to a pole, a texel's height reaches around the pole.
     const bool pole = y == 0 || y == level.height - 1;
     const double width = pole ? level.width : level.width / (2 * level.height * sine);
     float* row = &level.rgb[std::size_t(3) * level.width * y];
@@ -167,7 +169,7 @@ void widenTowardsPoles(Level& level, const std::vector<FirstHarmonic>& harmonics
   }
 }
 
-/// Linear between the texels of a row, around the sphere.
+/// Interpolates linearly between the texels of a row, wrapping around the sphere.
 glm::dvec3 along(const Level& level, double u, int row) {
   const double x = u * level.width - 0.5, left = std::floor(x), share = x - left;
   const auto texel = [&](double column) {
@@ -192,7 +194,7 @@ std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path)
   Image image;
   try {
     const std::vector<std::byte> bytes = readFile(path);
-    // As floats; a single picture may take three times the limit while it is decoded.
+    // Decoded to floats, a single picture may take three times the limit.
     constexpr std::uint64_t perPixel = 4 * sizeof(float);
     const std::uint64_t most = 3 * decodeLimit(bytes.size());
     const PictureLimit limit(most / perPixel, "decoded they take more than " +
@@ -202,7 +204,7 @@ std::shared_ptr<const EnvironmentImage> readEnvironment(const std::string& path)
   } catch (const InputError& error) {
     throw InputError("--hdri-file: " + std::string(error.what()));
   }
-  // In place: large pictures would take twice the memory.
+  // In place: a copy would double the memory of a large picture.
   std::vector<float>& rgb = image.values;
   const std::size_t count = std::size_t(image.width) * image.height;
   for (std::size_t i = 0; i < count; ++i)
@@ -246,7 +248,7 @@ EnvironmentImage makeEnvironmentImage(int width, int height, std::vector<float> 
   while (std::max(level.width, level.height) > maxTextureSide) level = halved(level);
   image.levels.push_back(std::move(level));
   std::vector<FirstHarmonic> harmonics = firstHarmonics(image.levels[0]);
-  // Each is made of the one before as that was until it was widened.
+  // Each is made from the one before, as it was before widening.
   const Level* finer = &image.levels[0];
   while (finer->width > 1 || finer->height > 1) {
     level = halved(*finer);

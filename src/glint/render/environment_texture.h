@@ -7,11 +7,12 @@
 
 namespace glint {
 
-/// The picture of the environment in the driver's memory; the one drawn last. Lives and dies in one
-/// context.
+/// The environment picture drawn last, in the driver's memory. Belongs to one context for its whole
+/// lifetime.
 class EnvironmentTexture {
  public:
-  /// Uploads the picture unless it is there. Throws InputError for one that the driver cannot hold.
+  /// Uploads the picture unless it is there already. Throws InputError for one too large for the
+  /// driver.
   void upload(const std::shared_ptr<const EnvironmentImage>& image);
   void bind(GLuint unit) const;
 

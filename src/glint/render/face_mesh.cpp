@@ -26,7 +26,7 @@ FaceMesh makeFaceMesh(const Mesh& mesh) {
     const glm::vec3 normal =
         size > 0 ? glm::vec3(glm::normalize(cross / size)) : mesh.normals[t[2]];
     const glm::vec3 center((a + b + c) / 3.0);
-    if (taken[t[2]]) {  // all three are: a copy carries this face
+    if (taken[t[2]]) {  // all three are taken: a copy carries this face
       faces.source.push_back(t[2]);
       t[2] = std::uint32_t(faces.source.size() - 1);
       faces.normals.push_back(normal);

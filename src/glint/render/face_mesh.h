@@ -8,11 +8,11 @@
 
 namespace glint {
 
-/// A triangle mesh in which the last vertex of each triangle belongs to that triangle alone, to
+/// A triangle mesh in which the last vertex of each triangle belongs only to that triangle, to
 /// carry what is constant over its face (GL's provoking vertex). About as many vertices as
 /// triangles, not three times as many.
 struct FaceMesh {
-  std::vector<std::uint32_t> source;  ///< for each vertex, the one of the mesh it is a copy of
+  std::vector<std::uint32_t> source;  ///< for each vertex, the mesh's vertex that it copies
   std::vector<std::uint32_t> indices;
   /// For each vertex; meaningful for provoking ones. The face's unit normal by its winding (a
   /// vertex's where the face has no area), and its centroid relative to the mesh's origin.

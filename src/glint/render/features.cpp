@@ -6,7 +6,7 @@
 namespace glint {
 namespace {
 
-// Of a variant: the text of the forms, with the exponent of an integer power.
+// The text of a variant's forms, with the exponent of an integer power.
 std::string lobeText(const Variant& v) {
   const auto one = [](const HighlightForm& form) {
     return highlightText(form) +
@@ -61,7 +61,7 @@ std::string noParameterTexture(In in) {
                                                 : "the material has none";
 }
 
-// What is not as of a texture without sampler.
+// What differs from the default sampler, which a texture without one has.
 template <std::size_t texture>
 std::string samplerText(const Variant& v) {
   const Sampler& s = v.samplers[texture];
@@ -86,7 +86,7 @@ std::string fresnelReason(In in) {
          std::string(fresnelText(in.variant.fresnel));
 }
 
-// Missing initialisers are meant: a row says what is not the default.
+// Missing initialisers are intended: a row states only what differs from the default.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 constexpr Feature table[] = {
@@ -372,7 +372,7 @@ std::vector<FeatureReason> reasonsFor(const Variant& v, const Mesh& mesh, const 
 std::vector<std::string> featureNames(const Variant& v) {
   std::vector<std::string> names;
   for (const Feature& f : table) {
-    // The environment's own come last, after which of them it is.
+    // The features of the program environment come last, after the environment's name.
     if (f.flag == &Variant::dielectric && ofEnvironment(v))
       names.push_back("environment:" + std::string(environmentText(v.environment)));
     if (f.value(v) > 0) names.push_back(fullName(f, v));

@@ -8,7 +8,7 @@
 
 namespace glint {
 
-/// What a feature's reason is told from.
+/// What the reason for a feature is derived from.
 struct FeatureContext {
   const Variant& variant;
   const Mesh& mesh;
@@ -21,18 +21,19 @@ struct FeatureContext {
   std::string noLight() const;
 };
 
-/// A feature of a variant, the one place where its names stand. A new one is a member of Variant,
-/// what variantFor() sets it by, a row here and what the shaders do where its name is defined.
+/// A feature of a variant, and the only place that defines its names. A new one takes a member of
+/// Variant, the code in variantFor() that sets it, a row in the table, and shader code under its
+/// #define.
 struct Feature {
   bool Variant::*flag = nullptr;
-  int Variant::*count = nullptr;                        ///< in place of the flag
+  int Variant::*count = nullptr;                        ///< instead of the flag
   std::string_view define;                              ///< in GLSL: 0 or 1, or the count
   std::string_view name;                                ///< in reports, without the form
   std::string (*yes)(const FeatureContext&) = nullptr;  ///< why it is there
   std::string (*no)(const FeatureContext&) = nullptr;   ///< why it is not
-  /// Whether a reason is told at all; null: for every variant that is not unlit.
+  /// Whether a reason is reported at all; null: for every variant that is not unlit.
   bool (*told)(const Variant&) = nullptr;
-  std::string (*form)(const Variant&) = nullptr;  ///< stands behind the name
+  std::string (*form)(const Variant&) = nullptr;  ///< follows the name
   std::string (*formReason)(const FeatureContext&) = nullptr;
 
   int value(const Variant& v) const { return flag ? int(v.*flag) : v.*count; }

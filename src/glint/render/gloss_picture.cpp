@@ -14,7 +14,7 @@ glm::dvec4 texelAt(const ByteImage& image, int x, int y) {
   return {decodeSrgb8(t[0]), decodeSrgb8(t[1]), decodeSrgb8(t[2]), t[3] / 255.0};
 }
 
-// At (x, y) in [0, 1], from the corner of the first texel.
+// Bilinear at (x, y) in [0, 1], measured from the corner of the first texel.
 glm::dvec4 valueAt(const ByteImage& image, double x, double y) {
   const auto corner = [](double at, int size, double& share) {
     const double place = std::clamp(at * size - 0.5, 0.0, size - 1.0);
@@ -44,7 +44,7 @@ void convertGlossPicture(ByteImage& picture, const ByteImage* other, const Gloss
         beside = texelAt(*other, x, y);
       else if (other)
         beside = valueAt(*other, (x + 0.5) / picture.width, (y + 0.5) / picture.height);
-      // A picture of colours without a diffuse one is made of that of specular and glossiness.
+      // Without a diffuse picture, the colours come from the specular-glossiness picture.
       const bool ownIsDiffuse = made.isColor && other;
       const glm::dvec4 diffuse = ownIsDiffuse ? own : made.isColor ? glm::dvec4(1) : beside;
       const glm::dvec4 gloss = ownIsDiffuse ? beside : own;

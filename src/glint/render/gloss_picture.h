@@ -5,10 +5,10 @@
 
 namespace glint {
 
-/// Replaces the texels of a picture by what GlossPicture makes of them: the diffuse picture's by C
-/// and alpha, the other one's by roughness (G), metallic (B) and reflectance (A), each to the
-/// nearest code. `other` is the picture beside it, read bilinearly where its size differs, white
-/// without one.
+/// Converts the texels of a picture as GlossPicture describes: to C and alpha if `made.isColor`,
+/// otherwise to roughness (G), metallic (B) and reflectance (A), each rounded to the nearest code.
+/// `other` is the second picture of the pair, read bilinearly where its size differs; null counts
+/// as white.
 void convertGlossPicture(ByteImage& picture, const ByteImage* other, const GlossPicture& made);
 
 }  // namespace glint

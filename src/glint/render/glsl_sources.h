@@ -6,8 +6,8 @@
 
 namespace glint {
 
-/// The texts of the GLSL files by name ("phong.glsl"): those built in, each replaced by the file of
-/// the same name in a folder of the user's, if one is given.
+/// The texts of the GLSL files by name ("phong.glsl"): the built-in ones, each replaced by the file
+/// of the same name in the user's folder, if one is given.
 class GlslSources {
  public:
   GlslSources() = default;

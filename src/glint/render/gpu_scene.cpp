@@ -13,18 +13,18 @@
 namespace glint {
 namespace {
 
-// Shorter arrays are copied: a buffer of their own costs more.
+// Shorter arrays are copied: a separate buffer costs more.
 constexpr std::size_t leastInPlace = std::size_t(1) << 20;  // bytes
 
-// Has the driver read a buffer where the program has it.
+// Makes the driver read a buffer from the program's own memory.
 void setInPlace(const Buffer& buffer, const void* bytes, std::size_t size) {
   glBindBuffer(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, buffer.id());
   glBufferData(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, GLsizeiptr(size), bytes, GL_STATIC_DRAW);
   glBindBuffer(GL_EXTERNAL_VIRTUAL_MEMORY_BUFFER_AMD, 0);
 }
 
-// Gathers attribute arrays one after the other in a single buffer, long ones that the scene keeps
-// each in a buffer that lies there; then points a vertex array at them.
+// Gathers attribute arrays one after the other in a single buffer, then points a vertex array at
+// them. Each long array that the scene keeps gets a buffer that lies in the scene's memory instead.
 class VertexLayout {
  public:
   explicit VertexLayout(bool inPlace) : inPlace_(inPlace) {}
@@ -100,7 +100,7 @@ class VertexLayout {
   std::size_t size_ = 0;
 };
 
-// Those of the mesh by which a texture is looked up, before its transform; null where it has none.
+// The mesh's coordinates for a texture, before the texture's transform; null if it has none.
 const std::vector<glm::vec2>* plainTexcoords(const Mesh& mesh, const Texture& texture) {
   const auto set = std::size_t(texture.texcoord);
   return set < mesh.texcoords.size() && !mesh.texcoords[set].empty() ? &mesh.texcoords[set]
@@ -118,7 +118,7 @@ std::vector<glm::vec2> texcoordsOf(const Mesh& mesh, const Texture& texture) {
   return places;
 }
 
-// Those of the faces' centroids, at the vertices that carry the faces.
+// The coordinates of the faces' centroids, at the vertices that carry the faces.
 std::vector<glm::vec2> centralPlaces(const FaceMesh& faces, const std::vector<glm::vec2>& places) {
   std::vector<glm::vec2> central(places.empty() ? 0 : faces.source.size());
   for (std::size_t i = 0; !places.empty() && i + 2 < faces.indices.size(); i += 3) {
@@ -136,7 +136,7 @@ GLenum modeOf(Topology topology) {
                                        : GL_TRIANGLES;
 }
 
-// What a driver cannot take is left out from the pyramid's top. False where nothing was.
+// Drops the levels that are too large for the driver. False if none was dropped.
 bool fitDriver(DecodedImage& decoded, bool isData) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -152,7 +152,7 @@ bool fitDriver(DecodedImage& decoded, bool isData) {
   return true;
 }
 
-// Codes as they are: glsl/texture.glsl makes values of them.
+// Uploads the codes unchanged: glsl/texture.glsl decodes them.
 TextureHandle uploadTexture(const DecodedImage& decoded) {
   TextureHandle texture = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture.id());
@@ -161,13 +161,13 @@ TextureHandle uploadTexture(const DecodedImage& decoded) {
     glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, from.width, from.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, from.values.data());
   };
-  // From the smallest on, by which the driver guesses the whole pyramid's size: from the largest
-  // on, it would reserve that alone, and then everything again.
+  // Smallest level first: the driver guesses the size of the whole pyramid from the first upload.
+  // Given the largest first, it would allocate only that level, and later all of them again.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(decoded.mipLevels.size()));
   for (std::size_t i = decoded.mipLevels.size(); i > 0; --i)
     upload(GLint(i), decoded.mipLevels[i - 1]);
   upload(0, decoded.image);
-  // Texels are fetched one by one; with another filter drivers may take the texture for incomplete.
+  // Texels are fetched one by one; with other filters drivers may consider the texture incomplete.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   return texture;
@@ -187,7 +187,7 @@ void GpuScene::pose(const Scene& scene, std::span<const int> changed) {
     geometries_.erase({mesh, false});
     geometries_.erase({mesh, true});
   }
-  // Those that lie elsewhere now are no longer where the driver reads them.
+  // Meshes that have moved in memory are no longer where the driver reads them.
   std::erase_if(geometries_, [&](const auto& entry) {
     const void* const place = entry.second.inPlace;
     return place && place != scene.meshes[std::size_t(entry.first.first)].positions.data();
@@ -214,7 +214,7 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   else
     layout.addKept(1, mesh.normals);
   layout.addKept(2, mesh.colors, source);
-  std::deque<std::vector<glm::vec2>> made;  // keeps its elements' places
+  std::deque<std::vector<glm::vec2>> made;  // does not move its elements
   const auto addTexcoords = [&](GLuint location, const std::optional<Texture>& texture) {
     if (!texture) return;
     if (transforms(*texture))
@@ -237,7 +237,7 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
     ++location;
   }
   if (faces) layout.add(5, faceMesh.centers);
-  // Points and lines have no faces: of a line the last vertex counts for flat shading.
+  // Points and lines have no faces: flat shading uses a line's last vertex.
   if (mesh.topology != Topology::triangles && !mesh.normals.empty())
     layout.addKept(5, mesh.positions);
   g.vertices = layout.upload();
@@ -251,7 +251,7 @@ const GpuScene::Geometry& GpuScene::geometry(int index, bool faces) {
   if (inPlace_) g.inPlace = mesh.positions.data();
   g.mode = modeOf(mesh.topology);
   g.count = GLsizei(indices.size());
-  // Those of the faces are the same triangles, each begun at another corner.
+  // Faces are the same triangles, each perhaps starting at another corner.
   if (mesh.topology == Topology::triangles) g.runs = makeTriangleRuns(mesh);
   return g;
 }

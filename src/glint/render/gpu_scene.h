@@ -14,17 +14,17 @@
 
 namespace glint {
 
-/// A scene's meshes and textures in the driver's memory, each put there when first needed; a
-/// software driver reads long arrays where the scene has them. Lives and dies in one context; the
-/// scene must outlive it, and its meshes may change only as pose() says.
+/// A scene's meshes and textures in the driver's memory, each uploaded when first needed; a
+/// software driver reads long arrays from the scene's own memory. Belongs to one context for its
+/// whole lifetime; the scene must outlive it, and its meshes may change only as pose() says.
 class GpuScene {
  public:
   GpuScene(const Scene& scene, DecodedImages images);
-  /// With the textures of another one, which must outlive it and whose scene has the same images.
+  /// Shares the textures of another one, which must outlive it and whose scene has the same images.
   GpuScene(const Scene& scene, GpuScene& textures);
 
-  /// Goes on with the same scene in another pose, in which the vertices of `changed` meshes are
-  /// others.
+  /// Continues with the same scene in another pose, in which the vertices of the `changed` meshes
+  /// differ.
   void pose(const Scene& scene, std::span<const int> changed);
 
   struct Geometry {
@@ -34,32 +34,32 @@ class GpuScene {
     const void* inPlace = nullptr;  ///< the mesh's positions, if the driver reads them there
     GLenum mode = 0;
     GLsizei count = 0;
-    std::vector<TriangleRun> runs;  ///< of triangles
+    std::vector<TriangleRun> runs;  ///< only for triangles
   };
 
-  /// The mesh, or for the program `flat` its faces.
+  /// The mesh, or its faces for the program `flat`.
   const Geometry& geometry(int mesh, bool faces);
 
-  /// Draws it, so many times, as the state stands; with other indices, as many as its own, if there
-  /// are any.
+  /// Draws the mesh `times` times with the current GL state. `indices`, if given, replace its own
+  /// and must be as many.
   void draw(int mesh, bool faces, std::size_t times = 1, const Buffer* indices = nullptr);
-  /// Finds what may be seen of it, for drawShown(); false if nothing is.
+  /// Finds the parts of the mesh that may be seen, for drawShown(); false if there are none.
   bool findShown(int mesh, bool faces, const RunView& view);
-  /// Draws what was found, in its order.
+  /// Draws the parts found, in the mesh's order.
   void drawShown(int mesh, bool faces);
 
   /// Binds the texture to a unit, for glsl/texture.glsl: its sampler is part of the variant.
   void bindTexture(const Texture&, GLuint unit);
 
-  /// Whether an image has been given, be it that it was not uploaded yet; of a normal map perhaps
-  /// with the lengths of its normals.
+  /// Whether an image has been given, uploaded or not; for a normal map, with the lengths of its
+  /// normals if asked for.
   bool hasImage(int image, bool withNormalLengths) const;
-  /// Those that are there already are replaced.
+  /// Replaces images that are there already.
   void addImages(DecodedImages&& images);
 
   const Scene& scene() const { return *scene_; }
 
-  /// What had to be done to textures since it was last asked, for people.
+  /// Warnings about textures since the last call, for users.
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -74,7 +74,7 @@ class GpuScene {
   };
   std::map<int, Uploaded> textures_;
   GpuScene* shared_ = nullptr;         ///< has the textures, if not null
-  std::vector<std::uint32_t> firsts_;  ///< of the stretches found last
+  std::vector<std::uint32_t> firsts_;  ///< of the index ranges found last
   std::vector<std::int32_t> counts_;
   QueueLimit queue_;
 };

@@ -4,13 +4,13 @@
 namespace glint {
 namespace {
 
-// More layers than a picture shows anything of: the nearest are then left out. A driver that tests
-// other depths than its shaders see would go on for ever.
+// More layers than a picture can show: the nearest are then left out. Without a limit, a driver
+// whose depth test sees other depths than its shaders would never finish.
 constexpr int mostLayers = 1024;
 
-// After so many layers, and after twice as many each time, what is left is looked at: if its
-// triangles can be drawn in one order it takes two passes to know and one to draw, whatever the
-// number of layers. Most scenes have fewer.
+// After this many layers, and again after each doubling, the rest is examined: if its triangles can
+// be drawn in one order, finding that out takes two passes and drawing one, however many layers
+// there are. Most scenes have fewer.
 constexpr int firstLook = 4;
 
 }  // namespace
@@ -72,8 +72,8 @@ void Renderer::Picture::drawLayers(std::size_t first) {
   }
 }
 
-// Draws what is nearer than the last layer in the order of its triangles, if that is from the back
-// to the front at every sample: if each of its samples lies before all that were drawn there.
+// Draws what is nearer than the last layer in the order of its triangles, if that order is back to
+// front at every sample: if each of its samples lies in front of all those drawn there before.
 bool Renderer::Picture::drawInOrder(const DepthLayers& layers, int last, std::size_t first) {
   const bool reversed = renderer_.clipControl_;
   orderTriangles(first);

@@ -14,8 +14,8 @@ std::uint8_t normalSpreadCode(double length) {
   return std::uint8_t(255 - std::lround(255 * std::min(width, 1.0)));
 }
 
-// Means in floats are off by some 1e-7 a level, less than the 3.8e-6 that the last code's half
-// stands for.
+// Means in floats are off by about 1e-7 a level, less than 3.8e-6, the variance of half a code next
+// to 255.
 void writeNormalLengths(DecodedImage& decoded) {
   ByteImage& base = decoded.image;
   for (std::size_t i = 3; i < base.values.size(); i += 4) base.values[i] = 255;

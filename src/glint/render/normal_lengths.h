@@ -6,16 +6,16 @@
 
 namespace glint {
 
-/// How far apart the normals are that a texel of a smaller level stands for, as a code: the mean of
-/// their unit vectors is `length` long, their variance is v = (1 - length) / length
-/// (glint/shading/specular_filter.h), and the code 255 - 255 sqrt(v), rounded. 255, the opaque
-/// alpha of a picture without one, is no spread at all, and the next code below it 1.5e-5, the
-/// variance of a lobe of the exponent 65,000; 0 is 1 and all above, of lengths up to a half.
+/// The spread of the normals that a texel of a smaller level covers, as a code. `length` is that of
+/// the mean of their unit vectors, their variance is v = (1 - length) / length
+/// (glint/shading/specular_filter.h), and the code is 255 - 255 sqrt(v), rounded. 255, the opaque
+/// alpha of a picture without alpha, means no spread; 254 means v = 1.5e-5, the variance of a lobe
+/// with exponent 65,000; 0 means v = 1 or more, lengths up to a half.
 std::uint8_t normalSpreadCode(double length);
 
-/// The alpha of a normal map and of its smaller levels becomes normalSpreadCode() of the base's
-/// texels that each texel covers: 255 in the base itself, so that what is magnified has no spread.
-/// Their colours stay as they are.
+/// Sets the alpha of a normal map's smaller levels to normalSpreadCode() of the base's texels that
+/// each texel covers, and that of the base to 255, so that magnified texels have no spread. The
+/// colours stay as they are.
 void writeNormalLengths(DecodedImage&);
 
 }  // namespace glint

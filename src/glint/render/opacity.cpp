@@ -8,7 +8,7 @@
 namespace glint {
 namespace {
 
-// Counts the texels that are not opaque in rectangles, from sums over all rectangles at the corner.
+// Finds texels that are not opaque in rectangles, with a summed-area table.
 class SeeThrough {
  public:
   explicit SeeThrough(const ByteImage& image)
@@ -22,7 +22,7 @@ class SeeThrough {
       }
     }
   }
-  /// Of columns [x0, x1] and rows [y0, y1].
+  /// Whether there is one in columns [x0, x1] and rows [y0, y1].
   bool any(std::size_t x0, std::size_t x1, std::size_t y0, std::size_t y1) {
     return at(x1 + 1, y1 + 1) + at(x0, y0) != at(x1 + 1, y0) + at(x0, y1 + 1);
   }
@@ -43,8 +43,8 @@ struct Range {
 std::vector<Range> texelsRead(double low, double high, int size, Wrap wrap, bool linear) {
   const double n = size, half = linear ? 0.5 : 0.0;
   const std::vector<Range> all{{0, std::size_t(size - 1)}};
-  // A pixel lies within its triangle: borders of texels that only the triangle's own border touches
-  // do not count, and rounding of coordinates (1e-4 of a texel) makes none.
+  // A pixel lies within its triangle: texels that only the triangle's border touches do not count,
+  // and rounding of coordinates (1e-4 of a texel) must not add any.
   const double slack = std::min(1e-4, 0.5 * (high - low) * n);
   double first = std::floor(low * n - half + slack);
   double last = std::max(first, std::floor(high * n - half - slack) + (linear ? 1 : 0));

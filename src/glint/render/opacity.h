@@ -11,8 +11,8 @@ namespace glint {
 bool texelsAreOpaque(const Mesh&, const Texture&, const ByteImage&);
 
 /// Whether what is behind the mesh shows through it: its material blends, and alpha is not 1
-/// everywhere, by factor, vertex colours and texels (Mesh::opaqueTexels). A surface of which
-/// nothing shows through is drawn as an opaque one.
+/// everywhere, by factor, vertex colours and texels (Mesh::opaqueTexels). A surface that nothing
+/// shows through is drawn as opaque.
 bool isBlended(const Mesh&, const Material&);
 
 }  // namespace glint

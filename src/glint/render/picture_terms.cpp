@@ -13,13 +13,13 @@ using Kind = PictureTerm::Kind;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Of a draw list's lights, where one stands: in the list, and among its type.
+// The index of a term's light in a draw list, and among the lights of its type.
 struct LightPlace {
   LightPlace(const DrawList& list, const PictureTerm& term) {
     if (term.kind != Kind::diffuse && term.kind != Kind::specular) return;
     const auto found = std::ranges::find(list.lightNumbers, term.light);
     index = int(found - list.lightNumbers.begin());
-    for (const DrawItem& item : list.items) {  // those of any variant that reads lights at all
+    for (const DrawItem& item : list.items) {  // any variant that reads lights will do
       const Variant& v = item.variant;
       if (v.directionalLights + v.pointLights + v.spotLights == 0) continue;
       const int point = index - v.directionalLights, spot = point - v.pointLights;
@@ -88,7 +88,7 @@ void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term)
                                              : PixelOutput::sum;
 }
 
-// Normals are those of a per-pixel program, whatever the picture's is.
+// Normals are those of a per-pixel program, whichever program draws the picture.
 void keepGeometry(DrawItem& item, const PictureTerm& term) {
   Variant& v = item.variant;
   v.multisampled = false;

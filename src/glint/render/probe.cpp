@@ -30,7 +30,7 @@ int floatsOf(const std::string& type) {
              : 0;
 }
 
-/// A type as the types of its members, itself for a float or vector. Empty if unknown.
+/// The types of a struct's members, or the type itself for a float or vector. Empty if unknown.
 std::vector<std::string> membersOf(const std::string& type, const std::string& files) {
   if (floatsOf(type) > 0) return {type};
   std::smatch match;
@@ -83,7 +83,7 @@ struct Probe::Function {
   std::vector<int> floats;  // of each argument
   int resultFloats = 1;
   Program program;
-  GLint count = -1;  // places of uniforms
+  GLint count = -1;  // uniform locations: of `count` and of the steps
   std::vector<GLint> steps;
 };
 
@@ -105,7 +105,7 @@ struct Probe::Objects {
   int width = std::min(targetWidth, int(limit(GL_MAX_RENDERBUFFER_SIZE)));
   int maxRows = std::min(targetHeight, int(limit(GL_MAX_RENDERBUFFER_SIZE)));
   std::size_t maxFloats = std::size_t(limit(GL_MAX_TEXTURE_BUFFER_SIZE));
-  std::vector<float> padded;  // results of three floats as they come, with a fourth
+  std::vector<float> padded;  // three-float results as read back, padded to four
 
   void bindTarget(int floats, int rows);
 };
@@ -122,7 +122,7 @@ int formatOf(int floats) { return std::min(floats, 3) - 1; }
 
 }  // namespace
 
-/// Binds a target of at least that many rows, never shrinking.
+/// Binds a target of at least `rows` rows; targets never shrink.
 void Probe::Objects::bindTarget(int floats, int rows) {
   Target& target = targets[formatOf(floats)];
   if (target.rows < rows) {
@@ -192,7 +192,7 @@ std::unique_ptr<Probe::Function> Probe::compile(std::string_view text) const {
     call += (a ? ", argument" : "argument") + std::to_string(a);
   const int padding = prototype.result == "vec3" ? 1 : 0;
   const std::string target =
-      padding ? "vec4" : prototype.result;  // three floats cannot be drawn into
+      padding ? "vec4" : prototype.result;  // GL cannot draw into three floats
   call += ");\n  probeResult = " + (padding ? "vec4(value, 0.0)" : std::string("value")) + ";\n";
 
   std::string fragment = "#version 330 core\n";
@@ -223,13 +223,13 @@ Probe::Function& Probe::function(std::string_view text) {
 
 namespace {
 
-/// The rows that the columns have in common. Throws Error if they have none.
+/// The number of rows that the columns have in common. Throws Error if there is no such number.
 std::size_t commonRows(const std::string& name, const std::vector<int>& floats,
                        const std::vector<std::span<const float>>& columns) {
   if (columns.size() != floats.size())
     throw Error("probe: " + name + " takes " + std::to_string(floats.size()) + " columns, not " +
                 std::to_string(columns.size()));
-  std::size_t rows = 1;  // of all columns but those of a single row
+  std::size_t rows = 1;  // of all columns except those of a single row
   for (std::size_t a = 0; a < columns.size(); ++a) {
     const std::size_t n = std::size_t(floats[a]), own = columns[a].size() / n;
     if (columns[a].size() % n != 0 || (own != 1 && rows != 1 && own != rows))

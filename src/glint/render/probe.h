@@ -19,22 +19,21 @@ struct ProbeText {
   std::vector<std::string> files;
   /// #define NAME VALUE, before the files.
   std::vector<std::pair<std::string, int>> defines;
-  /// GLSL of one's own, after the defines and before the files.
+  /// Extra GLSL, after the defines and before the files.
   std::string text = {};
 };
 
 /// Runs GLSL functions, as the driver compiles them for the fragment stage, over arrays of inputs:
 /// one evaluation a fragment, inputs through buffer textures, results through a float target.
-/// Floats go in and come out bit by bit (payloads of NaN apart); whether the functions see
-/// subnormal numbers or zeros in their place is the driver's choice: llvmpipe takes them for zero
-/// and gives zero for them.
+/// Floats go in and come out bit for bit (except payloads of NaN). Whether the functions see
+/// subnormal numbers or zeros is up to the driver: llvmpipe reads and returns them as zero.
 ///
 ///     Probe probe({}, {{"lobe.glsl"}, {}});
 ///     std::vector<float> lobes = probe.run("float lobeExact(float, float)", {lambdas, exponents});
 ///
-/// It belongs to the context that is current when it is made, and dies before it. run() leaves
-/// GL's depth test, blending, culling, scissor test and multisampling off and its own framebuffer,
-/// viewport, program, vertex array and buffer textures bound.
+/// It belongs to the context that is current when it is made, and must be destroyed before it.
+/// run() leaves GL's depth test, blending, culling, scissor test and multisampling off and its own
+/// framebuffer, viewport, program, vertex array and buffer textures bound.
 class Probe {
  public:
   explicit Probe(GlslSources sources = {}, ProbeText text = {});
@@ -42,20 +41,20 @@ class Probe {
   Probe(Probe&&) noexcept;
   Probe& operator=(Probe&&) noexcept;
 
-  /// The function of that prototype over columns of arguments.
+  /// Evaluates a function over columns of arguments.
   ///
   /// `function` is a GLSL prototype, "float fresnelExact(float, Boundary)", of a function in the
   /// files or of one built into the language; or a definition with its body, for an expression or a
   /// composition: "float quotient(float x, float y) { return x / y; }", and more functions may
-  /// stand after its closing brace if it declares them. Arguments are float, vec2, vec3, vec4 and
-  /// structs of these that the files declare; the result is one of the four vectors.
+  /// follow its closing brace if it declares them. Arguments are float, vec2, vec3, vec4 and
+  /// structs of these that the files declare; the result is one of the first four.
   ///
-  /// One column for each argument: its floats (of a struct: all members') row after row. All have
-  /// the same number of rows, except that a column of a single row is used for every row.
+  /// One column for each argument: its floats (for a struct, those of all members), row after row.
+  /// All have the same number of rows, except that a column of a single row is used for every row.
   ///
   /// Returns the results' floats, row after row. Rows are evaluated in batches of up to 2^18.
-  /// Programs are kept, so that a function is compiled once. Throws Error: a prototype that cannot
-  /// be read, columns that do not fit it, the driver's compiler messages (with file and line), GL
+  /// Programs are cached: a function is compiled once. Throws Error: a prototype that cannot be
+  /// read, columns that do not fit it, the driver's compiler messages (with file and line), GL
   /// errors.
   std::vector<float> run(std::string_view function,
                          const std::vector<std::span<const float>>& columns);

@@ -9,8 +9,8 @@
 
 namespace glint {
 
-/// The distance between neighbouring floats at x: 2^-23 of the power of two at or below |x|, and
-/// 2^-149 among the subnormal ones. The ulp that errors are counted in.
+/// The distance between neighbouring floats at x: 2^-23 times the power of two at or below |x|, and
+/// 2^-149 for subnormal x. The ulp that errors are counted in.
 double floatSpacing(double x);
 
 /// |got - truth|; infinite where only one of them is finite or either is NaN, 0 where both are the
@@ -27,14 +27,14 @@ struct WorstError {
   }
 };
 
-/// The largest errors of many values against their truths.
+/// The largest errors of many values against their true values.
 struct ErrorRecord {
   std::size_t values = 0;
   std::size_t notFinite = 0;  ///< values that are NaN or infinite where the truth is finite
   std::size_t outside = 0;    ///< values whose error is above its bound
   WorstError absolute;        ///< in the values' own unit
   WorstError ulp;             ///< in floatSpacing(truth)
-  WorstError ofBound;         ///< divided by its bound: above 1 it is broken
+  WorstError ofBound;         ///< divided by its bound: above 1, the bound is broken
 
   /// A NaN anywhere counts as an infinite error.
   void add(float got, double truth, double bound, std::size_t row);
@@ -58,7 +58,8 @@ ErrorRecord measureErrors(std::span<const float> got, std::size_t width, Truth t
 }
 
 /// The arguments of a row of columns, for messages: each float in decimal, exactly, and in
-/// hexadecimal. `floats` are those of a row of each column; a column of one row is the same in all.
+/// hexadecimal. `floats` has the floats in a row of each column; a column of a single row applies
+/// to every row.
 std::string describeRow(const std::vector<std::span<const float>>& columns,
                         const std::vector<std::size_t>& floats, std::size_t row);
 

@@ -10,7 +10,7 @@
 namespace glint {
 namespace {
 
-constexpr std::size_t parents = 64;  // inputs that a round goes on from
+constexpr std::size_t parents = 64;  // inputs that a round continues from
 
 class Drawer {
  public:
@@ -40,7 +40,7 @@ class Drawer {
     }
   }
 
-  /// Up to `reach` floats from x.
+  /// A float at most `reach` floats away from x.
   float near(float x, double reach, const SearchRange& range) {
     return clamped(stepFloat(x, std::llround((2 * unit() - 1) * reach)), range);
   }
@@ -76,11 +76,11 @@ SearchResult huntWorst(const std::vector<SearchRange>& ranges, const SearchError
   std::vector<SearchResult> best;
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::vector<float>> columns(ranges.size(), std::vector<float>(rows));
-    // A quarter of each round starts afresh: the worst may lie in a valley of its own.
+    // A quarter of each round starts afresh: the worst may be far from those found so far.
     for (std::size_t row = 0; row < rows; ++row) {
       const bool fresh = best.empty() || row % 4 == 0;
       const std::size_t parent = fresh ? 0 : row % best.size();
-      const int one = draw.below(int(ranges.size()) + 1);  // the last: all of them
+      const int one = draw.below(int(ranges.size()) + 1);  // the last value: change all of them
       const double shrink = draw.unit();
       for (std::size_t a = 0; a < ranges.size(); ++a) {
         float& x = columns[a][row];

@@ -7,14 +7,15 @@
 
 namespace glint {
 
-/// The floats in order: a number that grows by one from each float to the next; 0 is 0 and -0.
+/// A float's place in the order of all floats: grows by one from each float to the next; 0 for both
+/// 0 and -0.
 std::int32_t floatOrder(float x);
 float floatAtOrder(std::int32_t order);
 
 /// The float `steps` floats above x (below, if negative); stops at the infinities.
 float stepFloat(float x, std::int64_t steps);
 
-/// Where a search may take one number from.
+/// The range of one number of a search's input.
 struct SearchRange {
   float low = 0, high = 1;      ///< both included
   std::vector<float> specials;  ///< values near which errors hide: limits, switches, poles
@@ -28,11 +29,10 @@ struct SearchResult {
 /// The errors of rows of inputs: one column for each range, one error for each row.
 using SearchErrors = std::function<std::vector<double>(const std::vector<std::vector<float>>&)>;
 
-/// Hunts the input with the largest error: draws uniformly over the range and over its floats,
-/// takes the neighbours of ends and special values up to 2^16 floats away, then goes on from the
-/// worst inputs found, changing one number or all of them by steps that shrink from a quarter of
-/// the range to a single float. `rows` inputs a round. A find is a lower bound of the largest
-/// error, no proof.
+/// Searches for the input with the largest error: draws uniformly over the range, over its floats,
+/// and up to 2^16 floats away from ends and special values; then continues from the worst inputs
+/// found, changing one number or all of them by steps from a quarter of the range down to a single
+/// float. `rows` inputs a round. The result is a lower bound of the largest error, not a proof.
 SearchResult huntWorst(const std::vector<SearchRange>& ranges, const SearchErrors& errors,
                        std::size_t rows, int rounds, std::uint32_t seed = 1);
 

@@ -60,7 +60,7 @@ Program build(const ComposedProgram& text) {
   return program;
 }
 
-// Blocks one behind the other in one uniform buffer, each where the driver may find it.
+// Packs blocks into one uniform buffer, each at an offset with the driver's alignment.
 class BlockBuffer {
  public:
   BlockBuffer() {
@@ -68,7 +68,7 @@ class BlockBuffer {
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
     step_ = std::size_t(std::max(alignment, 1));
   }
-  /// Where the next one begins.
+  /// The offset at which the next block begins.
   GLintptr begin() {
     bytes_.resize((bytes_.size() + step_ - 1) / step_ * step_);
     return GLintptr(bytes_.size());
@@ -78,7 +78,8 @@ class BlockBuffer {
     const auto* from = reinterpret_cast<const char*>(&block);
     bytes_.insert(bytes_.end(), from, from + sizeof block);
   }
-  /// Room behind all: a block that is not full is bound in its whole length.
+  /// `room` bytes follow the last block, since a block that is not full is bound at its full
+  /// length.
   void upload(const Buffer& buffer, std::size_t room = 0) {
     bytes_.resize(bytes_.size() + room);
     glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
@@ -100,8 +101,8 @@ void setFaces(const DrawItem& item) {
   }
 }
 
-// The pixels that boxes may cover, of a picture with this projection: x, y, width, height. Whole if
-// one reaches behind the eye.
+// The pixels that the items' boxes may cover in a picture with this projection: x, y, width,
+// height. The whole picture if a box reaches behind the eye.
 glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection, int width,
                     int height) {
   const glm::dvec2 size(width, height);
@@ -119,14 +120,14 @@ glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection
       high = glm::max(high, place);
     }
   }
-  // A pixel more on every side: points and lines are as wide, and all of this is rounded.
+  // Two extra pixels on every side: points and lines are a pixel wide, and all of this is rounded.
   const glm::ivec2 first(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
   const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(first), size));
   return {first, end - first};
 }
 
-// The mean of each scale x scale block of `from`, `to` being of width x height pixels in rows of
-// `stride`.
+// Writes the mean of each scale x scale block of `from` to `to`, width x height pixels in rows of
+// `stride` pixels.
 void average(const float* from, int scale, float* to, int width, int height, int stride) {
   const std::size_t across = std::size_t(4) * width * scale;
   const double share = 1.0 / (double(scale) * scale);
@@ -175,7 +176,7 @@ void Renderer::limitPrograms(std::size_t most) {
 
 void Renderer::setProgramsAside() {
   former_.push_back(
-      std::exchange(programs_, {}));  // a map that is moved keeps its elements' places
+      std::exchange(programs_, {}));  // moving a map leaves its elements where they are
 }
 
 RenderTarget& Renderer::targetFor(int width, int height, int samples) {
@@ -321,7 +322,7 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
 
     target.bind();
     glViewport(0, 0, width, height);
-    glEnable(GL_MULTISAMPLE);  // others in the context, the probe among them, may have it off
+    glEnable(GL_MULTISAMPLE);  // other code in the context (the probe) may have turned it off
     if (renderer_.clipControl_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(renderer_.clipControl_ ? GL_GREATER : GL_LESS);
@@ -357,7 +358,7 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
       glDisable(GL_SCISSOR_TEST);
     }
     target.resolve();
-    if (rows) glFinish();  // reading back waits for it in any case; so each time is told apart
+    if (rows) glFinish();  // read-back would wait anyway; this separates the two times
     checkGl("draw");
   }
   if (!rows) return;
@@ -385,7 +386,7 @@ void Renderer::Picture::bindDraw(std::size_t i) {
 void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
   const DrawItem& item = list_.items[calls_[i].first];
   const bool isFlat = item.variant.program == Shading::flat;
-  // Layers of what is blended are told apart by all that is drawn of it.
+  // Layers of a blended mesh are found by drawing all of it.
   const bool whole =
       item.blended || calls_[i].count > 1 || scene_.geometry(item.mesh, isFlat).runs.empty();
   const bool culls = item.faces == FaceSide::front;

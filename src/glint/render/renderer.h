@@ -19,7 +19,7 @@
 
 namespace glint {
 
-/// The unit of the depths of the layer before, while layers are drawn.
+/// The texture unit of the previous layer's depths, while layers are drawn.
 inline constexpr GLuint layerDepthUnit = 4;
 
 /// Milliseconds that parts of a picture took.
@@ -27,8 +27,8 @@ struct RenderTimes {
   double compile = 0, draw = 0, read = 0;
 };
 
-/// Draws scenes into pictures of linear light. Keeps its programs from picture to picture; lives
-/// and dies in one current context.
+/// Draws scenes into pictures of linear light. Caches its programs from picture to picture; belongs
+/// to one current context for its whole lifetime.
 class Renderer {
  public:
   /// Throws Error if no context is current.
@@ -43,11 +43,11 @@ class Renderer {
     void drawBand(Image& rows);
     /// All bands.
     Image drawAll();
-    /// Draws the whole picture once more without reading it back, and does not wait: what is
-    /// measured of a frame until glFinish. The bands stay as they are.
+    /// Draws the whole picture once more without read-back and without waiting: a frame's time is
+    /// measured up to glFinish. drawBand() continues where it was.
     void redraw();
     const DrawList& list() const { return list_; }
-    /// Samples a pixel that the driver gave.
+    /// Samples a pixel that the driver provides.
     int samples() const;
     const RenderTimes& times() const { return times_; }
 
@@ -56,9 +56,9 @@ class Renderer {
     Picture(Renderer& renderer, GpuScene& scene, DrawList list, const Look& look);
     /// `rows` are those of the tile's band; without them nothing is read back.
     void drawTile(const Tile& tile, float* rows);
-    /// In the order of other indices, if there are any.
+    /// With `indices` in place of the mesh's own, if given.
     void drawCall(std::size_t call, const Buffer* indices = nullptr);
-    /// What is blended, from this call on, layer by layer from the back.
+    /// Draws the blended items, from this call on, layer by layer from the back.
     void drawLayers(std::size_t first);
     bool drawInOrder(const DepthLayers&, int last, std::size_t first);
     void orderTriangles(std::size_t first);
@@ -73,27 +73,27 @@ class Renderer {
     TileLayout layout_;
     std::size_t nextBand_ = 0;
     Buffer lights_, draws_, materials_;
-    std::vector<Buffer> ordered_;  ///< indices of what is blended, farthest first; empty until used
+    std::vector<Buffer> ordered_;  ///< indices of blended items, farthest first; empty until used
     std::vector<DrawCall> calls_;
     std::vector<GLintptr> drawOffsets_, materialOffsets_, tableOffsets_;  ///< of each call
     std::vector<const Program*> programs_;                                ///< of each call
-    const Program* used_ = nullptr;                                       ///< by the call before
+    const Program* used_ = nullptr;                                       ///< by the previous call
     glm::mat4 projection_{1};  ///< of the tile being drawn
     glm::ivec2 tilePixels_{0};
     RenderTimes times_;
   };
 
   /// Prepares a picture: compiles what is missing, uploads what is new. Throws InputError for more
-  /// samples or pixels than the driver has, Error for shaders that do not compile. The scene must
-  /// outlive the picture.
+  /// samples or pixels than the driver supports, Error for shaders that do not compile. The scene
+  /// must outlive the picture.
   Picture begin(GpuScene&, DrawList, const Look&);
 
-  /// Forgets all programs if there are more than `most`, so that a long run over models of many
-  /// kinds stays within bounds. No picture may be in the making.
+  /// Drops all programs if there are more than `most`, so that a long run over many kinds of models
+  /// does not grow without limit. No picture may be in progress.
   void limitPrograms(std::size_t most);
 
-  /// Pictures begun from now on are drawn by programs of their own, built anew; those of earlier
-  /// pictures stay.
+  /// Pictures begun from now on are drawn with newly built programs; those of earlier pictures
+  /// stay.
   void setProgramsAside();
 
   /// Whether depth is 1 at the near plane and 0 at the far one; else 0 and 1.
@@ -107,7 +107,7 @@ class Renderer {
   const Program& programFor(const Variant&, bool instanced);
   const Program& backgroundFor(Environment);
   RenderTarget& targetFor(int width, int height, int samples);
-  /// Of the target, or null if this driver cannot tell the layers of its samples apart.
+  /// Those of the target, or null if this driver cannot tell the layers of its samples apart.
   const DepthLayers* layersFor();
   const Program& layerProgram();
   void needCurve();
@@ -119,20 +119,20 @@ class Renderer {
   GlslSources sources_;
   bool fileNames_;
   bool clipControl_;
-  using Programs = std::map<std::pair<Variant, bool>, Program>;  ///< true: of instanced calls
+  using Programs = std::map<std::pair<Variant, bool>, Program>;  ///< true: for instanced calls
   Programs programs_;
   std::vector<Programs> former_;
   std::map<Environment, Program> backgrounds_;
   EnvironmentTexture environment_;
   std::unique_ptr<RenderTarget> target_;
-  std::unique_ptr<DepthLayers> layers_;    ///< of the target; dies first
-  std::map<bool, Program> layerPrograms_;  ///< by whether there are samples
+  std::unique_ptr<DepthLayers> layers_;    ///< of the target; destroyed first
+  std::map<bool, Program> layerPrograms_;  ///< key: multisampled or not
   Query layerQuery_, countQuery_;
   int askedSamples_ = 0;
-  std::vector<float> scratch_;  ///< of ssaa; kept, since new memory costs more than its use
+  std::vector<float> scratch_;  ///< for ssaa; kept, since fresh memory costs more than its use
   VertexArray noVertices_;
   Buffer frame_;
-  Buffer curve_;  ///< made when a texture is in sRGB
+  Buffer curve_;  ///< made when a texture holds sRGB codes
 };
 
 }  // namespace glint

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> farthestFirst(const Mesh& mesh, bool faces,
   std::vector<Piece> pieces;
   pieces.reserve(indices.size() / corners);
   for (std::size_t i = 0; i + corners <= indices.size(); i += corners) {
-    float sum = 0;  // of the corners' z; all pieces have as many
+    float sum = 0;  // of the corners' z; all pieces have as many corners
     for (std::size_t k = 0; k < corners; ++k) {
       const std::uint32_t vertex = indices[i + k];
       const std::uint32_t source =

@@ -8,9 +8,9 @@
 
 namespace glint {
 
-/// The indices with which GpuScene draws a mesh (with `faces` those for the program `flat`), its
-/// triangles, lines or points farthest first by the middles of their corners. What overlaps may
-/// still stand in the wrong order: that is for the caller to find out.
+/// The indices with which GpuScene draws a mesh (with `faces`, those for the program `flat`),
+/// sorted so that its triangles, lines or points come farthest first by the means of their corners.
+/// Those that overlap may still be in the wrong order; the caller must check.
 std::vector<std::uint32_t> farthestFirst(const Mesh&, bool faces, const glm::mat4& eyeFromModel);
 
 }  // namespace glint

@@ -8,14 +8,14 @@
 namespace glint {
 namespace {
 
-// Longer ones are seldom hidden as a whole; shorter ones cost more to look at than they save.
+// Longer runs are seldom hidden as a whole; shorter ones cost more to test than they save.
 constexpr std::size_t runLength = 256;  // triangles
 
-// Added to the sine of a cone: what turns its back by less may be drawn.
+// Added to the sine of a cone: faces that turn away by less may be drawn.
 constexpr double backMargin = 0.02;
 constexpr double sideMargin = 4;  // pixels
 
-// Of a triangle's corners, whose size may over- or underflow when squared.
+// Unit; scaled first, since the square of the cross product's length may over- or underflow.
 glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 n = glm::cross(b - a, c - a);
   const double size = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
@@ -86,7 +86,7 @@ bool RunView::mayShow(const TriangleRun& run) const {
   const glm::dvec3 half = glm::dvec3(run.high) - center;
   for (const glm::dvec4& side : sides_) {
     const glm::dvec3 normal(side);
-    // What its nearest corner misses, written so that a number that is none counts as seen.
+    // The corner of the box farthest inside; written so that NaN counts as seen.
     if (glm::dot(normal, center) + side.w + glm::dot(glm::abs(normal), half) < 0) return false;
   }
   if (run.sine > 1) return true;

@@ -21,7 +21,7 @@ bool samePlace(const Texture& a, const Texture& b) {
   return a.texcoord == b.texcoord && a.transform == b.transform;
 }
 
-// Which textures of parameters the program reads.
+// Finds which parameter textures the program reads.
 void readParameters(Variant& v, const Mesh& mesh, const Material& material, const Look& look) {
   const bool environment = look.shading == Shading::environment;
   const auto take = [&](unsigned bit, bool needed) {
@@ -123,7 +123,7 @@ bool isSimilarity(const glm::dmat3& m) {
 std::vector<Light> lightsOf(const Look& look) {
   if (look.noLights) return {};
   if (look.light) return *look.light;
-  Light light;  // the default: from above and the left of the viewer, in eye space
+  Light light;  // the default: from above and left of the viewer, in eye space
   light.type = Light::Type::camera;
   light.direction = {-0.5, 0.7, 1.0};
   return {light};
@@ -190,7 +190,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.program = programOf(look);
   v.unlit = material.unlit || (mesh.topology != Topology::triangles && mesh.normals.empty());
   v.twoSided = (material.doubleSided || look.twoSided) && !v.unlit;
-  // Lines and points cover pixels as a whole, and drivers do not interpolate at offsets within them
+  // Lines and points cover whole pixels, and drivers do not interpolate at offsets within them
   // (llvmpipe then reads what it has not written).
   v.multisampled = look.antiAliasing.mode == AntiAliasing::Mode::msaa &&
                    look.antiAliasing.count > 1 && mesh.topology == Topology::triangles;
@@ -200,7 +200,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.alphaMask = material.alphaMode == AlphaMode::mask;
   v.alphaBlend = isBlended(mesh, material);
   if (v.unlit) {
-    v.program = Shading::phong;  // any: the unlit ones are all the same
+    v.program = Shading::phong;  // any program: all unlit variants are the same
     return v;
   }
   v.emission = material.emission != glm::dvec3(0.0);
@@ -265,7 +265,7 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   v.normalTexture = pixels && (lit || environment) && mapped;
   if (v.normalTexture) v.samplers[2] = material.normalTexture->sampler;
   readParameters(v, mesh, material, look);
-  // Nothing of the surface's side is left where there is neither light nor environment.
+  // Nothing depends on the surface's side where there is neither light nor environment.
   if (!lit && !environment)
     v.twoSided = v.vanishingNormal = v.pixelPosition = v.unevenScale = false;
   return v;

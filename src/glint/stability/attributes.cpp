@@ -1,5 +1,5 @@
-// Group A: what vertex attributes and indices of a file may hold. Here the normals, and the list of
-// all cases; those of positions and indices are in geometry.cpp.
+// Group A: what a file's vertex attributes and indices may hold. This file has the cases of normals
+// and the list of all cases; those of positions and indices are in geometry.cpp.
 
 #include <cmath>
 #include <limits>
@@ -17,18 +17,18 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// unit() and safeUnit() are off by 3 roundings of the square, halved by the root, the root's and
-/// the quotient's: 2.1e-7.
+/// unit() and safeUnit() are off by 3 roundings of the square, halved by the root, and by those of
+/// the root and the quotient: 2.1e-7.
 constexpr double unitTolerance = 2.1e-7;
 
-/// The scene of a triangle whose three normals are `normal`, as the loader gives it.
+/// The scene of a triangle whose three normals are `normal`, as the loader returns it.
 Scene loadedWith(const glm::vec3& normal) {
   Document document;
   document.triangle(repeated(normal, 3));
   return document.load();
 }
 
-/// A normal that stands for a direction: what file, shaders and reference make of it.
+/// Checks what file, shaders and reference make of a normal that has a direction.
 void expectDirection(Bench& bench, Record& record, const glm::vec3& v, const glm::dvec3& unit) {
   const std::string what = "normal " + vectorText(v);
   expectVector(record, what + " of a file", glm::dvec3(loadedWith(v).meshes.at(0).normals.at(0)),
@@ -38,7 +38,7 @@ void expectDirection(Bench& bench, Record& record, const glm::vec3& v, const glm
   expectVector(record, what + " by safeUnit", {got[0], got[1], got[2]}, unit, unitTolerance);
 }
 
-/// A normal that stands for no direction: the face's takes its place.
+/// Checks that the face's normal replaces one without a direction.
 void expectFaceNormal(Bench& bench, Record& record, const glm::vec3& v) {
   const std::string what = "normal " + vectorText(v);
   const Scene scene = loadedWith(v);
@@ -56,7 +56,7 @@ void a1(Bench& bench, Record& record) {
     expectVector(record, std::string(function) + " of 0", {got[0], got[1], got[2]}, glm::dvec3(0),
                  0);
   }
-  // A zero normal that reaches a shader all the same lights nothing.
+  // A surface with a zero normal that reaches a shader anyway is not lit.
   for (Shading shading : everyShading) {
     Look look = bench.look(shading);
     look.light = {directional({0, 0, 1})};
@@ -75,8 +75,9 @@ void a3(Bench& bench, Record& record) {
 }
 
 void a4(Bench& bench, Record& record) {
-  // 1e-38 is subnormal: drivers may take it for 0, and the direction with it. The file's reader and
-  // the reference keep it; so does a normal of a file on every driver, which is unit before upload.
+  // 1e-38 is subnormal: drivers may treat it as 0, and the direction is lost. The file's reader and
+  // the reference keep it, and so does every driver for a file's normal, which is unit before
+  // upload.
   const glm::vec3 v(1e-38f, 1e-38f, 0);
   const glm::dvec3 unit = glm::dvec3(1, 1, 0) * std::sqrt(0.5);
   expectVector(record, "normal " + vectorText(v) + " of a file",

@@ -60,7 +60,8 @@ Material litMaterial(double diffuse, double specular, double exponent) {
 }
 
 LightTolerances tolerancesFor(double exponent) {
-  // The half vector is off by the error of L + V over its length; Blinn's exponent is 4 alpha.
+  // The half vector is off by the error of L + V divided by its length; Blinn's exponent is 4
+  // alpha.
   return {diffuseTolerance, lobeTolerance(exponent), 2 * lobeTolerance(4 * exponent)};
 }
 
@@ -84,11 +85,11 @@ void expectLight(Bench& bench, Record& record, const std::string& what, double e
       const std::string where = "N " + vectorText(geometries[i].n) + " L " +
                                 vectorText(geometries[i].l) + " P " + vectorText(geometries[i].p);
       const double lobe = isBlinn(shading) ? expected[i].blinn : expected[i].phong;
-      // Red carries the highlight too: its rounding counts against the diffuse part.
+      // Red includes the highlight, whose rounding counts against the diffuse part.
       diffuse.add(double(got[i].x) - got[i].y, expected[i].diffuse,
                   tolerances.diffuse + 2 * rounding * lobe, where);
       specular.add(got[i].y, bench.lobeIsExact() ? lobe : truth[i].y, tolerance, where);
-      // The same floats go into both, and most are rounded from what the case says.
+      // Both get the same floats, most of them rounded from the values of the case.
       reference.add(truth[i].x - truth[i].y, expected[i].diffuse, tolerances.diffuse, where);
       if (bench.lobeIsExact()) reference.add(truth[i].y, lobe, tolerance, where);
     }

@@ -14,29 +14,29 @@ namespace glint::stability {
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double degrees = pi / 180;
 
-/// The rounding of a float, relative.
+/// The relative rounding error of a float.
 inline constexpr double rounding = 1.0 / (1 << 24);
 
-/// How far a lobe may lie from its form's value for rounded unit vectors. |D| = sqrt(2 lambda) with
-/// an error d of D moves lambda by |D| d and the lobe by alpha |D| d exp(-alpha lambda) <=
-/// 0.61 sqrt(alpha) d. D's components are sums of three terms of at most 2, rounded at each step,
-/// of vectors that are themselves off by 1.5e-7 where the shader normalises them: d <= 6.5e-7, so
-/// 4e-7 sqrt(alpha). The power itself adds 1e-6: 0.37 of the relative error of log1m (6e-7) and two
-/// products, and exp2's 3 + 2 |x| ulp (GLSL) times 2^-|x|.
+/// How far a lobe may be from its form's value for rounded unit vectors. With |D| = sqrt(2 lambda),
+/// an error d of D moves lambda by |D| d and the lobe by alpha |D| d exp(-alpha lambda) <= 0.61
+/// sqrt(alpha) d. D's components are sums of three terms of at most 2, rounded at each step, of
+/// vectors that are themselves off by 1.5e-7 where the shader normalises them: d <= 6.5e-7, which
+/// gives 4e-7 sqrt(alpha). The power itself adds 1e-6: 0.37 of the relative error of log1m (6e-7)
+/// and two products, and exp2's 3 + 2 |x| ulp (GLSL) times 2^-|x|.
 inline double lobeTolerance(double exponent) { return 1e-6 + 4e-7 * std::sqrt(exponent); }
 
 /// m_d I N.L of unit vectors that are off by 1.5e-7 each: three products, two sums.
 inline constexpr double diffuseTolerance = 6e-7;
 
-/// The exact form of Fresnel: some 12 roundings in amplitudes, their squares halved.
+/// The exact form of Fresnel: about 12 roundings in amplitudes, whose squares are halved.
 inline constexpr double fresnelTolerance = 1e-6;
 
 /// What the cases run on: the current context, the reference, and the forms under test.
 class Bench {
  public:
-  /// `forms` is a look of which the forms (`highlight`, `fresnel`, `schlick-exponent`) are taken.
-  /// `setParameter` sets a parameter of a look by its option's text, as the command line does: some
-  /// cases are about what it refuses.
+  /// The forms (`highlight`, `fresnel`, `schlick-exponent`) are taken from the look `forms`.
+  /// `setParameter` sets a parameter of a look from its option's text, as the command line does:
+  /// some cases test what it refuses.
   using SetParameter = void (*)(Look&, std::string_view name, const std::string& text);
   Bench(const Look& forms, GlslSources sources, SetParameter setParameter);
 
@@ -44,15 +44,15 @@ class Bench {
   Look look(Shading shading = Shading::phong) const;
 
   /// Whether the form claims to be the function itself (exact, pow; exact, textbook): then it is
-  /// held against the function's values, by the tolerance of rounding alone. An approximation is
-  /// held against its own formula in double.
+  /// compared with the function's values, to within rounding. An approximation is compared with its
+  /// own formula in double.
   bool lobeIsExact() const { return lobeIsExact_; }
   bool fresnelIsExact() const { return fresnelIsExact_; }
 
   const GlslSources& sources() const { return sources_; }
   Programs& programs() { return programs_; }
 
-  /// A function of vector.glsl, lobe.glsl or fresnel.glsl, or one of one's own over them.
+  /// Runs a function of vector.glsl, lobe.glsl or fresnel.glsl, or a custom one that uses them.
   std::vector<float> run(std::string_view function, const std::vector<std::vector<float>>& columns);
 
   Image draw(const Scene&, const Look&, const DecodedImages& = {});
@@ -87,17 +87,17 @@ inline constexpr Shading everyShading[] = {Shading::flat, Shading::gouraud, Shad
 
 inline bool isBlinn(Shading s) { return s == Shading::blinnPhong || s == Shading::environment; }
 
-/// Red, so that red less green is diffuse and green is specular; ior 1, so that the program
+/// Red, so that red minus green is diffuse and green is specular; ior 1, so that the program
 /// `environment` reflects nothing.
 Material litMaterial(double diffuse, double specular, double exponent);
 
-/// One place on a surface under one directional light: unit normal, to the light, and the place in
-/// eye space; to the viewer is its negative.
+/// A place on a surface under one directional light: the unit normal, the unit vector to the light,
+/// and the position in eye space, whose negative points to the viewer.
 struct Geometry {
   glm::vec3 n, l, p;
 };
 
-/// What comes out there: m_d I N.L, and the highlight by Phong and by Blinn-Phong.
+/// The light that results there: m_d I N.L, and the highlight by Phong and by Blinn-Phong.
 struct LightValues {
   double diffuse = 0, phong = 0, blinn = 0;
 };
@@ -107,16 +107,18 @@ struct LightTolerances {
 };
 
 /// Checks all five programs on the driver, and the reference, at each geometry: diffuse strength 1,
-/// specular strength 1, white light of intensity 1. What is not an exact form is held against the
-/// reference, whose own values are then not checked here. Findings: the worst of each program.
+/// specular strength 1, white light of intensity 1. A form that is not exact is compared with the
+/// reference, whose own values are then not checked here. Records the worst finding of each
+/// program.
 void expectLight(Bench&, Record&, const std::string& what, double exponent,
                  const std::vector<Geometry>& geometries, const std::vector<LightValues>& expected,
                  const LightTolerances& tolerances, Light::Type type = Light::Type::directional);
 
-/// As it follows from the exponent, for geometries whose half vector is longer than 1/2.
+/// The tolerances for an exponent, for geometries whose half vector is longer than 1/2.
 LightTolerances tolerancesFor(double exponent);
 
-/// The sum's highlight by Phong's formulas in long double, gate included.
+/// The diffuse light and the highlights by their formulas in long double, including the gate N.L >
+/// 0.
 LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
                           double exponent);
 

@@ -25,7 +25,7 @@ Look fromOrigin(Bench& bench, double viewAngle, int width = 9, int height = 9) {
   return look;
 }
 
-/// A green square at `near` before a red one at `far`, drawn in either order.
+/// Checks a green square at `near` in front of a red one at `far`, drawn in either order.
 void expectOrder(Bench& bench, Record& record, double near, double far, glm::dvec2 range) {
   const float size = float(far);
   for (bool swapped : {false, true}) {
@@ -61,7 +61,7 @@ void g3(Bench&, Record& record) {
         "NEAR,FAR with 0 < NEAR < FAR");
 }
 
-/// A floor under the eye from 4 behind it to 40 before it, coloured by place.
+/// A floor under the eye from 4 behind it to 40 in front of it, coloured by position.
 Scene floorScene() {
   Mesh mesh;
   mesh.positions = {{-4, -1, 4}, {4, -1, 4}, {4, -1, -40}, {-4, -1, -40}};
@@ -77,8 +77,8 @@ void g4(Bench& bench, Record& record) {
   const Scene scene = floorScene();
   const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
   record.finite("a floor through the near plane", image);
-  // Attributes of up to 1 divided by interpolated 1/w, whose plane equation spans w from 0.01 to
-  // 40: some 2^-24 * 44 of it.
+  // Attributes of up to 1 are divided by the interpolated 1/w, whose plane equation spans w from
+  // 0.01 to 40: about 2^-24 * 44 of it.
   record.alike("colours against the reference", image, truth, 1e-5);
   for (Shading shading : everyShading) {
     Look lit = look;
@@ -205,7 +205,7 @@ void g10(Bench& bench, Record& record) {
   Look look = bench.look();
   look.light = {directional({0.3, 0.2, 1})};
   look.resolution = {24, 20};
-  // The reference is made row by row and belongs to one size: after a change it begins anew.
+  // A reference is drawn row by row and belongs to one size: after a change it starts again.
   Image rows;
   ReferenceRenderer left(scene, {}, boundsOf(scene), look, 1);
   left.drawRows(0, 7, rows);
@@ -220,7 +220,7 @@ void g10(Bench& bench, Record& record) {
     pieces.values.insert(pieces.values.end(), rows.values.begin(), rows.values.end());
   }
   record.alike("in pieces against at once", pieces, whole, 0);
-  // The driver's target shrinks and grows with the picture and leaves nothing of the one before.
+  // The driver's target shrinks and grows with the picture and keeps nothing of the previous one.
   Look large = look;
   large.resolution = {48, 40};
   const Image first = bench.draw(scene, look);

@@ -17,7 +17,7 @@ std::string numberText(double x) {
 
 namespace {
 
-/// 0 where the value is meant to be 0: there spacings say nothing.
+/// 0 where the expected value is 0, since its spacing says nothing.
 double ulpsOf(double error, double expected) {
   return expected == 0 ? 0 : error / floatSpacing(expected);
 }

@@ -14,18 +14,19 @@ namespace glint::stability {
 
 class Bench;
 
-/// One thing that a case has looked at.
+/// The result of one check of a case.
 struct Finding {
   std::string what;           ///< where and for which input
-  std::string expected, got;  ///< for people
-  double error = 0;           ///< in the value's unit; 0 where the value is no number
+  std::string expected, got;  ///< as text
+  double error = 0;           ///< in the value's unit; 0 where nothing numeric is compared
   double tolerance = 0;
-  double ulp = 0;     ///< the error in floats' spacings at the expected value
+  double ulp = 0;     ///< the error in float spacings at the expected value
   double levels = 0;  ///< the error in levels of an 8-bit picture, before the sRGB curve
   bool passed = false;
 };
 
-/// What a case finds. Every check is kept, so that a report shows how near each came.
+/// What a case finds. Every check is kept, so that a report can show how close each came to its
+/// tolerance.
 class Record {
  public:
   /// |got - expected| <= tolerance; a NaN fails.
@@ -34,9 +35,9 @@ class Record {
   void within(const std::string& what, double got, double low, double high);
   /// `got` as text must be `expected`.
   void same(const std::string& what, const std::string& got, const std::string& expected);
-  /// A property in words.
+  /// A property described in words.
   void that(const std::string& what, bool holds, const std::string& got = {});
-  /// `action` must throw an InputError whose one line holds `part`.
+  /// `action` must throw an InputError of one line that contains `part`.
   void refused(const std::string& what, const std::function<void()>& action,
                const std::string& part);
   /// No value of the picture is NaN or infinite.
@@ -54,12 +55,12 @@ class Record {
   std::vector<Finding> findings_;
 };
 
-/// The worst of many values against their truths, as one finding: the worst by error against its
-/// tolerance.
+/// The worst of many values against their truths, as one finding: that with the largest error
+/// relative to its tolerance.
 class Worst {
  public:
   void add(double got, double expected, double tolerance, const std::string& where);
-  /// Adds the finding; `what` begins its text. Nothing added counts as a failure.
+  /// Adds the finding; `what` begins its text. It counts as a failure if no value was added.
   void into(Record& record, const std::string& what) const;
   double error() const { return error_; }
 
@@ -75,7 +76,7 @@ struct Case {
   std::string_view expected;   ///< the value or property
   std::string_view tolerance;  ///< how exactly, and where that comes from
   std::string_view reason;     ///< what goes wrong otherwise
-  std::string_view policy;     ///< the convention where there is no one right value; may be empty
+  std::string_view policy;  ///< the convention where there is no single right value; may be empty
   void (*run)(Bench&, Record&);
 };
 
@@ -83,10 +84,10 @@ struct Group {
   char letter;
   std::string_view name;
   std::span<const Case> cases;
-  bool catalogue = true;  ///< one of the 118; otherwise found or added beyond them
+  bool catalogue = true;  ///< in the catalogue of 118 cases; otherwise added beyond it
 };
 
-// The groups, each in a file of its own.
+// The groups, one file each.
 std::span<const Case> attributeCases();
 std::span<const Case> transformCases();
 std::span<const Case> directionCases();
@@ -100,7 +101,7 @@ std::span<const Case> propertyCases();
 std::span<const Case> limitCases();
 std::span<const Case> mappingCases();
 
-/// All of them, in the order of the report.
+/// All groups, in the order of the report.
 std::span<const Group> groups();
 
 /// A number as reports show it: 9 significant digits.

@@ -15,7 +15,7 @@ constexpr double exponents[] = {0, 1, 20, 1e3, 1e6};
 
 glm::dvec3 toViewer(const glm::vec3& position) { return safeNormalize(-glm::dvec3(position)); }
 
-/// Expected values by the formulas of docs/science.md, for the very floats of the geometries.
+/// Expected values by the formulas of docs/science.md, for exactly the floats of the geometries.
 std::vector<LightValues> formulas(const std::vector<Geometry>& geometries, double exponent) {
   std::vector<LightValues> values;
   for (const Geometry& g : geometries)
@@ -24,7 +24,7 @@ std::vector<LightValues> formulas(const std::vector<Geometry>& geometries, doubl
   return values;
 }
 
-/// N of any direction with L = N = V.
+/// Geometries with L = N = V, in many directions.
 std::vector<Geometry> aligned() {
   std::vector<Geometry> all{{{0, 0, 1}, {0, 0, 1}, {0, 0, -1}}};
   for (const glm::dvec3& n : randomDirections(200, 3)) {
@@ -34,7 +34,7 @@ std::vector<Geometry> aligned() {
   return all;
 }
 
-/// V = R, for light from all sides of the front.
+/// Geometries with V = sign * R, for light from all directions in front.
 std::vector<Geometry> mirrored(double sign) {
   std::vector<Geometry> all;
   const std::vector<glm::dvec3> normals = randomDirections(200, 5),
@@ -108,7 +108,7 @@ void c5(Bench& bench, Record& record) {
     tolerances.blinn *= 5;  // |L + V| = 2 N.L may be 0.1
     std::vector<LightValues> expected = formulas(all, alpha);
     for (LightValues& e : expected) e.phong = e.blinn = 1;
-    // The floats of L and V are rounded: V is R to 1.2e-7 only.
+    // L and V are rounded to floats: V is R only to 1.2e-7.
     tolerances.phong += 0.5 * alpha * 1.5e-14;
     tolerances.blinn += 2 * alpha * 4e-12;
     const bool exact = bench.lobeIsExact();
@@ -134,8 +134,8 @@ void c5(Bench& bench, Record& record) {
 void c6(Bench& bench, Record& record) {
   const std::vector<Geometry> all{{{0, 0, 1}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}},
                                   {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
-  // R.V = -1: nothing by Phong. L + V is (1.2, 0, 0), at right angles to N,
-  // or 0. At right angles some approximations jump: there they may be anything.
+  // R.V = -1: Phong gives 0. L + V is (1.2, 0, 0), at right angles to N, or 0. At right angles some
+  // approximations jump: any value is allowed there.
   const double edge = bench.lobeIsExact() ? 1e-6 : 1;
   for (double alpha : {1.0, 5.0, 1e3})
     expectLight(bench, record, "V = -R, " + alphaText(alpha), alpha, all, {{0.8, 0, 0}, {1, 0, 0}},
@@ -147,7 +147,7 @@ void c7(Bench& bench, Record& record) {
   const std::vector<Geometry> all{{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
                                   {{0, 0, 1}, {s, 0, 0.5f}, {s, 0, 0.5f}},
                                   {{0, 0, 1}, {1, 0, 0}, {1, 0, 0}}};
-  // R.V = 1 - 2 (N.L)^2 by Phong: -1, 1/2, and gated.
+  // Phong's R.V = 1 - 2 (N.L)^2 is -1, 1/2, and gated.
   for (double alpha : {1.0, 4.0})
     expectLight(bench, record, "L = -V, " + alphaText(alpha), alpha, all,
                 {{1, 0, 0}, {0.5, std::pow(0.5, alpha), 0}, {0, 0, 0}},
@@ -166,14 +166,15 @@ void c8(Bench& bench, Record& record) {
 }
 
 void c9(Bench& bench, Record& record) {
-  // Seen from below the tangent plane: the formulas as they stand, since the gate is N.L alone.
+  // Seen from below the tangent plane: the formulas apply unchanged, since the gate depends only on
+  // N.L.
   const std::vector<Geometry> all{{{0, 0, 1}, {0.96f, 0, 0.28f}, {0.9f, 0.1f, 0.2f}},
                                   {{0, 0, 1}, {0, 0.6f, 0.8f}, {0.1f, 0.9f, 0.05f}},
                                   {{0, 0, 1}, {0, 0, 1}, {0.3f, 0, 0.9f}}};
   for (double alpha : {1.0, 5.0, 50.0})
     expectLight(bench, record, "N.V < 0, " + alphaText(alpha), alpha, all, formulas(all, alpha),
                 tolerancesFor(alpha));
-  // Two-sided: the back turns the normal.
+  // Two-sided: on the back the normal is turned.
   Look look = bench.look(Shading::phong);
   look.twoSided = true;
   look.light = {Light{}};
@@ -219,7 +220,7 @@ void c12(Bench& bench, Record& record) {
     expectLight(bench, record, "point light at a distance of " + numberText(distance), 10, all,
                 {{0.8, std::pow(0.8, 10), std::pow(h, 40)}}, tolerancesFor(10), Light::Type::point);
   }
-  // A spot at the same distances, whose cone of 90 degrees the place is inside.
+  // A spot at the same distances, with the place inside its cone of 90 degrees.
   for (float distance : {1e-30f, 1e30f})
     for (Shading shading : {Shading::phong, Shading::gouraud}) {
       Look spotLook = bench.look(shading);
@@ -236,7 +237,7 @@ void c12(Bench& bench, Record& record) {
           std::string(shadingName(shading)) + ": spot at a distance of " + numberText(distance),
           bench.programs().shade(scene, points)[0].x, 0.8, diffuseTolerance);
     }
-  // As the renderer places it, from a light 1e30 away in the world.
+  // The same through the renderer, with a light 1e30 away in the world.
   Look look = bench.look(Shading::phong);
   Light light;
   light.type = Light::Type::point;

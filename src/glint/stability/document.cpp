@@ -94,7 +94,7 @@ Scene Document::load() {
     file.append(body.begin(), body.end());
   }
   const std::string path = (folder_ / "case.glb").string();
-  forgetReadFile(path);  // the case before this one is read no more
+  forgetReadFile(path);  // the previous case's file is not read any more
   OutputFile output(path);
   output.write(std::as_bytes(std::span(file)));
   output.commit();

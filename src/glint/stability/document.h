@@ -11,7 +11,7 @@
 
 namespace glint::stability {
 
-/// A glTF document that a case puts together, written as .glb into a temporary folder that goes
+/// A glTF document that a case assembles, written as .glb into a temporary folder that is removed
 /// with it.
 class Document {
  public:
@@ -22,15 +22,15 @@ class Document {
 
   nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
 
-  /// An accessor of floats or of 32-bit indices with a buffer view of its own.
+  /// Adds an accessor of floats or of 32-bit indices with its own buffer view.
   int accessor(const std::string& type, const std::vector<float>& values);
   int indices(const std::vector<std::uint32_t>& values);
-  /// Of 16-bit numbers, as joints are.
+  /// The same for 16-bit numbers, as joints are.
   int shorts(const std::string& type, const std::vector<std::uint16_t>& values);
-  /// A mesh of that one primitive, and a node that shows it.
+  /// Adds a mesh of this one primitive, and a node that shows it.
   void show(nlohmann::json primitive);
-  /// One triangle in the plane z = 0, counter-clockwise from +Z, with these normals (9 floats) or
-  /// without any.
+  /// Adds a triangle in the plane z = 0, counter-clockwise seen from +Z, with these normals (9
+  /// floats) or without any.
   void triangle(const std::vector<float>& normals = {});
 
   /// The scene of the file. Throws InputError.

@@ -17,12 +17,13 @@ namespace {
 
 const glm::vec3 up(0, 0, 1);
 
-/// Geometries with R.V (Phong) = cos(angle), light at right angles above the surface: R = N = L.
+/// A geometry with R.V (Phong) = cos(angle), the light at right angles to the surface: R = N = L.
 Geometry atAngle(double radians) {
   return {up, up, glm::vec3(-std::sin(radians), 0, -std::cos(radians))};
 }
 
-/// Around a peak of any direction, exponent * angle^2 / 2 from 0 to 8: where the lobe is steep.
+/// Geometries around a peak in any direction, exponent * angle^2 / 2 from 0 to 8: where the lobe is
+/// steep.
 std::vector<Geometry> nearPeak(double exponent, bool blinn, std::size_t count) {
   Random random(11);
   const std::vector<glm::dvec3> normals = randomDirections(count, 3),
@@ -53,7 +54,7 @@ void expectNearPeak(Bench& bench, Record& record, double exponent) {
     const PointScene scene(look, litMaterial(0, 1, exponent));
     const std::vector<glm::vec3> got = bench.programs().shade(scene, points);
     const std::vector<glm::dvec3> truth = referenceShade(scene, points);
-    // As unit vectors rounded to float; the half vector is at least 0.6 long.
+    // For unit vectors rounded to float; the half vector is at least 0.6 long.
     const double tolerance = blinn ? 2 * lobeTolerance(4 * exponent) : lobeTolerance(exponent);
     Worst worst;
     double highest = 0;
@@ -62,8 +63,8 @@ void expectNearPeak(Bench& bench, Record& record, double exponent) {
       if (bench.lobeIsExact()) {
         const glm::dvec3 n = safeNormalize(glm::dvec3(all[i].n)), l(all[i].l),
                          v = safeNormalize(-glm::dvec3(all[i].p));
-        // By the difference vector: the dot product of vectors off unit length by 6e-8 is not the
-        // cosine.
+        // By the difference vector, since the dot product of vectors whose length is off by 6e-8 is
+        // not the cosine.
         const double lambda =
             blinn ? blinnLambda(n, safeNormalize(l), v) : phongLambda(n, safeNormalize(l), v);
         expected = std::exp((blinn ? 4 : 1) * exponent * std::log1p(-lambda));
@@ -79,7 +80,8 @@ void expectNearPeak(Bench& bench, Record& record, double exponent) {
   }
 }
 
-/// A form of the lobe on the driver by its option's text, or nothing if it does not exist here.
+/// Shades on the driver with the form of the lobe that an option's text names; nothing if there is
+/// no such form.
 std::optional<std::vector<glm::vec3>> shadeWith(Bench& bench, const std::string& highlight,
                                                 double exponent, const Points& points) {
   Look look = bench.look(Shading::phong);
@@ -94,7 +96,7 @@ std::optional<std::vector<glm::vec3>> shadeWith(Bench& bench, const std::string&
 
 void d1(Bench& bench, Record& record) {
   const float below = -0.01f;
-  // R.V above 0, exactly 0, below 0. N.H = 0.95, cos 45 degrees, and above 0 by Blinn-Phong.
+  // R.V above 0, exactly 0, below 0. Blinn-Phong's N.H is above 0 in all of them.
   const std::vector<Geometry> all{atAngle(0), {up, up, {-1, 0, 0}}, {up, up, {1, 0, -below}}};
   expectLight(bench, record, "exponent 0", 0, all, {{1, 1, 1}, {1, 0, 1}, {1, 0, 1}},
               {diffuseTolerance, 1e-6, 1e-6});
@@ -222,7 +224,7 @@ void d10(Bench& bench, Record& record) {
   for (float exponent : {1.0f, 1e4f, 1e6f})
     record.near("lobePow(1 + 2^-23, " + numberText(exponent) + ")",
                 bench.run("float lobePow(float, float)", {{above}, {exponent}})[0], 1, 0);
-  // Vectors longer than unit by a rounding or four, exactly along each other.
+  // Vectors longer than 1 by one rounding or four, exactly parallel to each other.
   for (float length : {1.0f, above, 1 + 4 * (above - 1)})
     for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
       Look look = bench.look(shading);

@@ -14,7 +14,7 @@
 namespace glint::stability {
 namespace {
 
-/// The program `environment` in a white room whose only light is what is reflected.
+/// The program `environment` in a white room, without lights.
 Look whiteRoom(Bench& bench, double mediumIor = 1, bool twoSided = false) {
   Look look = bench.look(Shading::environment);
   look.noLights = true;
@@ -23,7 +23,7 @@ Look whiteRoom(Bench& bench, double mediumIor = 1, bool twoSided = false) {
   return look;
 }
 
-/// What shows only its surroundings, a metal or what lets light through.
+/// A material that shows only its surroundings: it reflects or transmits them.
 Material boundary(double ior, double transmission = 0, double metalness = 0,
                   const glm::dvec3& color = glm::dvec3(1)) {
   Material material;
@@ -32,7 +32,8 @@ Material boundary(double ior, double transmission = 0, double metalness = 0,
   return material;
 }
 
-/// Driver and reference for light that comes from the index n1: entering, n1 is the medium's.
+/// The reflectance by driver and reference for light that comes from the index n1; if entering, n1
+/// is the medium's.
 struct Reflected {
   std::vector<float> driver;
   std::vector<double> reference;
@@ -48,8 +49,8 @@ Reflected reflected(Bench& bench, double n1, double n2, const std::vector<float>
 
 std::string indicesText(double n1, double n2) { return numberText(n1) + " to " + numberText(n2); }
 
-/// Checks R at cosines against values that hold for the exact function; approximations against the
-/// reference's evaluation of the same form.
+/// Checks R at cosines against values of the exact function; approximations against the reference's
+/// evaluation of the same form.
 void expectReflectance(Bench& bench, Record& record, double n1, double n2,
                        const std::vector<float>& cosines, const std::vector<double>& exact,
                        double tolerance, double referenceTolerance = 1e-9, bool entering = true) {
@@ -117,8 +118,8 @@ void k2(Bench& bench, Record& record) {
 }
 
 void k3(Bench& bench, Record& record) {
-  // 1 + 2^-23, cosine 1.6e-4 and around it. 60 digits at c = 1.6e-4: 0.2622... by `truth`, which
-  // agrees with 60 digits to 1e-17.
+  // The index 1 + 2^-23, cosines around 1.6e-4. At 1.6e-4 `truth` gives 0.2622..., which agrees
+  // with an evaluation in 60 digits to 1e-17.
   const double n = 1 + std::exp2(-23);
   std::vector<float> cosines;
   for (int i = 0; i < 2000; ++i) cosines.push_back(float(1.6e-4 * std::exp((i - 1000) * 4e-3)));
@@ -164,7 +165,7 @@ void k7(Bench& bench, Record& record) {
 void k8(Bench& bench, Record& record) {
   for (const auto& [a, b] : pairs)
     expectReflectance(bench, record, a, b, {-0.2f, -1, -1e-6f}, {1, 1, 1}, fresnelTolerance);
-  // A metal's normal turned away: in a white room it is white, not brighter.
+  // A metal with its normal turned away: in a white room it is white, not brighter.
   Points points;
   points.add({0, 0, 1}, {0.6f, 0, 0.8f});
   const PointScene scene(whiteRoom(bench), boundary(1.5, 0, 1, {0.5, 0.25, 0}));
@@ -185,7 +186,7 @@ void k9(Bench& bench, Record& record) {
   }
 }
 
-/// Seen from inside a boundary, at cosines of incidence.
+/// Points seen from inside a boundary, at given cosines of incidence.
 Points fromInside(const std::vector<double>& cosines) {
   Points points;
   points.front = false;

@@ -14,7 +14,7 @@
 namespace glint::stability {
 namespace {
 
-/// By its red.
+/// By the red channel.
 float brightest(const Image& image) {
   float most = 0;
   for (std::size_t i = 0; i < image.values.size(); i += 4) most = std::max(most, image.values[i]);
@@ -55,8 +55,8 @@ void expectDrawn(Bench& bench, Record& record, const std::string& what, const Sc
 }
 
 void a11(Bench& bench, Record& record) {
-  // Two equal corners; three in a line; both share a vertex with a good triangle, without normals
-  // and with zero ones to be mended.
+  // A triangle with two equal corners and one with three in a line, which share vertices with a
+  // good triangle; without normals, and with zero ones to be replaced.
   for (bool normals : {false, true}) {
     Document document;
     const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
@@ -224,8 +224,8 @@ void a18(Bench& bench, Record& record) {
 }
 
 void a19(Bench& bench, Record& record) {
-  // A red triangle of the first vertices and a green one of the last: an index that loses bits
-  // would take the first for the last.
+  // A triangle of the first vertices and one of the last: an index that loses bits would take the
+  // first for the last.
   for (std::size_t count : {(std::size_t(1) << 16) + 3, (std::size_t(1) << 24) + 1}) {
     Mesh mesh;
     mesh.positions.assign(count, glm::vec3(0));

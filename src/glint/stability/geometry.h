@@ -5,17 +5,17 @@
 
 #include "glint/stability/bench.h"
 
-// The cases of group A that are about positions and indices, which attributes.cpp lists, and what
-// those of normals share with them.
+// The cases of group A about positions and indices, which attributes.cpp lists, and what they share
+// with those about normals.
 namespace glint::stability {
 
 void expectVector(Record& record, const std::string& what, const glm::dvec3& got,
                   const glm::dvec3& expected, double tolerance);
 
-/// The vector's components, so many times.
+/// The vector's components, `count` times.
 std::vector<float> repeated(const glm::vec3& v, int count);
 
-/// All programs draw the scene's triangle finite, and lit where `lit`.
+/// Checks that all programs draw the scene's triangle without NaN and infinity, and lit if `lit`.
 void expectDrawn(Bench& bench, Record& record, const std::string& what, const Scene& scene,
                  bool lit = true);
 

@@ -17,7 +17,8 @@ namespace {
 
 using Columns = std::vector<std::vector<float>>;
 
-/// Columns of cosines and of boundaries for indices n seen from the thinner or the denser side.
+/// Adds the errors of fresnelExact for columns of cosines and of indices n, seen from the thinner
+/// or the denser side; returns the worst.
 double boundaryError(Bench& bench, bool denser, const Columns& c, std::vector<double>& errors) {
   std::vector<float> boundaries;
   for (float n : c[1]) {
@@ -38,7 +39,7 @@ double boundaryError(Bench& bench, bool denser, const Columns& c, std::vector<do
   return worst;
 }
 
-/// Hunts the worst input of a function of the shaders and holds it to its bound.
+/// Searches for the worst input of a shader function and checks its error against the bound.
 void expectHunted(Record& record, const std::string& what, const std::vector<SearchRange>& ranges,
                   double bound, const SearchErrors& errors) {
   const SearchResult worst = huntWorst(ranges, errors, 1 << 12, 8);
@@ -58,7 +59,7 @@ void huntLobe(Bench& bench, Record& record) {
                    errors.push_back(absoluteError(got[i], lobeExact(c[0][i], c[1][i])));
                  return errors;
                });
-  // Finds of longer searches: the switch of log1m at 1/2, and the largest error near the peak.
+  // Found by longer searches: the switch of log1m at 1/2, and the largest error near the peak.
   const Columns finds{{0.5f, 0.50000006f, 9.5367e-7f, 0.333333343f, 0.0191f},
                       {1, 1, 1e6f, 2, 52.3f}};
   const auto got = bench.run("float lobeExact(float, float)", finds);
@@ -81,8 +82,8 @@ void huntFresnel(Bench& bench, Record& record) {
 
 void huntUnit(Bench& bench, Record& record) {
   for (const bool safe : {false, true}) {
-    // Components whose squares matter: of 1e-15 to 1e18 for unit, anything but subnormal for
-    // safeUnit.
+    // Components from 1e-15 to 1e18 for unit, whose squares stay in range; anything except
+    // subnormal for safeUnit.
     const float low = safe ? 1.2e-38f : 1e-15f, high = safe ? 3e38f : 1e18f;
     const SearchRange range{low, high, {1, 1.0995116e12f, 9.094947e-13f}};
     expectHunted(
@@ -105,8 +106,8 @@ void huntUnit(Bench& bench, Record& record) {
 }
 
 void huntHighlight(Bench& bench, Record& record) {
-  // The whole programs: direction of the normal (two), of the light (two), around the peak (two),
-  // and the exponent.
+  // Whole programs, at several exponents: two numbers each for the direction of the normal, that of
+  // the light, and the place around the peak.
   const SearchRange turn{0, 1, {0.25f, 0.5f}};
   for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
     for (double alpha : {20.0, 1e3, 1e5}) {
@@ -145,7 +146,7 @@ void huntHighlight(Bench& bench, Record& record) {
             const auto got = bench.programs().shade(scene, points);
             const auto truth = referenceShade(scene, points);
             std::vector<double> errors;
-            // The half vector is off by the error of L + V over its length.
+            // The half vector is off by the error of L + V divided by its length.
             for (std::size_t i = 0; i < got.size(); ++i)
               errors.push_back(
                   absoluteError(got[i].y, truth[i].y) *
@@ -158,7 +159,7 @@ void huntHighlight(Bench& bench, Record& record) {
 }
 
 void reflectanceStaysInRange(Bench& bench, Record& record) {
-  // Grazing and near the critical angle, where R is next to 1 and rounds.
+  // At grazing incidence and near the critical angle, where R is close to 1 and rounds.
   double low = 1, high = 0;
   Random random(67);
   for (int k = 0; k < 60; ++k) {

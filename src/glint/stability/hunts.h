@@ -3,7 +3,7 @@
 #include "glint/stability/bench.h"
 #include "glint/stability/case.h"
 
-// Cases of group P that look for the worst input of a function of the shaders, and hold it to its
+// Cases of group P that search for the worst input of a shader function and check it against its
 // bound.
 namespace glint::stability {
 

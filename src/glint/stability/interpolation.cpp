@@ -16,14 +16,14 @@ namespace {
 
 constexpr Shading perPixel[] = {Shading::phong, Shading::blinnPhong, Shading::environment};
 
-/// A square over the picture with normals at its left and right edges, as they stand.
+/// A square that fills the picture, with these normals at its left and right edges, unchanged.
 Mesh bent(const glm::vec3& left, const glm::vec3& right) {
   Mesh mesh = square({0, 0, 1}, 1);
   mesh.normals = {left, right, right, left};
   return mesh;
 }
 
-/// The middle of that square; 9 pixels across, so that it is a pixel's centre.
+/// The middle of that square. The picture is 9 pixels across, so that this is a pixel's centre.
 double middleOf(const Image& image, int channel = 0) { return image.row(4)[16 + channel]; }
 
 void expectFaceNormal(Bench& bench, Record& record, const glm::vec3& left, const glm::vec3& right) {
@@ -67,7 +67,7 @@ void i3(Bench& bench, Record& record) {
   }
 }
 
-/// To fp16 and back: 11 bits, round to nearest even, without the limits of its range.
+/// Rounds to fp16: 11 bits, to nearest even, without the limits of its range.
 double half(double x) {
   if (x == 0 || !std::isfinite(x)) return x;
   const int exponent = std::max(std::ilogb(x), -14);
@@ -95,7 +95,7 @@ void i4(Bench& bench, Record& record) {
     const double rho = std::sqrt(2 * 8 * random.unit() / alpha);
     const glm::dvec3 v = std::cos(rho) * r + std::sin(rho) * safeNormalize(glm::cross(r, sides[i]));
     const double truth = std::pow(std::max(std::cos(rho), 0.0), alpha);
-    // R and V given as fp16 vectors, as interpolated or computed in it.
+    // R and V as fp16 vectors, as if interpolated or computed in fp16.
     const glm::dvec3 hr = half(r), hv = half(v);
     dotError =
         std::max(dotError, std::abs(std::pow(std::max(halfDot(hr, hv), 0.0), alpha) - truth));
@@ -126,7 +126,7 @@ void i5(Bench& bench, Record& record) {
 }
 
 void i6(Bench& bench, Record& record) {
-  // All normals 0: per-pixel programs fall back to the face by derivatives.
+  // All normals 0: per-pixel programs fall back to the face's normal, from derivatives.
   Mesh mesh = sphere(10, 5);
   for (bool mirrored : {false, true}) {
     Mesh faceless = mesh;
@@ -142,7 +142,7 @@ void i6(Bench& bench, Record& record) {
     const Image derivatives = bench.draw(sceneOf(faceless, paint, world), look);
     record.alike(mirrored ? "a mirrored ball" : "a ball", derivatives, flat, 1e-3);
   }
-  // Where a pixel is 1e-10 of the distance, the cross product's square leaves the range.
+  // Where a pixel is 1e-10 of the distance, the cross product's square leaves float's range.
   Look look = bench.look();
   look.cameraPosition = glm::dvec3(0, 0, 1e7);
   look.cameraFocalPoint = glm::dvec3(0);
@@ -168,7 +168,7 @@ void i7(Bench& bench, Record& record) {
 }
 
 void i8(Bench& bench, Record& record) {
-  // Some 1.5 pixels a triangle; positions and normals are interpolated over so few samples that
+  // About 1.5 pixels a triangle; positions and normals are interpolated over so few samples that
   // their plane equations lose digits: 1e-4 of a unit, times the lobe's slope sqrt(20) 0.61.
   for (Shading shading : perPixel) {
     Look look = parallel(bench.look(shading), {0.2, 0.1, 1}, 40);
@@ -219,7 +219,7 @@ void i10(Bench& bench, Record& record) {
     record.near(std::string(shadingName(shading)) + ": pixels counted as NaN", double(count), 64,
                 0);
   }
-  // Where NaN may vanish on the way (max(NaN, 0) is 0 on some drivers), it is refused at the input.
+  // Since NaN may vanish on the way (max(NaN, 0) is 0 on some drivers), it is refused at the input.
   record.refused(
       "--material exponent=nan",
       [] {

@@ -28,8 +28,7 @@ Material material(double ambient, double diffuse, double specular, double metaln
   return m;
 }
 
-/// The middle of a square under one white light from the viewer, by every program and the
-/// reference.
+/// Checks the middle of a square seen from the front, by every program and the reference.
 void expectEverywhere(Bench& bench, Record& record, const std::string& what, const Material& m,
                       const glm::dvec3& ambientLight, const std::vector<Light>& lights,
                       const glm::dvec3& expected, double tolerance) {
@@ -83,7 +82,7 @@ void f3(Bench& bench, Record& record) {
   record.refused(
       std::to_string(maxLights + 1) + " lights", [&] { addLights(maxLights + 1); },
       "more than " + std::to_string(maxLights) + " lights");
-  // As many as there may be are drawn.
+  // The largest number allowed is drawn.
   Look look = whiteLook(bench, Shading::phong);
   look.light =
       std::vector<Light>(maxLights, directional({0, 0, 1}, glm::dvec3(1 / double(maxLights))));
@@ -174,13 +173,13 @@ void f9(Bench&, Record& record) {
 }
 
 void f10(Bench& bench, Record& record) {
-  // Red 2.5, green 0.5: clamped once, at the encode. A clamp of each term would give 1.5 and 0.5.
+  // Red 2.5, green 0.5: clamped once, when encoded. A clamp of each term would give 1.5 and 0.5.
   expectEverywhere(bench, record, "terms that add up to more than 1",
                    material(1, 1, 0.5, 1, {1, 0.2, 0}), glm::dvec3(1), {directional({0, 0, 1})},
                    {2.5, 0.5, 0}, 2e-6);
 }
 
-/// A square over the picture with colours at its left and right edges.
+/// A square that fills the picture, with colours at its left and right edges.
 Mesh ramp(const glm::vec4& left, const glm::vec4& right) {
   Mesh mesh = square({0, 0, 1}, 1);
   mesh.colors = {left, right, right, left};
@@ -195,7 +194,7 @@ void f11(Bench& bench, Record& record) {
     const Scene scene =
         sceneOf(ramp({2, 0, 1, 1}, {0, 2, 1, 1}), material(1, 1, 0, 0, glm::dvec3(1)));
     const std::string name(shadingName(shading));
-    // A plane equation of values up to 2 with some 8 roundings.
+    // A plane equation of values up to 2 with about 8 roundings.
     record.color(name + ": between vertex colours 2 and 0", middle(bench.draw(scene, look)),
                  glm::dvec3(1), 16 * rounding);
     record.color(name + " in the reference", middle(bench.reference(scene, look)), glm::dvec3(1),

@@ -1,4 +1,4 @@
-// Group L: what is more than a driver has is drawn in parts or smaller, or refused by name.
+// Group L: what exceeds a driver's limits is drawn in parts or smaller, or refused by name.
 
 #include <glad/gl.h>
 
@@ -26,7 +26,7 @@ void l1(Bench& bench, Record& record) {
   record.refused(
       "a target of " + std::to_string(most + 1) + " pixels", [&] { RenderTarget(most + 1, 1, 1); },
       "--resolution");
-  // A picture of more is drawn in tiles. 65535 is the most that --resolution takes.
+  // A larger picture is drawn in tiles. --resolution takes at most 65535.
   const int width = std::min(most + 8, 65535);
   Look look = bench.look();
   look.resolution = {width, 1};
@@ -95,7 +95,8 @@ void l4(Bench& bench, Record& record) {
 }
 
 void l5(Bench& bench, Record& record) {
-  // Skins are applied on loading, in double: no driver's number of uniforms limits the joints.
+  // Skins are applied on loading, in double: a driver's number of uniforms does not limit the
+  // joints.
   constexpr int joints = 2000;
   Document document;
   nlohmann::json attributes = {

@@ -1,5 +1,5 @@
-// Group M: what is looked up, and where. Here pictures of the environment, and the list of all
-// cases; those of textures are in mapping_textures.cpp.
+// Group M: what is looked up, and where. This file has the cases of environment pictures and the
+// list of all cases; those of textures are in mapping_textures.cpp.
 
 #include <unistd.h>
 
@@ -19,16 +19,16 @@
 namespace glint::stability {
 namespace {
 
-constexpr double texel = pi / 128;  // of the picture of directions
+constexpr double texel = pi / 128;  // of the compass picture, radians
 
-/// A radiance that tells every direction from every other: a channel for each axis.
+/// A radiance that differs in every direction: one channel for each axis.
 glm::dvec3 compass(const glm::dvec3& d) { return 0.5 + 0.25 * d; }
 
-/// Bilinear texels are off by h^2 / 8 of the second derivatives along both axes, 0.25 each; across
-/// a pole too. Directions, places and the filter in floats add 2e-6.
+/// Bilinear filtering is off by h^2 / 8 of the second derivatives along both axes, 0.25 each,
+/// across a pole too. Directions, coordinates and the filter in floats add 2e-6.
 constexpr double compassTolerance = 0.25 * texel * texel / 4 + 2e-6;
 
-/// The compass as a file, as long as the program runs: what was read is not written anew.
+/// The compass as a file that exists while the program runs: once read, it is not written again.
 class CompassPicture {
  public:
   static std::string path() {
@@ -85,7 +85,8 @@ const glm::dvec3 directions[] = {{0, 0, 1},     {1, 0, 0},  {-1, 0, 0},     {0, 
                                  {0, -1, 0},    {1, 2, -2}, {-2, 1, -1},    {1e-3, 1, 0},
                                  {0, -1, 2e-3}, {3, -1, 5}, {1e-4, 0.2, 1}, {-1e-4, -0.2, 1}};
 
-/// The environment turned by the angle about +Y shows in the direction d what stood there before.
+/// The environment turned by the angle about +Y shows in the direction d what was in this direction
+/// before.
 glm::dvec3 before(const glm::dvec3& d, double angle) {
   const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
   return {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
@@ -122,8 +123,8 @@ void m3(Bench& bench, Record& record) {
        {glm::dvec3(1, 0.3, 0.2), {-1, 0.5, 2}, {0.2, -1, -0.3}, {-1, 1, -1}}) {
     Look look = parallel(bench.look(Shading::environment), d, 65);
     look.hdriFile = CompassPicture::path();
-    // A ball of 96 x 48: its normals between vertices of 3.75 degrees are off by (0.065)^2 / 8 at
-    // most, a row of the picture above its middle turns the reflection by 2 * 2 / 65 / 2.
+    // A ball of 96 x 48: its normals between vertices 3.75 degrees apart are off by (0.065)^2 / 8
+    // at most, and a row of the picture above its middle turns the reflection by 2 * 2 / 65 / 2.
     record.color("a ball seen from " + vectorText(d),
                  middle(bench.draw(sceneOf(sphere(96, 48), mirror()), look)),
                  compass(safeNormalize(d)), 0.25 * 2e-3 + compassTolerance);
@@ -140,8 +141,8 @@ void m4(Bench& bench, Record& record) {
         Look look = environmentLook(bench, "");
         look.environment = map;
         look.environmentRotation = angle;
-        // The steepest edge of them rises by 32 per radian, directions are off by 1e-6; the look-up
-        // itself by 1e-5.
+        // Their steepest edge rises by 32 per radian, and directions are off by 1e-6; the look-up
+        // itself is off by 1e-5.
         record.color((map == Environment::sky ? "sky towards " : "studio towards ") + vectorText(d),
                      middle(bench.draw(sceneOf(square(halfWay(d)), mirror()), look)),
                      environmentRadiance(truth, before(safeNormalize(d), angle)), 32e-6 + 1e-5);
@@ -199,7 +200,7 @@ void m12(Bench& bench, Record& record) {
                      up = glm::cross(back, right);
     const double half = std::tan(30 * degrees);
     // A pixel is a fourteenth of a radian wide: the mean over it is off by s^2 / 12 of 0.25, and
-    // the levels' by as much.
+    // that of the levels by as much.
     for (const glm::ivec2 place : {glm::ivec2(0, 0), {32, 0}, {0, 16}, {32, 16}, {16, 8}}) {
       const glm::dvec3 ray = right * (((place.x + 0.5) / 33 * 2 - 1) * half * 33 / 17) +
                              up * ((1 - (place.y + 0.5) / 17 * 2) * half) - back;

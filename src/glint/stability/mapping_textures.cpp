@@ -25,7 +25,7 @@ ByteImage texels(const std::vector<glm::ivec4>& rgba, int width = 2) {
   return image;
 }
 
-/// A square of half size 1 with the texture's corners at its own: v downwards, as glTF has it.
+/// A square of half size 1 whose corners are the texture's; v points down, as in glTF.
 struct Textured {
   Scene scene;
   DecodedImages images;
@@ -153,8 +153,8 @@ void m11(Bench& bench, Record& record) {
 }
 
 void m13(Bench& bench, Record& record) {
-  // Levels of one colour each: what is seen tells the level of detail. 64 texels over 2 / size of
-  // the picture's height.
+  // Each level has one colour, so that the drawn colour shows the level of detail. The picture's
+  // height shows 64 texels.
   ByteImage base = texels(std::vector<glm::ivec4>(64 * 64, glm::ivec4(0, 0, 0, 255)), 64);
   std::vector<ByteImage> smaller;
   const int codes[] = {51, 102, 153, 204, 230, 255};
@@ -187,7 +187,7 @@ void m13(Bench& bench, Record& record) {
 }
 
 void m14(Bench& bench, Record& record) {
-  // Across between two texels, and what lies outside by each rule.
+  // Between two texels in x, and outside the texture by each rule of wrapping.
   const ByteImage two = texels({{0, 0, 0, 255}, {255, 255, 255, 255}}, 2);
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirroredRepeat, Wrap::clampToEdge}) {
     Textured t = textured(unlitMaterial(glm::dvec3(1)), two, false);
@@ -219,7 +219,8 @@ void m14(Bench& bench, Record& record) {
   }
 }
 
-// Thin triangles whose colours go from 0.4 to 0.6: what they cover of a pixel has no other.
+// Thin triangles whose colours go from 0.4 to 0.6: the part of a pixel that they cover has no
+// others.
 void m15(Bench& bench, Record& record) {
   const int most = maxSamples();
   record.within("samples of the driver", most, 1, 1024);

@@ -2,7 +2,7 @@
 
 #include "glint/stability/bench.h"
 
-// The cases of group M that are about textures; mapping.cpp lists them.
+// The cases of group M about textures, which mapping.cpp lists.
 namespace glint::stability {
 
 void m6(Bench& bench, Record& record);

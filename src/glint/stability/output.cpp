@@ -43,7 +43,7 @@ void h2(Bench&, Record& record) {
   const double join = 0.0031308;
   record.near("the two pieces at the join", 12.92 * join, 1.055 * std::pow(join, 1 / 2.4) - 0.055,
               5e-8);
-  // 16-bit codes are monotone across it, a step at a time.
+  // 16-bit codes change across it by at most one step at a time.
   int last = encodeSrgb16(0.00312f), worst = 0;
   for (float x = 0.00312f; x < 0.00314f; x += 1e-8f) {
     const int code = encodeSrgb16(x);

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double plottedExponents[] = {10, 100, 1e3, 1e4, 1e5, 1e6};
-constexpr double floor = 1e-9;  // of logarithmic axes of errors
+constexpr double floor = 1e-9;  // the lower end of logarithmic axes of errors
 
 const std::vector<std::string> lobeForms{"pow",          "exact",  "lyon:8",  "lyon-tuned:8",
                                          "lyon-cross:8", "pade:8", "gaussian"};
@@ -53,7 +53,7 @@ struct Peak {
   std::vector<double> truth;
 };
 
-/// Phong geometries of all directions with exponent * lambda from 0 to 8, in order.
+/// Phong geometries in all directions with exponent * lambda from 0 to 8, ascending.
 Peak aroundPeak(double exponent, std::size_t count) {
   Peak peak;
   const auto normals = randomDirections(count, 61), lights = randomDirections(count, 62),
@@ -88,7 +88,7 @@ std::vector<double> lobeOf(Bench& bench, const std::string& form, double exponen
   return values;
 }
 
-/// The largest of each of `bins` parts of [0, 8].
+/// The largest error in each of `bins` parts of [0, 8].
 std::vector<std::pair<double, double>> binned(const Peak& peak, const std::vector<double>& got,
                                               int bins) {
   std::vector<std::pair<double, double>> points;
@@ -138,7 +138,7 @@ void lobePlots(Bench& bench, Json& plots) {
                          "to 1: a staircase, and above it nothing between. The difference vector "
                          "keeps the curve.",
                          "angle between R and V, degrees", false, "highlight", false);
-  // Light and normal at a slant, so that no component is special.
+  // Light and normal are slanted, so that no component is special.
   const glm::dvec3 n = safeNormalize({0.36, 0.48, 0.8}), l = safeNormalize({0.1, 0.7, 0.7});
   const glm::dvec3 r = 2 * glm::dot(n, l) * n - l, side = safeNormalize(glm::cross(r, n));
   Points points;
@@ -198,7 +198,7 @@ std::vector<std::pair<double, double>> pairsOf(const std::vector<double>& x,
 
 void fresnelPlots(Bench& bench, Json& plots) {
   const std::vector<std::string> pair{"textbook", "exact"};
-  // 1 - R like the root of the distance from the critical cosine: both sides of it.
+  // 1 - R varies as the root of the distance from the critical cosine: plots both sides of it.
   for (const double n : {1.5, 1 + std::exp2(-23)}) {
     Json plot = plotJson(
         n == 1.5 ? "Reflectance near the critical angle, 1.5 to 1"

@@ -22,7 +22,7 @@ using Column = std::vector<float>;
 constexpr std::size_t rows = 200000;
 constexpr float smallest = std::numeric_limits<float>::min();
 
-/// Uniform over the floats from low to high, and the 1000 next to each of `specials`.
+/// Uniform over the floats from low to high, and the 1000 on either side of each of `specials`.
 Column floatsFrom(float low, float high, const Column& specials = {}, unsigned seed = 41) {
   Random random(seed);
   Column column;
@@ -34,7 +34,8 @@ Column floatsFrom(float low, float high, const Column& specials = {}, unsigned s
   return column;
 }
 
-/// The largest errors against the truth, relative to an allowance in ulp or in absolute terms.
+/// The largest errors against the truth, in ulp, absolute, and as a share of what is allowed (at
+/// the input `at`).
 struct Measured {
   double ulp = 0, absolute = 0, share = 0;
   std::size_t at = 0;
@@ -106,7 +107,7 @@ void elementary(Bench& bench, std::vector<Quality>& all) {
                                     floatSpacing(std::exp2(double(negative[i])));
                            }),
                        "3 + 2 |x| ulp", "the exact lobe, whose bound counts it: 3.6e-7 at most"));
-  // What the lobe's bound of 1e-6 counts on: 3.6e-7 of a value of at most 1.
+  // The lobe's bound of 1e-6 counts on at most 3.6e-7 for values of at most 1.
   Quality& exponential = all.back();
   const Column values = bench.run("float f(float x) { return exp2(x); }", {negative});
   double off = 0;
@@ -221,7 +222,7 @@ void vectors(Bench& bench, std::vector<Quality>& all) {
                          maximum == "NaN" ? "NaN is kept" : "NaN may vanish",
                          "the count of NaN pixels: inputs are "
                          "checked, so that none is made"));
-  // x^2 less its rounded value is 0, unless both are one operation.
+  // x^2 minus its rounded value is 0, unless the two are one fused operation.
   const Column x = floatsFrom(1, 2);
   Column square;
   for (float a : x) square.push_back(a * a);
@@ -234,7 +235,7 @@ void vectors(Bench& bench, std::vector<Quality>& all) {
                "the last bits of every picture; no bound"));
 }
 
-/// A square across the view, tilted into the depth, with colours.
+/// Measures a square across the view, tilted in depth, with colours.
 void interpolation(Bench& bench, std::vector<Quality>& all) {
   Mesh mesh;
   mesh.positions = {{-1, -1, -1}, {8, -8, -8}, {8, 8, -8}, {-1, 1, -1}};
@@ -262,7 +263,7 @@ void interpolation(Bench& bench, std::vector<Quality>& all) {
   q.absolute = worst;
   all.push_back(q);
 
-  // dFdx of a linear function over neighbouring fragments; of squares, which tells the step.
+  // dFdx of a linear function over neighbouring fragments; and of squares, which shows the step.
   Column line, squares;
   for (int i = 0; i < 1024; ++i) {
     line.push_back(float(i) * 0.125f);
@@ -288,7 +289,7 @@ void textures(Bench& bench, std::vector<Quality>& all) {
   texture.sampler = {Filter::nearest, Filter::nearest, MipFilter::none, Wrap::clampToEdge,
                      Wrap::clampToEdge};
   scene.materials[0].colorTexture = texture;
-  // Each code once, nearest: the decode alone.
+  // Each code once with nearest filtering: only decoding.
   DecodedImages codes;
   codes[0].image = {16, 16, 4, {}};
   for (int i = 0; i < 256; ++i)

@@ -8,21 +8,21 @@
 
 namespace glint::stability {
 
-/// How exact one thing of the driver is, apart from what glint makes of it.
+/// How exact one feature of the driver is, apart from glint.
 struct Quality {
   std::string name;      ///< "exp2"
   std::string measured;  ///< over which inputs, against what
   std::string result;    ///< in words and numbers
-  double ulp = -1;       ///< largest error in floats' spacings; negative where that says nothing
+  double ulp = -1;       ///< largest error in float spacings; negative where that says nothing
   double absolute = -1;  ///< likewise in the value's unit
-  std::string required;  ///< what GLSL or OpenGL states
+  std::string required;  ///< what GLSL or OpenGL specifies
   std::string verdict;   ///< "as required", "worse than required", "not stated: ..."
-  bool weak = false;     ///< worse than stated, or too inexact to build on
-  std::string touches;   ///< which figures of glint it enters, and which it does not
+  bool weak = false;     ///< worse than specified, or too inexact to rely on
+  std::string touches;   ///< which of glint's figures it affects, and which not
 };
 
-/// Measures the current context's driver. GLSL 3.30 states no precisions; those of GLSL 4.10 and
-/// later (section "Range and Precision"), which every driver of today offers, stand for them.
+/// Measures the current context's driver. GLSL 3.30 specifies no precisions; those of GLSL 4.10 and
+/// later (section "Range and Precision"), which all of today's drivers offer, are taken instead.
 std::vector<Quality> measureProfile(Bench&);
 
 /// One line for each, with the weak ones marked.

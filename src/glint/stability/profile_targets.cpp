@@ -33,7 +33,8 @@ Quality observed(std::string name, std::string measured, std::string result, std
 
 namespace {
 
-/// How many codes an sRGB renderbuffer stores otherwise than the encode of glint.
+/// How many codes an sRGB renderbuffer stores differently from glint's encoding; -1 without such a
+/// target.
 int storedOtherwise() {
   constexpr int width = 1024;
   const Renderbuffer buffer = Renderbuffer::make();

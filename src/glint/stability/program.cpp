@@ -22,8 +22,8 @@ bool perVertex(const Variant& v) { return !isPerPixel(v.program); }
 
 int lightsOf(const Variant& v) { return v.directionalLights + v.pointLights + v.spotLights; }
 
-// Sets what the uniform blocks hold. The vertex stage's transforms are identities: its attributes
-// are in eye space already.
+// Sets the contents of the uniform blocks. The vertex stage's transforms are identities, since its
+// attributes are in eye space already.
 constexpr const char* setBlocks = R"(
 void setBlocks(vec3 toViewer, float schlickExponent, vec3 ambient, vec3 right, vec3 up, vec3 back,
                MaterialBlock m) {
@@ -55,7 +55,7 @@ vec3 surfaceRadiance() {
 }
 )";
 
-// What the fragment stage makes of the light that the vertex stage carries.
+// What the fragment stage does with the light that the vertex stage passes on.
 constexpr const char* vertexSurface = R"(
 void setSurface(vec3 n, vec3 p, bool front) {
   surfaceFront = front;
@@ -134,7 +134,7 @@ std::string programText(const Variant& variant, const GlslSources& sources) {
   const ComposedProgram composed = compose(variant, sources, false);
   std::string text = perVertex(variant) && !variant.unlit ? composed.vertex : composed.fragment;
   text.erase(0, text.find('\n') + 1);  // #version
-  // A block without a name of its own leaves its members as variables; the others become structs.
+  // A block without an instance name leaves its members as variables; the others become structs.
   const std::string lightBlock = "layout(std140) uniform LightBlock {";
   if (const auto at = text.find(lightBlock); at != std::string::npos) {
     const auto end = text.find("};", at);
@@ -152,7 +152,7 @@ std::string programText(const Variant& variant, const GlslSources& sources) {
       {"out vec4 fragment;", "vec4 fragment;"},
       {"void main()", "void surfaceMain()"},
       {"invariant gl_Position;", ""},
-      // The exponent may be another at each point: its table's entries are computed.
+      // The exponent may differ from point to point, so its table's entries are computed.
       {"float tableEntry(int table, int place) { return lobeTables[table + (place >> 2)][place & "
        "3]; "
        "}",
@@ -278,7 +278,7 @@ std::vector<glm::dvec3> referenceShade(const PointScene& scene, const Points& po
 
 std::vector<double> referenceReflectance(const PointScene& scene, const std::vector<float>& cosines,
                                          bool entering) {
-  // In a white room an unlit dielectric shows its reflectance.
+  // In a white room without lights, a dielectric shows its reflectance.
   ReferencePoints reference(scene);
   std::vector<double> values;
   for (float cosine : cosines) {

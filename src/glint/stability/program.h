@@ -12,13 +12,13 @@
 
 namespace glint::stability {
 
-/// Points of a surface as a program's shading gets them: eye space, one direction of the only light
-/// a point where `lights` is not empty.
+/// Points of a surface as a program's shading gets them: in eye space, and with one direction of
+/// the only light per point if `lights` is not empty.
 struct Points {
   std::vector<glm::vec3> normals;    ///< as interpolated, of any length
   std::vector<glm::vec3> positions;  ///< the eye is at the origin
-  /// In place of the light's direction (directional, camera) or place (point), as it stands in the
-  /// light's block: not normalised on the way. As many as normals, or none.
+  /// Replaces the light's direction (directional, camera) or position (point) in the light's block,
+  /// without being normalised. As many as normals, or none.
   std::vector<glm::vec3> lights;
   bool front = true;  ///< the side that is seen
 
@@ -33,8 +33,8 @@ struct Points {
   }
 };
 
-/// A program and its inputs, made definite for points in eye space: the draw list of a scene of one
-/// small square at the distance 1 before the eye.
+/// A program and its inputs, resolved for points in eye space: the draw list of a scene of one
+/// small square at the distance 1 in front of the eye.
 struct PointScene {
   PointScene(const Look& look, const Material& material);
 
@@ -45,8 +45,8 @@ struct PointScene {
   const DrawItem& item() const { return list.items.front(); }
 };
 
-/// The programs of glsl/ themselves, whole, through the probe: each variant's own text, uniforms
-/// and varyings turned into variables that a row of inputs sets. Lives in the current context.
+/// Runs the whole programs of glsl/ through the probe: each variant's own text, with uniforms and
+/// varyings turned into variables that a row of inputs sets. Belongs to the current context.
 class Programs {
  public:
   explicit Programs(GlslSources sources) : sources_(std::move(sources)) {}
@@ -60,8 +60,8 @@ class Programs {
   std::vector<float> reflectance(const PointScene&, const std::vector<float>& cosines,
                                  bool entering);
 
-  /// The probe of a variant, for functions of one's own: its text holds all of the program, with
-  /// `void surfaceMain()` for main, `void setSurface(...)` as shade() uses it.
+  /// The probe of a variant, for custom functions: its text contains the whole program, with `void
+  /// surfaceMain()` in place of main, and `void setSurface(...)` as shade() uses it.
   Probe& probe(const Variant&);
 
  private:
@@ -76,8 +76,8 @@ std::vector<glm::dvec3> referenceShade(const PointScene&, const Points&);
 std::vector<double> referenceReflectance(const PointScene&, const std::vector<float>& cosines,
                                          bool entering);
 
-/// What the uniforms of a scene hold, for functions of one's own: as arguments, as what is handed
-/// to `void setBlocks(...)` of a program's text, and as columns of one row.
+/// The contents of a scene's uniforms, for custom functions: as parameters, as the call of `void
+/// setBlocks(...)` in a program's text, and as columns of one row.
 inline constexpr const char* blockArguments =
     "vec3 toViewer, float schlickExponent, vec3 ambient, vec3 right, vec3 up, vec3 back, "
     "MaterialBlock m";

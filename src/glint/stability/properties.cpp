@@ -1,5 +1,5 @@
-// Group P: properties that hold for every input, over random ones, and the worst inputs that a
-// search finds (stability_hunts.cpp).
+// Group P: properties that hold for every input, checked on random ones, and the worst inputs that
+// a search finds (hunts.cpp).
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,8 @@ Scene pebbleScene(const glm::dmat4& world) {
   return sceneOf(mesh, material, world);
 }
 
-/// A look at the origin from all of whose places and directions `turn` moves the same way.
+/// A look at the origin with all positions and directions turned by `turn`, and lengths scaled by
+/// `scale`.
 Look turnedLook(Bench& bench, Shading shading, const glm::dmat4& turn, double scale) {
   const glm::dmat3 m(turn);
   Look look = bench.look(shading);
@@ -97,7 +98,7 @@ Look turnedLook(Bench& bench, Shading shading, const glm::dmat4& turn, double sc
 
 void expectNearlyAlike(Record& record, const std::string& what, const Image& got,
                        const Image& expected) {
-  // Every coordinate is rounded anew, and an edge may move over a sample.
+  // Every coordinate is rounded differently, and an edge may move across a sample.
   int different = 0, covered = 0;
   for (std::size_t i = 0; i < got.values.size(); i += 4) {
     bool off = false;
@@ -112,7 +113,8 @@ void expectNearlyAlike(Record& record, const std::string& what, const Image& got
 
 void p3(Bench& bench, Record& record) {
   for (Shading shading : everyShading) {
-    // The built-in environments would turn with the world: a white one is the same from all sides.
+    // The built-in environments would have to turn with the world; a white one is the same from all
+    // sides.
     const Image one =
         bench.draw(pebbleScene(glm::dmat4(1)), turnedLook(bench, shading, glm::dmat4(1), 1));
     for (double angle : {0.3, 1.7, 3.1}) {
@@ -189,7 +191,7 @@ void p11(Bench& bench, Record& record) {
           std::clamp((std::cos(angle * degrees) - outer) / (inner - outer), 0.0, 1.0);
       const std::string what = ": " + numberText(angle) + " degrees off a spot's axis";
       const std::string name(shadingName(shading));
-      // The cosine's rounding over the ramp's width of 0.074, twice for the square.
+      // The cosine's rounding divided by the ramp's width of 0.074, twice for the square.
       record.near(name + what, bench.programs().shade(scene, points)[0].x, ramp * ramp, 8e-6);
       record.near(name + " in the reference" + what, referenceShade(scene, points)[0].x,
                   ramp * ramp, 1e-6);
@@ -216,7 +218,7 @@ void p12(Bench& bench, Record& record) {
 }
 
 void p14(Bench& bench, Record& record) {
-  // A lamp of a file with a range of 10, straight above the place: 1/d^2, windowed to 0 at 10.
+  // A file's lamp with a range of 10, straight above the place: 1/d^2, windowed to 0 at 10.
   for (Shading shading : everyShading) {
     Look look = bench.look(shading);
     Light lamp;
@@ -244,8 +246,8 @@ void p14(Bench& bench, Record& record) {
 }
 
 void p15(Bench& bench, Record& record) {
-  // What a driver may interpolate in a triangle almost without area or with corners beyond all
-  // measure, where the light of a vertex and its colour arrive at a pixel.
+  // What a driver may interpolate for the light and the colour of vertices, in a triangle almost
+  // without area or with extremely distant corners.
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> given{
       std::numeric_limits<float>::quiet_NaN(), -infinity, -1, 0, 0.5f, 1e30f, infinity};
@@ -267,7 +269,7 @@ void p16(Bench& bench, Record& record) {
   const std::vector<Light> lights{directional({1, 1, 2}, glm::dvec3(0.25)), point,
                                   directional({-1, 0, 2}, glm::dvec3(1)),
                                   directional({0, -1, 2}, glm::dvec3(0.125))};
-  const char* const forms[] = {"pade:8", "lyon:4", "exact", "none"};  // as their lights stand
+  const char* const forms[] = {"pade:8", "lyon:4", "exact", "none"};  // in the order of the lights
   for (const Shading shading : everyShading) {
     Look look = parallel(bench.look(shading), {0, 0, 1}, 32);
     Image sum;

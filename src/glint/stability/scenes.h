@@ -23,21 +23,21 @@ Scene sceneOf(Mesh mesh, Material material = {}, const glm::dmat4& world = glm::
 
 Material unlitMaterial(const glm::dvec3& color);
 
-/// The look with a parallel view along -`toViewer` at the origin, 2 units high, of 8 x 8 pixels:
-/// every pixel has the same V.
+/// The look with a parallel view along -`toViewer` at the origin, 2 units high, of `pixels` x
+/// `pixels`: every pixel has the same V.
 Look parallel(Look look, const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 8);
 
 Light directional(const glm::dvec3& toLight, const glm::dvec3& intensity = glm::dvec3(1));
 
 glm::dmat4 translation(const glm::dvec3& t);
 glm::dmat4 scaling(const glm::dvec3& s);
-/// About a generic axis, radians.
+/// About a fixed generic axis; radians.
 glm::dmat4 rotation(double angle);
 
-/// Uniform on the sphere, the same on every machine.
+/// Random directions, uniform on the sphere, the same on every machine.
 std::vector<glm::dvec3> randomDirections(std::size_t count, unsigned seed);
 
-/// Numbers in [0, 1), the same on every machine and with every library.
+/// Random numbers, the same on every machine and with every standard library.
 class Random {
  public:
   explicit Random(unsigned seed) : state_(seed * 2654435761u + 1) {}

@@ -21,8 +21,8 @@ constexpr std::uint64_t rowsOfBatch = 1 << 15;  // with one material and one loo
 constexpr std::size_t mostVariants = 128;       // more would compile for longer than they run
 constexpr std::size_t mostFinds = 8;
 
-// Every input of a point from a row's number and a seed, on the driver: uploading them would take
-// longer than shading. PCG (O'Neill 2014) by the hash of Jarzynski and Olano (2020).
+// Makes every input of a point from a row's number and a seed, on the driver: uploading them would
+// take longer than shading. PCG (O'Neill 2014) as the hash of Jarzynski and Olano (2020).
 constexpr const char* generator = R"(
 uint randomState = 0u;
 uint nextRandom() {
@@ -92,13 +92,14 @@ void drawPoint(float row, float seed) {
 }
 )";
 
-/// A function over one random point: its head, and what draws the point.
+/// The text of a function over one random point: its signature, the drawing of the point, and
+/// `body`.
 std::string ofRandomPoint(const std::string& result, const std::string& body) {
   return result + "(float row, float seed, " + blockArguments + ") {\n" + setTheBlocks +
          "  drawPoint(row, seed);\n" + body + "}";
 }
 
-/// A probe of a variant with the generator behind its text.
+/// A probe of a variant with the generator after its text.
 std::unique_ptr<Probe> searchProbe(const Variant& variant, const GlslSources& sources) {
   ProbeText text;
   text.text = "#define PER_PIXEL " + std::to_string(isPerPixel(variant.program)) + "\n" +

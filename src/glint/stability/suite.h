@@ -10,18 +10,18 @@
 
 namespace glint::stability {
 
-/// A case as it came out.
+/// The result of a case.
 struct CaseResult {
   const Group* group = nullptr;
   const Case* item = nullptr;
   std::vector<Finding> findings;
-  std::string error;  ///< why it could not be run to its end; empty if it was
+  std::string error;  ///< why it did not run to its end; empty if it did
   double milliseconds = 0;
 
   bool passed() const;
 };
 
-/// Which cases: by id and by group, case-insensitive; both empty is all of them.
+/// Which cases to run: by id and by group, case-insensitive; all if both are empty.
 struct Selection {
   std::vector<std::string> ids, groups;
 
@@ -31,14 +31,14 @@ struct Selection {
   bool isAll() const { return ids.empty() && groups.empty(); }
 };
 
-/// Runs the cases in their order; `before` is told of each, and the share that is done.
+/// Runs the cases in their order; `before` is called before each, with the share that is done.
 std::vector<CaseResult> runCases(Bench&, const Selection&,
                                  const std::function<void(double share, const Case&)>& before = {});
 
-/// The table of cases, one line each.
+/// The list of cases, with what each expects and why.
 std::string listText(const Selection&);
 
-/// A line for each group, then each failure with what went in, what must come out and what did.
+/// A line for each group, then each failure with its input, what was expected and what came out.
 std::string summaryText(const std::vector<CaseResult>&);
 
 /// Whether all passed.

@@ -1,4 +1,4 @@
-// Group B: transforms and scales, whole pictures.
+// Group B: transforms and scales, in whole pictures.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace glint::stability {
 namespace {
 
-/// A lumpy thing without symmetry, smooth normals.
+/// A pebble with three different radii and smooth normals.
 Mesh pebble() {
   Mesh mesh = sphere(24, 12);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
@@ -34,8 +34,8 @@ Look litLook(Bench& bench, Shading shading) {
   return look;
 }
 
-/// Pixels in which two pictures differ by more than the tolerance. A triangle's edge may move over
-/// a sample where coordinates are rounded anew, so a few pixels may differ by anything.
+/// Checks that two pictures are the same to within the tolerance. A triangle's edge may move across
+/// a sample where coordinates are rounded differently, so `edges` pixels may differ by any amount.
 void expectSamePicture(Record& record, const std::string& what, const Image& got,
                        const Image& expected, double tolerance, int edges) {
   int different = 0, covered = 0;
@@ -57,8 +57,9 @@ void expectSamePicture(Record& record, const std::string& what, const Image& got
   record.near(what + ": largest difference of the others", worst, 0, tolerance);
 }
 
-/// A pixel's error where all coordinates are rounded anew: normals and positions turn by 2^-23, the
-/// highlight of exponent 4 * 30 moves by 0.61 sqrt(120) of that, a few times over for slivers.
+/// A pixel's error where all coordinates are rounded differently: normals and positions turn by
+/// 2^-23, the highlight of exponent 4 * 30 moves by 0.61 sqrt(120) of that, a few times as much in
+/// slivers.
 constexpr double movedTolerance = 2e-5;
 
 void expectFormula(Bench& bench, Record& record, const std::string& what, const glm::dmat4& world,
@@ -87,7 +88,7 @@ void expectFormula(Bench& bench, Record& record, const std::string& what, const 
   }
 }
 
-// The matrix's entries are rounded once and summed; uneven by 20 at most.
+// The matrix's entries are rounded once and summed; its scales differ by a factor of at most 20.
 const double unevenTolerance = lobeTolerance(48) + 24 * rounding;
 
 void b1(Bench& bench, Record& record) {
@@ -103,7 +104,7 @@ void b1(Bench& bench, Record& record) {
   record.near("M n is off by degrees", std::acos(glm::dot(right, wrong)) / degrees, 78.6, 0.05);
 }
 
-/// The picture of the mirrored model against that of a model whose vertices are mirrored.
+/// Compares the picture of the mirrored model with that of a model whose vertices are mirrored.
 void expectMirror(Bench& bench, Record& record, const glm::dvec3& mirror) {
   Mesh turned = pebble();
   for (std::size_t i = 0; i < turned.positions.size(); ++i) {
@@ -149,7 +150,7 @@ void b4(Bench& bench, Record& record) { expectScale(bench, record, 1e-20); }
 void b5(Bench& bench, Record& record) { expectScale(bench, record, 1e20); }
 
 void b6(Bench& bench, Record& record) {
-  // All but flat: the normal along the surface is 1e-25 long before it is made unit.
+  // Almost flat: the normal along the surface is 1e-25 long before it is made unit.
   for (Shading shading : {Shading::gouraud, Shading::phong}) {
     Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
     look.light = {directional({0.6, 0, 0.8})};
@@ -203,7 +204,8 @@ void b8(Bench& bench, Record& record) {
     const Image origin = drawn({0, 0, 0}, false);
     record.alike(name + ": at 1e6, to the bit", drawn({1e6, -1e6, 2e6}, false), origin, 0);
     record.alike(name + ": at 1e7, to the bit", drawn({1e7, 0, -3e7}, false), origin, 0);
-    // The camera found by glint adds and halves far from the origin: an ulp of 1e7 is 1.9e-9.
+    // The camera that glint chooses adds and halves coordinates far from the origin: an ulp of 1e7
+    // is 1.9e-9.
     expectSamePicture(record, name + ": framed at 1e7", drawn({1e7, 1e7, -1e7}, true),
                       drawn({0, 0, 0}, true), movedTolerance, 4);
   }
@@ -221,9 +223,9 @@ void b9(Bench& bench, Record& record) {
     const std::string name(shadingName(shading));
     const Image one = drawn(0);
     record.finite(name, one);
-    // Nothing trembles: moved together by whole units, it is the same to the bit.
+    // Nothing jitters: moved together by whole units, the picture is the same to the bit.
     record.alike(name + ": all moved by 1024", drawn(1024), one, 0);
-    // From so far the view is parallel: 1e7 tan(5e-6 degrees) = 0.873 to the upper edge.
+    // From this distance the view is parallel: 1e7 tan(5e-6 degrees) = 0.873 to the upper edge.
     Look look = litLook(bench, shading);
     look.cameraPosition = glm::dvec3(1e3, 0, 0);
     look.cameraFocalPoint = glm::dvec3(0);
@@ -235,7 +237,8 @@ void b9(Bench& bench, Record& record) {
 }
 
 void b10(Bench& bench, Record& record) {
-  // In float, as an animation may: the columns' lengths drift, and are a real if uneven scale.
+  // In float, as an animation may accumulate it: the columns' lengths drift, and are a real if
+  // uneven scale.
   const double angle = 2 * pi / 1000;
   const glm::mat3 step(rotation(angle));
   glm::mat3 sum(1);
@@ -245,7 +248,7 @@ void b10(Bench& bench, Record& record) {
               std::abs(length - 1) > 1e-6 && std::abs(length - 1) < 0.5);
   expectFormula(bench, record, "a rotation accumulated 1e6 times", glm::dmat4(glm::dmat3(sum)),
                 unevenTolerance);
-  // The camera's axes are made anew of position and way up: orthonormal whatever came in.
+  // The camera's axes are recomputed from position and up vector: orthonormal whatever the input.
   Look look = bench.look();
   look.cameraDirection = glm::dvec3(sum[0]) * 1e-3;
   look.cameraViewUp = glm::dvec3(sum[1]) * 1e3;

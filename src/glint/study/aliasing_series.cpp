@@ -9,8 +9,8 @@
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
 
-// Aliasing of small pictures: over the exponent, beside what forms are off by; over the distance,
-// as a model moves away; and over time, in how a highlight changes from one picture to the next.
+// Aliasing of small pictures: over the exponent, next to the errors of forms; over the distance, as
+// a model moves away; and over time, as the change of a highlight from one picture to the next.
 namespace glint {
 namespace {
 
@@ -39,7 +39,7 @@ bool hasHighlight(const SeriesTools& tools, const Look& look) {
                              [](const DrawItem& item) { return item.variant.specular; });
 }
 
-/// What is done about aliasing.
+/// A way to treat aliasing.
 struct Way {
   const char* name;
   SpecularAntialiasing filter;
@@ -54,7 +54,7 @@ const Way ways[] = {{"one sample", Filter::none, {AntiAliasing::Mode::none, 1}},
                     {"msaa:4 toksvig", Filter::toksvig, {AntiAliasing::Mode::msaa, 4}},
                     {"ssaa:2", Filter::none, {AntiAliasing::Mode::ssaa, 2}}};
 
-/// Draws small pictures of one size: each kind of samples has a renderer of its own.
+/// Draws small pictures of one size: each kind of anti-aliasing has its own renderer.
 class SmallPictures {
  public:
   explicit SmallPictures(const SeriesTools& tools) : tools_(tools) {}
@@ -76,7 +76,7 @@ class SmallPictures {
              return item.variant.specularAntialiasing;
            });
   }
-  /// Begins the picture of a way, to be timed.
+  /// Begins the picture of a way, for timing.
   Renderer::Picture begin(Look look, const Way& way) {
     look.specularAntialiasing = way.filter;
     look.antiAliasing = way.samples;
@@ -97,7 +97,7 @@ class SmallPictures {
   std::map<std::string, Renderer> renderers_;
 };
 
-/// Adds a point to the line of each way that the driver and the scene have; `draw` gives its
+/// Adds a point to the line of each way that the driver and the scene support; `draw` returns its
 /// picture.
 template <typename Draw>
 void addWays(StudySeries& series, const SmallPictures& pictures, const Look& look, double x,
@@ -106,7 +106,7 @@ void addWays(StudySeries& series, const SmallPictures& pictures, const Look& loo
       if (!pictures.has(look, ways[k])) continue;
       series.lines[k].points.push_back(
           pointOf(x, wholeErrorOf(truth, draw(ways[k]), mask, 1).inside));
-    } catch (const InputError&) {  // a driver without so many samples
+    } catch (const InputError&) {  // the driver has fewer samples
     }
 }
 
@@ -143,7 +143,7 @@ StudySeries finished(StudySeries series) {
   return series;
 }
 
-/// The look with its camera moved so that the model's middle moves by so many pixels.
+/// The look with its camera moved so that the model's centre moves by `pixels`.
 Look movedLook(const SeriesTools& tools, const Look& look, const glm::dvec2& pixels) {
   const StudyScene& s = tools.scene;
   Look moved = definiteLook(look, s.scene, s.bounds);
@@ -156,14 +156,14 @@ Look movedLook(const SeriesTools& tools, const Look& look, const glm::dvec2& pix
   return moved;
 }
 
-/// Mostly highlight: what bumps do to diffuse light, no filter of highlights mends.
+/// Mostly highlight: no filter of highlights corrects what bumps do to diffuse light.
 ShadingParameters bumpyMaterial() {
   ShadingParameters lacquer = sphereMaterial();
   lacquer.diffuse = 0.2;
   return lacquer;
 }
 
-/// What series of the sphere with a normal map are measured with.
+/// The scene and the tools for series of the sphere with a normal map.
 struct BumpyTools {
   StudyScene scene{bumpySphereScene(bumpyMaterial()), bumpyImages()};
   GpuScene gpu{scene.scene, scene.images};

@@ -9,13 +9,14 @@
 namespace glint {
 namespace {
 
-/// The standard deviation of both slopes, 0.0225 in variance: as wide as Phong's lobe of the
+/// The standard deviation of each slope. Its variance, 0.0225, is as wide as Phong's lobe with
 /// exponent 11.
 constexpr double bumpSlope = 0.15;
 constexpr int mapWidth = 1024, mapHeight = 512, sphereColumns = 96, sphereRows = 48;
 
-/// Waves to all sides, by chance, 8 to 12 texels long: many in a pixel that sees a smaller level,
-/// and smooth from texel to texel, as a filter between texels would else take some of them away.
+/// Random waves in all directions, 8 to 12 texels long: many to a pixel that reads a smaller level,
+/// and smooth from texel to texel, since filtering between texels would otherwise remove some of
+/// them.
 struct Wave {
   int across, down;  ///< periods in the map, so that it repeats
   double phase;
@@ -39,13 +40,13 @@ ByteImage bumps() {
     for (int column = 0; column < mapWidth; ++column) {
       glm::dvec2 slope(0);
       for (const Wave& w : waves) {
-        // Texels are square, so that a wave's slopes are as its periods in texels.
+        // Texels are square, so that a wave's slopes are proportional to its periods in texels.
         const glm::dvec2 way(double(w.across) / mapWidth, double(w.down) / mapHeight);
         const double at = 2 * std::numbers::pi * (way.x * column + way.y * row) + w.phase;
         slope += std::cos(at) / glm::length(way) * way;
       }
       slope *=
-          2 * bumpSlope / std::sqrt(double(count));  // each has the variance 1 / 4 of its square
+          2 * bumpSlope / std::sqrt(double(count));  // each wave has variance 1 / 4 in x and in y
       const double scale = 1 / std::hypot(slope.x, slope.y, 1.0);
       for (const double n : {scale * slope.x, scale * slope.y, scale})
         image.values.push_back(code(n));

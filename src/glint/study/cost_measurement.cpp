@@ -17,16 +17,17 @@ namespace glint {
 namespace {
 
 constexpr int lightCount = 64;
-// Frames of some milliseconds: shorter ones measure how threads are woken.
+// Frames of some milliseconds: shorter ones would measure how long threads take to wake.
 constexpr glm::ivec2 lobeSize{256, 256}, reflectanceSize{1024, 1024};
 constexpr int warmUp = 2, rounds = 6;  // of each build
 constexpr int mostBuilds = 24;
 
-/// Products of the powers that stand for the others of `integer`, whose costs lie between.
+/// The powers of `integer` that are measured; the costs of the others are interpolated between
+/// them.
 constexpr int measuredPowers[] = {1, 4, 16, 128, 127};
 
-/// A sheet wider than the picture whose normals turn by up to 30 degrees, so that no light sets
-/// anywhere and neighbouring pixels differ.
+/// A sheet wider than the picture whose normals turn by up to 30 degrees, so that every light is
+/// above the horizon everywhere and neighbouring pixels differ.
 Scene sheetScene() {
   constexpr int cells = 16;
   Mesh mesh;
@@ -64,7 +65,7 @@ Look sheetLook(glm::ivec2 size) {
   return look;
 }
 
-/// Within 40 degrees of the sheet's normal, by a golden spiral.
+/// Lights within 40 degrees of the sheet's normal, on a golden spiral.
 std::vector<Light> sheetLights() {
   std::vector<Light> lights;
   const double low = std::cos(40 * radians);
@@ -79,7 +80,7 @@ std::vector<Light> sheetLights() {
   return lights;
 }
 
-/// A picture whose time tells a cost: that above the picture `base`.
+/// A picture whose time gives a cost: its time above that of the base picture.
 struct Trial {
   std::string form;
   double* cost = nullptr;  ///< where it goes in the table; null: a control
@@ -87,8 +88,8 @@ struct Trial {
   std::vector<double> milliseconds;  ///< the fastest frame of each build
 };
 
-/// Pictures that are measured together: the first is the base, the second has the exact form, and
-/// the last is the exact form again.
+/// Pictures measured together: the first is the base, the second has the exact form, and the last
+/// is the exact form again.
 using Trials = std::vector<Trial>;
 
 Trials lobeTrials(CostTable& table, Look look) {
@@ -167,21 +168,21 @@ bool measureBuild(Trials& trials, const StudyScene& scene, GpuScene& gpu, const 
   return true;
 }
 
-/// A time from those of chosen builds: the lower quartile, without the unlucky ones.
+/// A time over chosen builds: the lower quartile, which leaves out unlucky ones.
 double timeOf(const Trial& trial, const std::vector<std::size_t>& builds) {
   std::vector<double> times;
   for (const std::size_t i : builds) times.push_back(trial.milliseconds[i]);
   return quantile(std::move(times), 0.25);
 }
 
-/// The time of an exact lobe for each light and pixel of its picture, in all, ms.
+/// The total time of the exact lobe for all lights and pixels of its picture, ms.
 double unitOf(const Trials& lobes, const std::vector<std::size_t>& builds) {
   return timeOf(lobes[1], builds) - timeOf(lobes[0], builds);
 }
 
-/// The costs of trials 1 and on without the control. `share`: how many lobes a pixel of the lobes'
-/// picture has for each pixel of this. Noise is how far costs may be off: half of the usual
-/// interval, and what the exact form seems to cost above itself.
+/// The costs of the trials after the base, without the control. `share`: evaluations in the lobes'
+/// picture for each one in this. Noise is how far costs may be off: half of the median interval, or
+/// the difference between the two measurements of the exact form if that is larger; at least 1.
 std::vector<MeasuredCost> measuredCosts(const Trials& trials, const Trials& lobes, double share,
                                         double& noise) {
   const std::size_t builds = lobes[0].milliseconds.size();
@@ -218,7 +219,7 @@ void fillIn(const Trials& trials, std::vector<MeasuredCost>& costs, double noise
     *trials[i + 1].cost = costs[i].inTable = std::max(roundedCost(costs[i].value, noise), 1.0);
 }
 
-/// The powers of `integer` in between.
+/// Interpolates the powers of `integer` in between.
 void interpolate(CostTable& table) {
   std::vector<double>& costs = table.lobes[Highlight::integer];
   int before = 0;
@@ -268,7 +269,7 @@ CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
   result.reflectances = measuredCosts(reflectances, lobes, evaluations / pixels, reflectanceNoise);
   fillIn(lobes, result.lobes, noise);
   interpolate(table);
-  // Rounded about the exact reflectance, which is not 100.
+  // Rounded around the cost of the exact reflectance, which is not 100.
   const double exact = result.reflectances[0].value;
   for (std::size_t i = 0; i < result.reflectances.size(); ++i) {
     MeasuredCost& cost = result.reflectances[i];

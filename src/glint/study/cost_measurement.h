@@ -9,7 +9,7 @@ namespace glint {
 /// A form's cost in hundredths of the exact lobe, for one light at one pixel.
 struct MeasuredCost {
   std::string form;
-  double shipped = 0;  ///< of the table that comes with glint
+  double shipped = 0;  ///< in the table that comes with glint
   double value = 0;
   double low = 0, high = 0;  ///< its 95 % bootstrap interval
   double inTable = 0;        ///< rounded to what can be told apart
@@ -24,26 +24,27 @@ struct CostMeasurement {
   double exactNanoseconds = 0;  ///< of the exact lobe, for one light at one pixel
 };
 
-/// How long to measure: no build of the programs begins after `seconds`, once there are enough.
+/// How long to measure: no build of the programs begins after `seconds`, once there were
+/// `fewestBuilds`.
 struct CostMeasuring {
   double seconds = 40;
   int fewestBuilds = 5;
 };
 
-/// Measures in the current context. The lobes: a bent sheet that fills the
-/// picture under 64 directional lights, Phong's program, less the same without a highlight. The
-/// reflectances: the same sheet in a white environment, less that of a metal, which has none of
-/// Fresnel's. All take turns; the programs are built anew several times, since where a driver puts
-/// a program can change how long it takes; of each build the fastest frame counts, and the lower
-/// quartile of the builds.
+/// Measures in the current context. Lobes: a bent sheet that fills the picture under 64 directional
+/// lights, drawn by Phong's program, minus the same without a highlight. Reflectances: the same
+/// sheet in a white environment, minus that of a metal, which uses none of Fresnel's forms. All
+/// pictures take turns. The programs are rebuilt several times, since where a driver puts a program
+/// can change how long it takes. The fastest frame of each build counts, and of these the lower
+/// quartile.
 CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
                              const StudyProgress& progress);
 
-/// What was measured beside the shipped table, for a terminal.
+/// What was measured next to the shipped table, for a terminal.
 std::string costText(const CostMeasurement&);
 
-/// A cost in multiples of `noise` away from 100: what cannot be told apart is equal, so that of
-/// such forms the choice takes the one that is nearer to exact.
+/// A cost rounded to multiples of `noise` away from 100: costs that cannot be told apart become
+/// equal, so that the more exact of such forms is chosen.
 double roundedCost(double cost, double noise);
 
 }  // namespace glint

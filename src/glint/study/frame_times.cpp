@@ -69,7 +69,7 @@ Measured measure(const std::function<void()>& draw, const std::function<void()>&
   const auto start = Clock::now();
   if (timer.works()) timer.begin();
   for (int i = 0; i < batch; ++i) draw();
-  // Before the frame is waited for: a software driver forgets what it counted in a finished part.
+  // Ends before the frame is waited for: a software driver drops its count of a finished part.
   if (timer.works()) timer.end();
   finish();
   m.wall = since(start) / batch;
@@ -78,8 +78,9 @@ Measured measure(const std::function<void()>& draw, const std::function<void()>&
   return m;
 }
 
-/// The number of frames of which the timer's resolution, as `times` of single frames show it, is
-/// small enough a part. Times that are all the same tell that it is coarser than they are.
+/// The number of frames for which the timer's resolution, as estimated from `times` of single
+/// frames, is a small enough share. If all times are the same, the resolution is coarser than they
+/// are.
 int batchFor(const std::vector<double>& times) {
   constexpr int most = 1000;
   if (times.empty()) return 1;

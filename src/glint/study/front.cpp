@@ -34,7 +34,8 @@ std::vector<FrontPlace> paretoFront(std::span<const double> errors,
       if (!(errors[std::size_t(j)] <= errors[std::size_t(i)] * (1 + sameError))) continue;
       if (isFasterThan(i, j)) continue;
       const bool isSlower = isFasterThan(j, i);
-      // Who is faster for sure is named before who may be, and of each kind the fastest.
+      // A rival that is certainly faster is named before one that may be, and the fastest of each
+      // kind.
       const bool first = place.onFront || (isSlower && !place.isSlower);
       place.onFront = false;
       if (!first && (isSlower != place.isSlower || !isFasterThan(j, place.dominatedBy))) continue;

@@ -14,19 +14,20 @@ struct FrontCandidate {
   std::span<const double> rounds;  ///< times, of all candidates measured in turn
 };
 
-/// Where a candidate stands, as far as intervals tell: on the front for sure; dominated for sure;
-/// or neither can be told. Of two runs of which each interval holds the true ratio, one never says
-/// "on" and the other "dominated" of the same candidate.
+/// Where a candidate is, as far as the intervals show: certainly on the front, certainly dominated,
+/// or undecided. If the intervals of two runs hold the true ratios, one run never says "on" and the
+/// other "dominated" of the same candidate.
 struct FrontPlace {
-  bool onFront = false;  ///< for sure: faster than each rival that is at least as accurate
-  /// Otherwise the index of such a rival than which it is not: the fastest, as far as can be told.
+  bool onFront = false;  ///< certain: faster than each rival that is at least as accurate
+  /// Otherwise the index of such a rival that it is not faster than: the fastest, as far as can be
+  /// told.
   int dominatedBy = -1;
-  /// That rival is faster for sure: the candidate is dominated. Otherwise their times cannot be
+  /// That rival is certainly faster: the candidate is dominated. Otherwise their times cannot be
   /// told apart.
   bool isSlower = false;
 };
 
-/// Errors that differ by less are the same.
+/// Errors that differ by a smaller share count as the same.
 inline constexpr double sameError = 0.05;
 
 /// Whether a is faster than b: the upper end of the interval of timeRatio() lies below
@@ -35,21 +36,22 @@ inline constexpr double sameError = 0.05;
 bool isFaster(std::span<const double> a, std::span<const double> b, double spread);
 bool isFaster(const QuartileSamples& a, const QuartileSamples& b, double spread);
 
-/// The Pareto front of time and error. Errors are known, times to an interval: a candidate is on it
-/// for sure if it is faster (isFaster) than every other one at least as accurate (by less than
-/// sameError, errors are the same), dominated for sure if one of those is faster than it, and else
-/// cannot be told. A chain of steps each of which is noise has no member but its ends.
+/// The Pareto front of time and error. Errors are known, times only to an interval. A candidate is
+/// certainly on the front if it is faster (isFaster) than every other one at least as accurate
+/// (errors that differ by less than sameError are the same), certainly dominated if one of those is
+/// faster than it, and otherwise undecided. Of a chain whose steps are all noise, only the ends are
+/// on the front.
 std::vector<FrontPlace> paretoFront(std::span<const FrontCandidate> candidates, double spread);
 
-/// The same by errors and by what tells whether one candidate, by its index, is faster than
-/// another; those that are no rivals get a place and take none from others.
+/// The same from errors and a function that says whether one candidate, by its index, is faster
+/// than another. Candidates that are not rivals get a place but take none from others.
 std::vector<FrontPlace> paretoFront(std::span<const double> errors,
                                     const std::function<bool(int, int)>& isFasterThan,
                                     const std::function<bool(int)>& isRival = {});
 
-/// The largest spread of which a front is made. Where a machine at rest has one of 1 to 3 %, forms
-/// of one light's highlight differ by 3 to 15 % of a frame: with more than this every step of such
-/// a front would be noise.
+/// The largest spread with which a front is made. On a machine at rest the spread is 1 to 3 %, and
+/// forms of one light's highlight differ by 3 to 15 % of a frame: with more than this every step of
+/// such a front would be noise.
 inline constexpr double largestSpread = 0.10;
 
 /// The noise floor from controls, the ratios of measurements of one program: the largest distance

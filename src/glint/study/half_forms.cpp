@@ -80,7 +80,7 @@ std::vector<HighlightForm> tableForms() {
   for (const HighlightRow& each : highlightRows()) {
     if (each.form == Highlight::none) continue;
     if (!each.hasGamma()) forms.emplace_back(each.form);
-    for (const int step : {4, 16, 64})  // of tables 16, 64, 256
+    for (const int step : {4, 16, 64})  // 16, 64 and 256 for tables
       if (each.hasGamma()) forms.emplace_back(each.form, step * std::max(each.leastGamma / 4, 1));
   }
   return forms;
@@ -99,8 +99,8 @@ HalfError halfErrorOf(Highlight form, int gamma, double alpha) {
     return lambda < 0 ? 1.0 : lobe(Highlight::exact, 1, std::min(lambda, 2.0), alpha);
   };
   const int power = form == Highlight::integer ? int(alpha) : gamma;
-  // What rounds to an input lies between the middles to its neighbours, and the exact lobe, which
-  // falls, is farthest from what is drawn at one of these.
+  // The values that round to an input lie between the midpoints to its neighbours. The exact lobe
+  // falls over them, so that it is farthest from the drawn value at one of the two.
   struct Place {
     double lambda, exact;
   };
@@ -154,7 +154,7 @@ std::string halfTable() {
         continue;
       }
       const HalfError error = halfErrorOf(form.form, form.gamma, alpha);
-      const bool isExact = error.formula < 1e-12;  // but for rounding in double
+      const bool isExact = error.formula < 1e-12;  // except for rounding in double
       table += formatted(" %.1e (", error.half) +
                (isExact ? "0" : formatted("%.1e", error.formula)) + ") |";
     }

@@ -18,7 +18,7 @@ int shrinking(const Image& image) {
   return (std::max(image.width, image.height) + mostPixels - 1) / mostPixels;
 }
 
-/// Calls use(place in the small picture, the pixels of the block that it stands for).
+/// Calls use(index in the small picture, the pixels of the block that it covers).
 template <class Use>
 void forBlocks(const Image& image, int factor, const Use& use) {
   const int width = (image.width + factor - 1) / factor;

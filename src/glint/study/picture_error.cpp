@@ -17,7 +17,7 @@
 namespace glint {
 namespace {
 
-/// Attributes take a few hundred bytes a pixel: so many rows at a time.
+/// The rows computed at a time: attributes take a few hundred bytes a pixel.
 constexpr int bandRows = 64;
 
 double largestSize(const glm::dvec3& v) {
@@ -35,7 +35,7 @@ Image attributeImage(Renderer& renderer, GpuScene& gpu, DrawList list, const Loo
   return renderer.draw(gpu, std::move(list), look);
 }
 
-/// Calls use(pixel's place in the mask, its attributes) for the pixels of the mask, in parallel.
+/// Calls use(a pixel's index in the mask, its attributes) for the pixels of the mask, in parallel.
 template <class Use>
 void forAttributes(const ReferenceRenderer& reference, const Look& look, const StudyMask& mask,
                    const Use& use) {
@@ -63,7 +63,8 @@ bool hasNormalMap(const ReferenceRenderer& reference, const reference::Attribute
 
 void takeSamples(reference::Attributes& a, const ReferenceRenderer& reference,
                  const DriverInput& input, const StudyMask& mask) {
-  // What the map makes of the normal is the filter's; interpolation goes with it.
+  // A mapped normal depends on the driver's filtering: the driver's is taken, interpolation
+  // included.
   if (hasNormalMap(reference, a)) a.normal = glm::dvec3(input.normal);
   if (!mask.sampledColors) return;
   a.base = glm::dvec4(input.base);
@@ -104,7 +105,7 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
       if (!covered && a.item < 0) continue;
       ++mask.covered;
       if (covered != (a.item >= 0)) {
-        // Without a surface of the reference the driver may show one that is blended.
+        // Where the reference has no surface, the driver may show a blended one.
         if (a.item >= 0) {
           ++mask.onlyOne;
           mask.onlyOneEdge = std::max(mask.onlyOneEdge, a.edgeDistance);

@@ -7,7 +7,7 @@
 #include "glint/study/page.h"
 
 // The plot as a picture for documents. Its colours are fixed, on white, since a picture in a page
-// knows nothing of the page's.
+// cannot adapt to the page's.
 namespace glint {
 namespace {
 
@@ -31,7 +31,7 @@ std::string line(double x1, double y1, double x2, double y2, const char* more) {
          "\" y2=\"" + number(y2) + "\" " + more + "/>\n";
 }
 
-/// A logarithmic axis from value to place.
+/// A logarithmic axis: maps a value to a coordinate.
 struct Axis {
   double low, high, from, to;
   double operator()(double value) const {
@@ -52,10 +52,10 @@ const char* colorOf(const std::string& shading) {
 struct Point {
   std::string name, shading;
   double ms, low, high, error;
-  bool onFront, isOpen, isChosen;  // isOpen: whether it is on the front cannot be told
+  bool onFront, isOpen, isChosen;  // isOpen: undecided whether it is on the front
 };
 
-/// Of a variant or a floor, by the clock that decides; null if it was not timed.
+/// The times of a variant or a floor by the clock that decides; null if it was not timed.
 const Json& timesOf(const Json& json, const Json& of) {
   const std::string clock = json["clock"];
   return of["times"][clock == "gpu" ? "query" : clock];
@@ -159,8 +159,8 @@ std::string studyPlot(const Json& json) {
       svg += "<path d=\"M" + number(x(p.ms)) + " " + number(y(p.error) - 10) +
              " l10 10 l-10 10 l-10 -10 Z\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.5\"/>\n";
     if (p.onFront || p.isChosen) {
-      // Neighbours' names above and below, or they would lie on each other; before the point where
-      // there is no room behind it.
+      // Names go above and below in turn, so that neighbours do not overlap, and before the point
+      // if there is no room after it.
       const double beside = p.isChosen ? 12 : 8, below = p.onFront ? 15 : 26;
       const bool before = x(p.ms) + 7 * double(p.name.size()) > width - right;
       svg += text(x(p.ms) + (before ? -beside : beside),

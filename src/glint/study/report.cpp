@@ -13,7 +13,7 @@
 namespace glint {
 namespace {
 
-/// What is done about aliasing, against the supersampled picture.
+/// The ways to treat aliasing, against the supersampled picture.
 std::string waysTable(const StudyResult& r) {
   std::string table;
   for (const WholeTruth& truth : r.wholeTruths) {

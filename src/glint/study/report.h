@@ -7,14 +7,15 @@
 
 namespace glint {
 
-/// What is said of a study beside its figures.
+/// What a report says about a study besides its figures.
 struct StudyHead {
   std::string version, model, backend;
   bool quick = false;
   Look look;
-  std::string lookText;  ///< of the look, as a look file has it
+  std::string lookText;  ///< the look as a look file
   int rounds = 0, warmUp = 0, builds = 0;
-  /// Not 0: the picture has half the usual width and height, since a frame takes more ms than that.
+  /// If not 0, the picture has half the usual width and height, since a frame takes more than this
+  /// many ms.
   double longFrame = 0;
 };
 
@@ -24,10 +25,10 @@ nlohmann::ordered_json studyJson(const StudyHead& head, const StudyResult& resul
 /// A line for each variant and model it is compared with.
 std::string studyCsv(const StudyResult& result);
 
-/// The table of a terminal: variants by model with times, errors and the front of RMSE.
+/// The table for a terminal: variants by model with times, errors and the front of RMSE.
 std::string studyTable(const StudyHead& head, const StudyResult& result);
 
-/// How it was measured, a sentence each.
+/// How it was measured, in sentences.
 std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& result);
 
 }  // namespace glint

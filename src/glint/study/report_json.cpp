@@ -38,7 +38,7 @@ Json timesJson(const FrameTimes& times) {
           {"cpuRounds", roundsJson(times.cpu)}};
 }
 
-/// By name, of the clocks that there are.
+/// By name, for the clocks that were measured.
 Json clocksJson(const StudyResult& r) {
   Json clocks = Json::object();
   for (std::size_t c = 0; c < frameClocks; ++c) {

@@ -10,10 +10,10 @@ namespace glint {
 /// "wall time", "CPU time", "GPU time".
 const char* clockWords(FrameClock clock);
 
-/// 0 of none.
+/// 0 for no times.
 double medianOf(const std::vector<double>& times);
 
-/// Nanoseconds, by the clock that decides, that a frame takes above the empty one, for each pixel
+/// Nanoseconds, by the clock that decides, that a frame takes above the empty one, per pixel that
 /// the model covers.
 double perPixel(const StudyResult& r, const FrameTimes& times);
 
@@ -21,14 +21,14 @@ double perPixel(const StudyResult& r, const FrameTimes& times);
 const StudyFront* frontOf(const StudyResult& r, Shading model, const std::string& metric);
 const StudyFront* wayFrontOf(const StudyResult& r, Shading model);
 
-/// Its place on the front of a model, or null.
+/// A variant's place on a front, or null.
 const FrontPlace* placeOf(const StudyFront* front, std::size_t variant);
 
 /// The name of the variant that dominates a place, or that it cannot be told from.
 std::string dominator(const StudyResult& r, const StudyFront& front, const FrontPlace& place);
 
 /// "on the front"; "by X" if X dominates it; "not told from X" if it cannot be told which is
-/// faster; empty without a place. Of variants and of ways.
+/// faster; empty without a place. For variants and for ways.
 std::string placeWords(const StudyResult& r, const StudyFront* front, std::size_t variant);
 std::string wayPlaceWords(const StudyResult& r, std::size_t way);
 

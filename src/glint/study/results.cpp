@@ -11,7 +11,7 @@
 namespace glint {
 namespace {
 
-/// The document in the making.
+/// The document being written.
 class Results {
  public:
   Results(const StudyHead& head, const StudyResult& result) : head_(head), r_(result) {}
@@ -112,7 +112,7 @@ class Results {
     }
   }
 
-  /// Of the forms of Lyon's squaring those that are faster than `pow`.
+  /// The forms of Lyon's squaring that are faster than `pow`.
   struct Lyons {
     int count = 0, faster = 0;
     const VariantResult *best = nullptr, *fastest = nullptr;
@@ -124,7 +124,7 @@ class Results {
     }
   };
 
-  /// "at α = 40", of the program's lobe.
+  /// "at α = 40", for the program's lobe.
   std::string atExponents(const char* program) const {
     std::string words;
     for (const double alpha : r_.exponents)
@@ -166,7 +166,7 @@ class Results {
   }
 
   /// A row for each line, a column for each point.
-  /// `withTimes`: of the first point, in ms.
+  /// `withTimes`: also the first point's time, in ms.
   void largestErrors(const char* over, const StudySeries& s, bool withTimes = false) {
     add(formatted("\nThe largest error over %s:\n\n| form |", over));
     for (const SeriesPoint& p : s.lines[0].points) add(formatted(" %g |", p.x));

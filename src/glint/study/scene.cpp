@@ -6,7 +6,7 @@ namespace glint {
 
 StudyScene::StudyScene(Scene given, const Look& look) : scene(std::move(given)) {
   bounds = boundsOf(scene);
-  Look all = look;  // the ways of doing something about aliasing are studied whatever it says
+  Look all = look;  // every filter is studied, whatever the look says
   all.specularAntialiasing = SpecularAntialiasing::toksvig;
   images = decodeImages(scene, all);
 }

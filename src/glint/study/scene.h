@@ -8,7 +8,7 @@
 
 namespace glint {
 
-/// A scene made ready to be drawn by GL and by the reference. The scene must not move.
+/// A scene ready to be drawn by GL and by the reference. The scene must not move.
 struct StudyScene {
   Scene scene;
   Bounds bounds;
@@ -16,22 +16,22 @@ struct StudyScene {
 
   /// Decodes the images that any program reads.
   StudyScene(Scene scene, const Look& look);
-  /// With its images decoded.
+  /// With images that are decoded already.
   StudyScene(Scene scene, DecodedImages images);
   StudyScene(const StudyScene&) = delete;
   StudyScene& operator=(const StudyScene&) = delete;
 };
 
-/// The icosahedron cut into four `level` times, on the unit sphere: 20 * 4^level triangles; one
-/// material with the given values.
+/// An icosahedron whose triangles are divided into four `level` times, on the unit sphere: 20 *
+/// 4^level triangles. One material with the given values.
 Scene sphereScene(int level, const ShadingParameters& shading);
 
-/// A sphere of longitudes and latitudes with a normal map of small bumps by chance, and its
-/// pictures, the lengths of normals among them.
+/// A sphere of longitudes and latitudes with a normal map of small random bumps, and its decoded
+/// images, with the lengths of normals.
 Scene bumpySphereScene(const ShadingParameters& shading);
 DecodedImages bumpyImages();
 
-/// Of the built-in sphere: red plastic.
+/// The material of the built-in sphere: red plastic.
 ShadingParameters sphereMaterial();
 
 }  // namespace glint

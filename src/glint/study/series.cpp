@@ -179,7 +179,7 @@ std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
   StudySeries whole = named("resolution", "Programs over the resolution", "pixels of the picture",
                             "time alone; exact forms; the aspect of the picture stays");
   whole.hasErrors = false;
-  // Of the study's own picture, of which series draw half the width.
+  // Relative to the study's own picture; other series draw it at half the width.
   std::vector<double> scales{0.125, 0.25, 0.5, 1, 2};
   if (tools.quick) scales = {0.25, 0.5, 1};
   const glm::dvec2 size(2 * tools.look.resolution);

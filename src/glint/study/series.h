@@ -7,7 +7,7 @@
 
 namespace glint {
 
-/// What series are measured with. The renderer draws pictures of the look's size alone.
+/// What series are measured with. The renderer draws only pictures of the look's size.
 struct SeriesTools {
   const StudyScene& scene;
   GpuScene& gpu;
@@ -17,7 +17,7 @@ struct SeriesTools {
   int warmUp = 3, rounds = 30;
   Stop stop;
   std::function<void(double share)> progress;
-  FrameClock clock = FrameClock::wall;  ///< whose times the points have
+  FrameClock clock = FrameClock::wall;  ///< of the points' times
 
   Timing timing(int count) const { return {warmUp, count, clock == FrameClock::gpu, stop, {}}; }
   bool stopped() const { return stop && stop(); }
@@ -26,19 +26,19 @@ struct SeriesTools {
   }
 };
 
-/// Points of a series in the making: the errors first, then the times of all in turn.
+/// Makes the points of a series: the errors first, then the times of all, measured in turn.
 class SeriesDrawer {
  public:
   SeriesDrawer(const SeriesTools& tools, StudySeries series);
 
-  /// Draws a point of the line `name`, and compares it with the truth where there is one.
+  /// Draws a point of the line `name`, and compares it with the truth if there is one.
   void add(const std::string& name, double x, const Look& look, const StudyMask* mask,
            const Radiances* truth);
-  /// The same of another scene.
+  /// The same for another scene.
   void add(const std::string& name, double x, GpuScene& gpu, const StudyScene& scene,
            const Look& look, const StudyMask* mask, const Radiances* truth);
 
-  /// Times what was added; without time left the points stay without.
+  /// Times what was added; if it is stopped before, the points stay without times.
   StudySeries finish();
 
  private:
@@ -51,26 +51,28 @@ class SeriesDrawer {
   std::deque<Trial> trials_;
 };
 
-/// Error and time over one quantity. None where the scene has nothing that it changes.
-/// Of a stopped series there are the points measured by then.
+/// Error and time over one quantity. None if it changes nothing in the scene. A stopped series
+/// keeps the points measured so far.
 std::optional<StudySeries> exponentSeries(const SeriesTools&);    ///< forms of the highlight
-std::optional<StudySeries> aliasingSeries(const SeriesTools&);    ///< what is done about it
+std::optional<StudySeries> aliasingSeries(const SeriesTools&);    ///< ways to treat aliasing
 std::optional<StudySeries> distanceSeries(const SeriesTools&);    ///< the same, over the size
-std::optional<StudySeries> motionSeries(const SeriesTools&);      ///< the same, of a moving view
+std::optional<StudySeries> motionSeries(const SeriesTools&);      ///< the same, for a moving view
 std::optional<StudySeries> iorSeries(const SeriesTools&);         ///< forms of the reflectance
 std::optional<StudySeries> lightSeries(const SeriesTools&);       ///< programs
-std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs; times alone
-/// Of built-in spheres, whatever the scene:
+std::optional<StudySeries> resolutionSeries(const SeriesTools&);  ///< programs; only times
+/// For built-in spheres, whatever the scene:
 std::optional<StudySeries> incidenceSeries(const SeriesTools&);  ///< Blinn-Phong against Phong
 std::optional<StudySeries> finenessSeries(const SeriesTools&);   ///< against the true sphere
-/// Of a built-in sphere with a normal map: distanceSeries() and motionSeries().
+/// distanceSeries() and motionSeries() for a built-in sphere with a normal map.
 std::optional<StudySeries> bumpsSeries(const SeriesTools&);
 std::optional<StudySeries> bumpsMotionSeries(const SeriesTools&);
 
-/// Sets the orders of a series whose x is a length, from the last two points of each line.
+/// Sets the orders of convergence of a series whose x is a length, from the last two points of each
+/// line.
 void setOrders(StudySeries& series);
 
-/// The scene drawn by the variants it needs, and by ones with every feature of the program.
+/// Compares the scene drawn by the variants it needs with the scene drawn by variants with every
+/// feature of the program.
 std::vector<Specialisation> specialisations(const SeriesTools&);
 
 }  // namespace glint

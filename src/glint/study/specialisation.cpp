@@ -5,15 +5,16 @@
 #include "glint/study/series.h"
 #include "glint/study/statistics.h"
 
-// What "only what the scene needs" saves: the same picture by shaders that hold everything.
+// What "only what the scene needs" saves: compares with the same picture by shaders that contain
+// everything.
 namespace glint {
 namespace {
 
-/// So little light that it changes no float of a picture, and yet its terms are computed.
+/// Too little light to change any float of a picture, yet its terms are computed.
 constexpr double almostNothing = 1e-30;
 
-/// The scene with all that a shader may read: textures and vertex colours in white, emission and
-/// lights of each kind as good as dark.
+/// The scene with everything that a shader may read: white textures and vertex colours, and
+/// emission that is as good as dark.
 Scene withEverything(Scene scene) {
   const int white = int(scene.images.size());
   scene.images.push_back({"white", {}});

@@ -5,7 +5,7 @@
 #include "glint/shading/angles.h"
 #include "glint/study/series.h"
 
-// Series of spheres: their geometry is known exactly.
+// Series of spheres, whose geometry is known exactly.
 namespace glint {
 namespace {
 
@@ -41,8 +41,8 @@ struct Sphere {
       : scene(sphereScene(level, shading), look), gpu(scene.scene, scene.images) {}
 };
 
-/// The mask without what lies near the silhouette or the terminator, where facets of every
-/// fineness hide or lose something, and the true sphere's radiance at the pixels of it.
+/// The mask without pixels near the silhouette or the terminator, where facets of any fineness hide
+/// or lose something, and the true sphere's radiance at its pixels.
 struct TrueSphere {
   StudyMask mask;
   Radiances radiances;
@@ -76,7 +76,7 @@ TrueSphere trueSphere(const SeriesTools& tools, Sphere& sphere, const Look& look
   return result;
 }
 
-/// The angle that an edge of the icosphere spans at its centre, about; halved at each level.
+/// Roughly the angle that an edge of the icosphere spans at its centre; halved at each level.
 double edgeAngle(int level) { return std::acos(1 / std::sqrt(5.0)) / std::exp2(level); }
 
 }  // namespace

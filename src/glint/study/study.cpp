@@ -17,7 +17,7 @@
 namespace glint {
 namespace {
 
-/// One study on its way.
+/// A study in progress.
 class Study {
  public:
   Study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,
@@ -57,7 +57,7 @@ class Study {
     result_.clock = clockFor(options_.clock, result_.gl.renderer, elapsedTimer()->works());
     result_.spreadLimit = options_.spreadLimit;
     {
-      Renderer renderer;  // the variants' programs are to be compiled when that is timed
+      Renderer renderer;  // the variants' programs must not be compiled before that is timed
       result_.mask = maskOf(renderer, gpu_, scene_, options_.look);
     }
     if (result_.mask.pixels.empty())
@@ -170,7 +170,7 @@ class Study {
     return &result_.wholeTruths.emplace_back(std::move(truth));
   }
 
-  /// Begins the pictures of the variants, if they are not there, and of floors and controls.
+  /// Begins the pictures of the variants, if they are missing, and of floors and controls.
   void beginPictures(const std::vector<std::size_t>& controls) {
     if (pictures_.empty())
       for (const VariantResult& v : result_.variants)
@@ -187,20 +187,20 @@ class Study {
     }
     pictures_.push_back(renderer_->begin(gpu_, std::move(empty), exact));
     pictures_.push_back(renderer_->begin(gpu_, std::move(list), exact));
-    renderer_->setProgramsAside();  // or a control would be drawn by its variant's own
+    renderer_->setProgramsAside();  // or a control would be drawn with its variant's program
     for (const std::size_t i : controls)
       pictures_.push_back(
           renderer_->begin(gpu_, pictures_[i].list(), result_.variants[i].variant.look));
   }
 
-  /// Floors and controls are measured among the variants. All are built anew several times, since
+  /// Measures floors and controls among the variants. All programs are rebuilt several times, since
   /// where a driver puts a program may change how fast it is, for as long as it stays there.
   void measureTimes() {
     const std::size_t count = pictures_.size();
     const std::vector<std::size_t> controls = controlled(count);
     std::vector<FrameTimes> times(count + 2 + controls.size());
     const int builds = std::clamp(options_.builds, 1, options_.rounds);
-    // The first frames draw the driver's and the machine's caches full; later builds need less.
+    // The first frames fill the driver's and the machine's caches; later builds need fewer.
     const auto warmUpOf = [&](int build) {
       return build == 0 ? options_.warmUp : std::min(options_.warmUp, 3);
     };
@@ -249,7 +249,7 @@ class Study {
     if (result_.noFront.empty()) makeFronts();
   }
 
-  /// Three variants from the first to the last, which are of different programs.
+  /// Three variants, spread from the first to the last, which are of different programs.
   static std::vector<std::size_t> controlled(std::size_t count) {
     std::set<std::size_t> chosen{0, count / 2, count - 1};
     return {chosen.begin(), chosen.end()};
@@ -274,7 +274,7 @@ class Study {
         }
         if (errors.empty()) continue;
         const auto variant = [&](int i) { return front.variants[std::size_t(i)]; };
-        // What --max-error chooses is another one drawn once more.
+        // What --max-error chooses repeats another variant, and is no rival.
         front.places = paretoFront(
             errors, [&](int a, int b) { return faster(variant(a), variant(b)); },
             [&](int i) { return !result_.variants[std::size_t(variant(i))].variant.bound; });
@@ -299,7 +299,7 @@ class Study {
     if (result_.parts.empty()) result_.missing.emplace_back("parts of a frame");
   }
 
-  /// What is done about aliasing: each kind of samples has a target, and a renderer, of its own.
+  /// The ways to treat aliasing: each kind of anti-aliasing has its own target and renderer.
   void measureWays() {
     pictures_.clear();
     renderer_.emplace();
@@ -322,7 +322,7 @@ class Study {
         const Image picture = renderer.draw(gpu_, list(), way.look);
         way.error = wholeErrorOf(*truth, picture, result_.mask, exposure);
       } catch (const InputError&) {
-        continue;  // a driver without so many samples or pixels
+        continue;  // the driver has fewer samples or pixels
       }
       pictures.push_back(renderer.begin(gpu_, list(), way.look));
       all.push_back(&pictures.back());
@@ -356,7 +356,7 @@ class Study {
 
   void measureSeries() {
     pictures_.clear();
-    Renderer renderer;  // of pictures of another size
+    Renderer renderer;  // for pictures of another size
     SeriesTools tools{scene_, gpu_,  renderer, options_.look, options_.quick, 3,
                       30,     stop_, {},       result_.clock};
     tools.look.resolution = glm::max(glm::ivec2(1), options_.look.resolution / 2);

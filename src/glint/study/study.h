@@ -21,15 +21,15 @@ namespace glint {
 
 struct StudyOptions {
   Look look;           ///< without anti-aliasing
-  StudyFilter filter;  ///< with one there are no series
+  StudyFilter filter;  ///< with a filter there are no series
   int warmUp = 10;     ///< rounds that are not counted
   int rounds = 60;     ///< frames of each variant
-  int builds = 6;      ///< of each program, which share the rounds
-  /// Which clock decides; empty: the GPU's where there is one, otherwise the wall's.
+  int builds = 6;      ///< builds of each program, which share the rounds
+  /// The clock that decides; empty: the GPU's if there is one, otherwise the wall clock.
   std::optional<FrameClock> clock;
   double spreadLimit = largestSpread;  ///< with a larger spread there are no fronts
-  bool quick = false;                  ///< series of fewer points
-  int truthSamples = 8;  ///< N x N a pixel of the supersampled truth; even, 0 for none
+  bool quick = false;                  ///< series with fewer points
+  int truthSamples = 8;  ///< N of N x N samples a pixel of the supersampled truth; even, 0 for none
   bool keepPictures = false;
 };
 
@@ -48,9 +48,9 @@ struct VariantResult {
   FrameTimes times;
   /// The first is against its own model; blinn-phong's second is its distance from phong.
   std::vector<VariantError> errors;
-  /// Parts of the first: what the form and rounding add to what the driver interpolated, and what
-  /// that differs from the exact. Of flat and gouraud the latter is that light is interpolated and
-  /// not the normal.
+  /// Parts of the first error: that of form and rounding, given what the driver interpolated, and
+  /// that of the interpolation. For flat and gouraud the latter is due to interpolating light
+  /// instead of the normal.
   PictureError shading, interpolation;
   std::optional<WholeError> whole;  ///< against its own model, supersampled
 };
@@ -61,7 +61,7 @@ struct PagePicture {
   std::vector<std::byte> png;
 };
 
-/// What a frame of the same target takes that shades nothing.
+/// The time of a frame of the same target without shading.
 struct StudyFloor {
   std::string name;  ///< "empty": cleared only; "constant": the same surface in one colour
   FrameTimes times;
@@ -72,7 +72,7 @@ struct StudyFront {
   Shading model = Shading::phong;
   std::string metric;              ///< a name of errorMetrics()
   std::vector<int> variants;       ///< indices
-  std::vector<FrontPlace> places;  ///< of those; dominatedBy counts in `variants`
+  std::vector<FrontPlace> places;  ///< of those; dominatedBy is an index into `variants`
 };
 
 struct SeriesPoint {
@@ -94,15 +94,16 @@ struct StudySeries {
   std::vector<SeriesLine> lines;
 };
 
-/// Model and look drawn by shaders that hold what they need, and by ones that hold everything.
+/// Model and look drawn by shaders that contain what they need, and by ones that contain
+/// everything.
 struct Specialisation {
   std::string program;
   double compile = 0, generalCompile = 0, first = 0, generalFirst = 0;  ///< ms
   FrameTimes times, generalTimes;
-  double difference = 0;  ///< largest, of the two pictures
+  double difference = 0;  ///< the largest between the two pictures
 };
 
-/// How well a clock tells one program's time: what was measured twice, by programs of their own.
+/// How repeatable a clock's times are, from variants measured twice with programs built separately.
 struct ClockNoise {
   std::vector<TimeRatio> ratios;  ///< of the second measurement to the first
   double spread = 0;              ///< noise floor of a ratio of times; 0 if there is no such clock
@@ -119,7 +120,7 @@ struct StudyResult {
   std::vector<StudyFloor> floors;
   std::vector<std::string> controls;          ///< variants measured twice
   std::array<ClockNoise, frameClocks> noise;  ///< by clock, of the controls
-  FrameClock clock = FrameClock::wall;        ///< which decides
+  FrameClock clock = FrameClock::wall;        ///< the one that decides
   double spreadLimit = largestSpread;
   std::string noFront;  ///< why there is no front, and what to do; empty if there may be one
   std::vector<StudyFront> fronts;
@@ -131,19 +132,19 @@ struct StudyResult {
   std::vector<StudyFront> wayFronts;  ///< of `ways`, by the RMSE of the whole picture
   std::vector<PagePicture> pictures;  ///< if they are kept
 
-  /// Of the clock that decides.
+  /// The spread of the clock that decides.
   double spread() const { return noise[std::size_t(clock)].spread; }
 };
 
-/// The clock that decides where none is asked for. Throws InputError for one that is asked for and
-/// that this driver does not have.
+/// The clock that decides: the one asked for, otherwise the GPU's if it works, otherwise the wall
+/// clock. Throws InputError if the one asked for does not work with this driver.
 FrameClock clockFor(std::optional<FrameClock> asked, std::string_view renderer, bool hasGpuTimer);
 
-/// Why fronts cannot be told by this clock, in a sentence that says what to do; empty if they can.
+/// Why there are no fronts with this clock, and what to do; empty if there are.
 std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameClock clock,
                        double spreadLimit);
 
-/// Tells what is being done and what share of it is done, [0, 1].
+/// Receives what is being done and what share of it is done, [0, 1].
 using StudyProgress = std::function<void(std::string_view what, double share)>;
 
 /// max, p999, rmse, relative-rmse, flip: the metrics that fronts are made for.
@@ -156,7 +157,7 @@ const VariantError* errorAgainst(const VariantResult& variant, Shading model);
 /// Milliseconds of a frame in the exact form of phong, in the current context.
 double exactFrame(const StudyScene& scene, const Look& look);
 
-/// Studies a scene in the current context. `stop` ends it early with what there is by then.
+/// Studies a scene in the current context. `stop` ends it early with the results so far.
 StudyResult study(const StudyScene& scene, const StudyOptions& options, const Stop& stop,
                   const StudyProgress& progress);
 

@@ -29,8 +29,8 @@ bool drawnAlike(const DrawList& a, const DrawList& b) {
                     });
 }
 
-/// What the look's budget chooses for one of its programs, named after the variant that is drawn
-/// alike, if there is one.
+/// What the look's budget chooses for one of its programs, named after the variant that draws the
+/// same, if there is one.
 StudyVariant chosenVariant(const Scene& scene, const Bounds& bounds, const Look& look,
                            Shading program, const std::vector<StudyVariant>& others) {
   Look asked = look;
@@ -88,7 +88,7 @@ void setForms(Look& look, const std::string& highlight, const std::string& fresn
     edit.highlight.reset();
     edit.fresnel.reset();
   }
-  // Before those of the model's materials.
+  // These override the forms of the model's materials.
   look.material[""].highlight = look.highlight;
   look.material[""].fresnel = look.fresnel;
   look.maxError.reset();  // it would choose forms
@@ -117,7 +117,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     if (v.program == Shading::automatic) continue;  // one of the others
     const bool environment = v.program == Shading::environment;
     const bool perPixel = v.program == modelOf(v.program);
-    // The form that is asked for, of whatever number, or all of them.
+    // The form that is asked for, whatever its number, or all forms.
     const std::string& only = environment ? filter.fresnel : filter.highlight;
     const std::string& other = environment ? filter.highlight : filter.fresnel;
     if (!wanted(other, "exact")) continue;  // a form that this program does not have

@@ -9,7 +9,7 @@
 namespace glint {
 namespace {
 
-/// Rows of a band that may be asked to stop after it.
+/// Draws band by band; may be stopped after each. Empty if it was.
 Image supersampled(const StudyScene& scene, const Look& look, int samples, const Stop& stop) {
   Look fine = look;
   fine.antiAliasing = {AntiAliasing::Mode::ssaa, samples};
