@@ -7,8 +7,8 @@
 
 namespace glint {
 
-/// The report to be looked at: one HTML page that needs no other file. `json` is that of studyJson;
-/// the result has its pictures.
+/// The report as one HTML page that needs no other file. `json` is that of studyJson; the result
+/// must have kept its pictures.
 std::string studyPage(const nlohmann::ordered_json& json, const StudyResult& result);
 
 /// The plot of time against the RMSE with the front, of the first model, as an SVG file.
