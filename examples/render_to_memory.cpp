@@ -9,10 +9,10 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "render_to_memory MODEL\n");
     return 2;
   }
-  glint::Session session;  // keeps its shaders between pictures
+  glint::Session session;  // keeps its shaders from picture to picture
   const glint::Model model = glint::Model::load(argv[1]);
-  // Like `glint render` with these options. max-error takes the cheapest formulas within an error
-  // of 0.001 in linear light.
+  // As `glint render` without options, but for these. Within an error of 0.001 of linear light the
+  // cheapest formulas are taken.
   const glint::Options look{{"resolution", "256,256"},
                             {"shading", "blinn-phong"},
                             {"no-background", "true"},

@@ -1,4 +1,4 @@
-// scene_from_arrays PICTURE: draws a wave from arrays, without a model file.
+// scene_from_arrays PICTURE: a wave made of numbers, without a model file.
 
 #include <cmath>
 #include <cstdio>
@@ -26,7 +26,7 @@ glint::Arrays wave(int cells) {
       arrays.indices.insert(arrays.indices.end(),
                             {corner, below, below + 1, corner, below + 1, corner + 1});
     }
-  // With metalness 1 the highlight has the metal's colour.
+  // The highlight has the metal's colour.
   arrays.material = "color=0.8,0.4,0.2,specular=0.6,exponent=40,metalness=1";
   arrays.twoSided = true;
   return arrays;

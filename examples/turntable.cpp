@@ -1,4 +1,4 @@
-// turntable MODEL COUNT NAME: draws the model from all around, as NAME-0.png and so on.
+// turntable MODEL COUNT NAME: NAME-0.png and so on, the model seen from all around.
 
 #include <cstdio>
 #include <cstdlib>
