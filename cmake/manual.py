@@ -292,8 +292,7 @@ def markdown(whole):
         "linear light, or `#rrggbb` in sRGB. A look is everything that determines a picture of a",
         "model: the options of [a look](#a-look) are also the keys of look files, and the names by",
         "which C++ and Python set them.\n",
-        "Programs get the same text as JSON from `glint --help-json` and `glint-viewer",
-        "--help-json`.\n",
+        "`glint --help-json` and `glint-viewer --help-json` give the same to programs, as JSON.\n",
     ]
     shared = None
     for command in whole["commands"]:

@@ -108,8 +108,8 @@ Command addDiff(CLI::App& app) {
       command
           ->add_option(
               "--update", request.named,
-              "replace baselines that B differs from and create missing ones, for all pairs or "
-              "only for these: names, patterns (*, ?) or folders; lists the files written")
+              "replace baselines that B differs from, and create missing ones; for all pairs, or "
+              "only for these names, patterns (*, ?) or folders; lists the files written")
           ->type_name("[NAME...]")
           ->expected(0, 1 << 20);
   command->add_flag(

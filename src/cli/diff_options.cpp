@@ -101,8 +101,8 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
       ->allow_extra_args(false);
   command
       .add_option("--tolerance", given.tolerance,
-                  "largest colour distance at which a pixel counts as the same, 0 to 1, like "
-                  "pixelmatch's threshold [default: 0.1]")
+                  "largest colour distance at which a pixel counts as the same (0 to 1, like "
+                  "pixelmatch's threshold) [default: 0.1]")
       ->type_name("T")
       ->check(CLI::Range(0.0, 1.0).description(""));
   text("--pixelmatch", given.pixelmatch, "7|8",

@@ -64,9 +64,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command
       .add_option(
           "--sweep", options.sweeps,
-          "draw a labelled contact sheet over the values of a number of the look or of a "
-          "material ([NAME:]exponent, exposure, camera-azimuth-angle, ...); given twice, the "
-          "second runs downwards; STEPS:log or STEPS:linear chooses the spacing")
+          "draw a labelled contact sheet over a number of the look or of a material "
+          "([NAME:]exponent, exposure, camera-azimuth-angle, ...); given twice, the second runs "
+          "downwards; STEPS:log or STEPS:linear chooses the spacing")
       ->type_name("KEY=FROM:TO:STEPS")
       ->expected(1)
       ->allow_extra_args(false)

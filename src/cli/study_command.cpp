@@ -244,7 +244,8 @@ Command addStudy(CLI::App& app) {
   command->add_option("MODEL", given->model,
                       "a glTF 2.0 model, .gltf or .glb; - is stdin [default: a sphere]");
   command->add_flag("--quick", given->quick,
-                    "512 x 512 pixels, fewer forms and frames: less than a minute on two cores");
+                    "study fewer pixels (512 x 512), forms and frames, in less than a minute on "
+                    "two cores");
   command
       ->add_option(
           "--repetitions", given->repetitions,
@@ -254,7 +255,7 @@ Command addStudy(CLI::App& app) {
       ->check(CLI::Range(1, 100000).description(""));
   command
       ->add_option("--time-budget", given->timeBudget,
-                   "stop after this time, as Ctrl-C does, and report what has been measured and "
+                   "stop after this time (like Ctrl-C) and report what has been measured and "
                    "what is missing")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.001, 1e6).description(""));
@@ -298,8 +299,8 @@ Command addStudy(CLI::App& app) {
       ->take_last();
   command
       ->add_option("--half-precision", given->half,
-                   "instead of a study, compute the error of each form of the highlight in half "
-                   "floats, for all possible inputs, and write the table; - is stdout")
+                   "instead of a study, compute the error of each highlight form in half floats "
+                   "(for all possible inputs) and write the table; - is stdout")
       ->type_name("FILE")
       ->take_last();
   auto look = addLookOptions(*command);

@@ -131,7 +131,7 @@ Parameter materials() {
 Parameter costTable() {
   Parameter p = custom(
       "cost-table", "FILE",
-      "file with the cost of each form on a driver, written by glint study --measure-costs; "
+      "file with the cost of each form on a driver (from glint study --measure-costs); "
       "--max-error uses it instead of the table that ships with glint",
       [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
       [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
@@ -149,9 +149,9 @@ Parameter maxError() {
   };
   Parameter p = numbers<double>(
       ParameterKind::number, "max-error", "E|Ncode",
-      "use the cheapest forms of lobe and reflectance whose proven error for this scene is at "
-      "most E in linear light, or Ncode: N codes of the 8-bit picture after exposure; the exact "
-      "forms if no others are within it",
+      "use the cheapest forms within this error: those of lobe and reflectance whose proven "
+      "error for this scene is at most E in linear light, or with Ncode N codes of the 8-bit "
+      "picture after exposure; the exact forms if no others are within it",
       0, 1e6, &Look::maxError, parse);
   p = then(std::move(p), [](Look& look) { look.maxErrorInCodes = false; });
   p.read = [read = p.read](Look& look, const std::string& text) {
@@ -169,9 +169,9 @@ Parameter maxError() {
 Parameter intrinsics() {
   Parameter p = custom(
       "camera-intrinsics", "FX,FY,CX,CY",
-      "lens of a calibrated camera in pixels of the picture, instead of the view angle: focal "
-      "lengths across and down, and the principal point from the picture's top left corner (the "
-      "first pixel's centre is at 0.5,0.5; in OpenCV it is at 0,0, so add 0.5 to its CX and CY)",
+      "lens of a calibrated camera, in pixels, instead of the view angle: focal lengths across "
+      "and down, and the principal point from the picture's top left corner (the first pixel's "
+      "centre is at 0.5,0.5; in OpenCV it is at 0,0, so add 0.5 to its CX and CY)",
       [](Look& look, const std::string& text) {
         look.cameraIntrinsics = parseIntrinsics(text);
         look.cameraViewAngle.reset();
@@ -218,11 +218,11 @@ std::vector<Parameter> makeTable() {
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),
        choice("normalization", normalizationNames, &Look::normalization,
-              "multiply each highlight by a factor so that it keeps its light when its exponent "
-              "n changes, and specular is the share of light that it reflects; none is the "
-              "lecture notes' formula; simple is (n+2)/2 for Phong and (n+8)/8 for Blinn-Phong, "
-              "meant for a highlight with N.L; exact is the factor with which the notes' formula "
-              "reflects that share along the normal"),
+              "multiply each highlight so that it keeps its light when its exponent n changes; "
+              "specular is then the share of light that it reflects; none is the lecture notes' "
+              "formula, without a factor; simple is (n+2)/2 for Phong and (n+8)/8 for "
+              "Blinn-Phong, meant for a highlight with N.L; exact is the factor with which the "
+              "notes' formula reflects that share along the normal"),
        slider(number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
                      "exponent of Schlick's approximation"),
               0, 20, false),
@@ -244,8 +244,8 @@ std::vector<Parameter> makeTable() {
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",
-                         "an equirectangular picture with -Z at its centre, used instead of "
-                         "--environment: Radiance .hdr, OpenEXR, PNG, JPEG or PFM",
+                         "an equirectangular picture in place of --environment, with -Z at its "
+                         "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM",
                          [](Look& look, const std::string& text) {
                            look.hdriFile = nonEmpty(text, "--hdri-file");
                          },
@@ -270,9 +270,8 @@ std::vector<Parameter> makeTable() {
                    1, 120, false, 30),
             dropIntrinsics),
        intrinsics(),
-       direction(
-           "camera-direction", &Look::cameraDirection,
-           "direction in which the camera looks, if position and focal point are not both given"),
+       direction("camera-direction", &Look::cameraDirection,
+                 "direction in which the camera looks (unless position and focal point are given)"),
        slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
                      "turn the placed camera about the focal point, to its right"),
               -180, 180, false),
@@ -280,8 +279,8 @@ std::vector<Parameter> makeTable() {
                      "then turn it about the focal point, upwards"),
               -90, 90, false),
        slider(number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
-                     "how much of the picture the model's bounding sphere fills, unless "
-                     "--camera-position is given"),
+                     "how much of the picture the model's bounding sphere fills (unless "
+                     "--camera-position is given)"),
               0.05, 20, true),
        then(flag("camera-orthographic", &Look::cameraOrthographic,
                  "parallel projection; half the picture's height is the distance to the focal "
@@ -357,7 +356,7 @@ std::vector<Parameter> makeTable() {
        resetting(custom(
                      "anti-aliasing", "none|msaa:N|ssaa:N",
                      "samples per pixel, averaged in linear light; msaa: N coverage samples, "
-                     "shaded once; ssaa: N x N shaded samples",
+                     "shaded once for each triangle; ssaa: N x N shaded samples",
                      [](Look& look, const std::string& text) {
                        look.antiAliasing = parseAntiAliasing(text);
                      },
@@ -365,9 +364,9 @@ std::vector<Parameter> makeTable() {
                  &Look::antiAliasing),
        switchable(
            choice("specular-antialiasing", specularAntialiasingNames, &Look::specularAntialiasing,
-                  "widen highlights that are narrower than a pixel and dim them to the same "
-                  "total light, so that they do not flicker. Without a value, or with "
-                  "=kaplanyan, by how much the normals of neighbouring pixels differ; with "
+                  "widen highlights that are narrower than a pixel, so that they do not flicker; "
+                  "they are dimmed so that their total light stays the same. Without a value, or "
+                  "with =kaplanyan, by how much the normals of neighbouring pixels differ; with "
                   "=toksvig, by how much detail of the normal map is lost in its smaller levels; "
                   "with =none, not at all. For programs that shade pixels"),
            "none", "kaplanyan"),
