@@ -102,8 +102,8 @@ Command addDiff(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   text("--conditions", request.conditions, "FILE",
-       "file with the conditions of some pairs of folders, in lines PATTERN OPTION... [default: "
-       "glint-diff.txt in A]");
+       "file with the conditions of some pairs of folders, in lines PATTERN OPTION... "
+       "[default: glint-diff.txt in A]");
   CLI::Option* updating =
       command
           ->add_option(

@@ -106,8 +106,8 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
       ->type_name("T")
       ->check(CLI::Range(0.0, 1.0).description(""));
   text("--pixelmatch", given.pixelmatch, "7|8",
-       "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab [default: "
-       "7]");
+       "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab "
+       "[default: 7]");
   command
       .add_option("--shift", given.shift,
                   "do not count pixels that the other picture has up to N pixels away")
@@ -147,13 +147,11 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "last exposure of HDR-FLIP [default: from the baseline]");
   command
       .add_option("--exposures", given.exposures,
-                  "number of exposures of HDR-FLIP [default: "
-                  "one a stop]")
+                  "number of exposures of HDR-FLIP [default: one a stop]")
       ->type_name("N")
       ->check(CLI::Range(1, 64).description(""));
   text("--tone-mapper", given.toneMapper, "aces|hable|reinhard",
-       "tone mapper of HDR-FLIP "
-       "[default: aces]");
+       "tone mapper of HDR-FLIP [default: aces]");
 }
 
 DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArguments& given,

@@ -276,7 +276,7 @@ std::vector<Parameter> makeTable() {
                      "turn the placed camera about the focal point, to its right"),
               -180, 180, false),
        slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
-                     "then turn it about the focal point, upwards"),
+                     "turn the placed camera about the focal point, upwards (after the azimuth)"),
               -90, 90, false),
        slider(number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
                      "how much of the picture the model's bounding sphere fills (unless "
