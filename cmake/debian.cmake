@@ -1,9 +1,9 @@
-# What desktops and Debian want of an installed glint, and `cpack`, which makes Debian packages:
-# glint, glint-viewer, libglint-dev, python3-glint. `.ci/packages` makes, installs and uses them.
+# Installs the desktop integration, and sets up `cpack` to make the Debian packages glint,
+# glint-viewer, libglint-dev and python3-glint. `.ci/packages` makes, installs and uses them.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(share ${CMAKE_INSTALL_DATADIR})
 
-# File managers then show models as pictures.
+# With this, file managers show thumbnails of models.
 install(FILES ${packaging}/glint.thumbnailer DESTINATION ${share}/thumbnailers COMPONENT viewer)
 if(TARGET glint-viewer)
   install(FILES ${packaging}/glint-viewer.desktop DESTINATION ${share}/applications COMPONENT viewer)
@@ -14,8 +14,8 @@ if(TARGET glint-viewer)
 endif()
 
 # glint_package(COMPONENT NAME [DEPENDS packages...] [RECOMMENDS packages...] SUMMARY text TEXT lines
-# PARTS packages...) makes a component the Debian package NAME. Its licences are glint's and those of the
-# packages of PARTS, which are compiled into it; what it links at run time brings its own.
+# PARTS packages...) makes the Debian package NAME from a component. Its licences are glint's and those
+# of the PARTS packages, which are compiled into it; packages that it links at run time have their own.
 set(CPACK_COMPONENTS_ALL "")
 function(glint_package component name)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "SUMMARY;TEXT" "DEPENDS;RECOMMENDS;PARTS")
@@ -40,9 +40,9 @@ function(glint_package component name)
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} ${component} PARENT_SCOPE)
 endfunction()
 
-# Of what is compiled in: headers alone, and code that is generated.
+# The packages that are compiled in: header-only libraries, and generated code.
 set(parts libglm-dev libcli11-dev nlohmann-json3-dev libstb-dev libtinygltf-dev python3-glad)
-# The same version from the same distribution.
+# The package version names the distribution, so that packages depend on others from the same one.
 set(release "")
 if(EXISTS /etc/os-release)
   file(STRINGS /etc/os-release release REGEX "^VERSION_ID=")
@@ -51,17 +51,17 @@ string(REGEX REPLACE "[^0-9.]" "" release "${release}")
 set(CPACK_DEBIAN_PACKAGE_RELEASE "1~deb${release}")
 set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 
-# OpenGL is opened at run time: OSMesa is all that drawing needs, EGL finds a GPU.
+# OpenGL is opened at run time: OSMesa suffices for drawing, EGL is needed to use a GPU.
 glint_package(glint glint
   SUMMARY "draws and compares glTF models with the classic shading models"
-  TEXT "Pictures of glTF 2.0 models without a GPU or a display, by flat, Gouraud,\nPhong and Blinn-Phong shading; comparison of pictures (FLIP, SSIM and others)\nwith reports; speed against error of each way of shading."
+  TEXT "Draws glTF 2.0 models without a GPU or a display, with flat, Gouraud, Phong\nand Blinn-Phong shading; compares pictures (FLIP, SSIM and others) and writes\nreports; measures speed and error of each way of shading."
   DEPENDS "libosmesa6 | libegl1"
   RECOMMENDS libegl1 libegl-mesa0 libgl1-mesa-dri
   PARTS ${parts})
 if(TARGET glint-viewer)
   glint_package(viewer glint-viewer
-    SUMMARY "window that edits materials of glTF models"
-    TEXT "The window of glint: materials, lights and camera in a panel, two looks side by\nside, plots of lobe and reflectance; thumbnails of models in file managers."
+    SUMMARY "window for editing the materials of glTF models"
+    TEXT "The window of glint: materials, lights and camera in a panel, two looks side by\nside, plots of highlight and reflectance; model thumbnails in file managers."
     DEPENDS "glint (= ${version})" libgl1 libegl1 libgl1-mesa-dri fonts-dejavu-core
     RECOMMENDS shared-mime-info
     PARTS ${parts} libimgui-dev)
@@ -75,8 +75,8 @@ foreach(switch "MESHOPT;libmeshoptimizer-dev" "DRACO;libdraco-dev" "WEBP;libwebp
   endif()
 endforeach()
 glint_package(dev libglint-dev
-  SUMMARY "libraries of glint"
-  TEXT "Headers, static libraries, CMake and pkg-config files: pictures of glTF models\nand comparisons of pictures from C++."
+  SUMMARY "C++ libraries of glint"
+  TEXT "Headers, static libraries, CMake and pkg-config files for drawing glTF models\nand comparing pictures from C++."
   DEPENDS "glint (= ${version})" ${needed} pkgconf
   PARTS ${parts})
 if(TARGET glint_python)
@@ -84,7 +84,7 @@ if(TARGET glint_python)
   math(EXPR minor "${minor} + 1")
   glint_package(python python3-glint
     SUMMARY "glint for Python"
-    TEXT "Pictures of glTF models as NumPy arrays, with depth, normals and numbers of\nobjects; comparison of pictures; a fixture for pytest."
+    TEXT "Draws glTF models into NumPy arrays, with depth, normals and object ids;\ncompares pictures; has a fixture for pytest."
     DEPENDS "glint (= ${version})" "python3 (>= ${GLINT_PYTHON_VERSION})" "python3 (<< 3.${minor})" python3-numpy
     PARTS ${parts} pybind11-dev)
 endif()

@@ -1,33 +1,33 @@
 # glint_add_image_test(): a test that makes a picture and compares it with a baseline.
 #
 #   glint_add_image_test(
-#     NAME name                      # of the test, and of its files
-#     MODEL file | COMMAND words...  # a glTF model to be drawn, or a program that writes a picture;
-#                                    # {output} in a word stands for the picture's path
+#     NAME name                      # name of the test and of its files
+#     MODEL file | COMMAND words...  # a glTF model to draw, or a program that writes a picture;
+#                                    # {output} in a word is replaced by the picture's path
 #     BASELINE file                  # PNG, EXR, PFM; made by the test itself, see below
-#     [LOOK file.json]               # of glint render --look, with MODEL
-#     [RENDER_OPTIONS words...]      # more of glint render, with MODEL
-#     [METRIC names...]              # as glint diff knows them; without any, pictures must be equal
+#     [LOOK file.json]               # for glint render --look, with MODEL
+#     [RENDER_OPTIONS words...]      # further options of glint render, with MODEL
+#     [METRIC names...]              # metrics of glint diff; without any, pictures must be equal
 #     [THRESHOLD numbers...]         # one for each metric
-#     [MAX_PIXELS n|p%]              # so many pixels may be over the tolerance
-#     [DIFF_OPTIONS words...]        # more of glint diff: --ignore, --mask, --tolerance ...
-#     [LABELS labels...])            # beside the label "image"
+#     [MAX_PIXELS n|p%]              # how many pixels may exceed the tolerance
+#     [DIFF_OPTIONS words...]        # further options of glint diff: --ignore, --mask, --tolerance ...
+#     [LABELS labels...])            # in addition to the label "image"
 #
-# Relative paths, that of --mask among them, are of the current source folder. The test leaves its
-# files in the folder GLINT_IMAGE_TEST_OUTPUT (image-tests in the current build folder): actual/FILE,
-# baseline/FILE, difference/FILE.png, result/FILE.json, what the program said in log/FILE.txt, and how
-# far the test came in status/FILE.txt. FILE is NAME with what is neither a letter, a digit, ".", "_"
-# nor "-" as %XX, so that no two tests share one. `glint diff --run FOLDER --html report.html` makes
-# one page of all tests, those that crashed or wrote nothing too.
+# Relative paths, including that of --mask, are relative to the current source folder. The test leaves
+# its files in the folder GLINT_IMAGE_TEST_OUTPUT (image-tests in the current build folder):
+# actual/FILE, baseline/FILE, difference/FILE.png, result/FILE.json, the program's output in
+# log/FILE.txt, and the test's progress in status/FILE.txt. FILE is NAME with characters other than
+# letters, digits, ".", "_" and "-" written as %XX, so that no two tests share a file. `glint diff --run
+# FOLDER --html report.html` makes one page of all tests, including those that crashed or wrote nothing.
 #
-# Beside BASELINE there may be more, for other machines: NAME_1.png, NAME_2.png ...; the nearest
-# counts. The exit status is that of glint diff: 4 for a missing baseline, whose candidate is the
-# actual picture. With GLINT_UPDATE_BASELINES=1 in the environment the test makes the baseline
-# instead, or replaces it where the comparison fails, and says so.
+# Next to BASELINE there may be more baselines, for other machines: NAME_1.png, NAME_2.png ...; the
+# nearest counts. The exit status is that of glint diff: 4 for a missing baseline, and the actual
+# picture is then the candidate. With GLINT_UPDATE_BASELINES=1 in the environment the test instead
+# makes the baseline, or replaces it if the comparison fails, and reports it.
 
 set(_glint_image_test_script ${CMAKE_CURRENT_LIST_DIR}/glintImageTest.sh)
 
-# A name as a file's, one to one.
+# Maps a test's name to a file name, one to one.
 function(_glint_image_test_file name result)
   string(HEX "${name}" bytes)
   string(REGEX MATCHALL ".." bytes "${bytes}")
@@ -115,7 +115,7 @@ function(glint_add_image_test)
     list(APPEND options --max-pixels ${arg_MAX_PIXELS})
   endif()
 
-  # What `glint diff --run` reads: of the tests that there are now.
+  # The files that `glint diff --run` reads: only for the tests of this configuration.
   get_property(begun GLOBAL PROPERTY "_glint_image_tests_of_${folder}")
   if(NOT begun)
     file(REMOVE_RECURSE "${folder}/tests")

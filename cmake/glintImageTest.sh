@@ -1,9 +1,9 @@
 #!/bin/sh
-# The tests of glint_add_image_test(): makes a picture and compares it with its baseline.
+# Runs a test of glint_add_image_test(): makes a picture and compares it with its baseline.
 #
 #     glintImageTest.sh GLINT BASELINE FOLDER FILE ENDING NAME WORDS COMMAND... [OPTION OF DIFF]...
 #
-# WORDS is the number of words of COMMAND. What `glint diff --run FOLDER` reports is left there.
+# WORDS is the number of words of COMMAND. The results for `glint diff --run FOLDER` are left in FOLDER.
 set -u
 glint=$1 baseline=$2 folder=$3 file=$4 ending=$5 name=$6 words=$7
 shift 7
@@ -17,11 +17,11 @@ for part in actual baseline difference result log status; do
 done
 rm -f "$actual" "$kept" "$difference" "$result" "$log"
 
-# How far the test has come: whatever ends it leaves the last word.
+# Records the progress of the test: if it is killed, the last record remains.
 reached() { echo "$*" >"$folder/status/$file.txt"; }
 reached started
 
-# The first `words` arguments.
+# Runs the first `words` arguments as a command.
 command() {
   all=$#
   left=$words
@@ -52,8 +52,8 @@ if [ "${GLINT_UPDATE_BASELINES:-0}" = 1 ]; then
   said=$("$glint" diff "$baseline" "$actual" "$@" --json "$result" --update 2>&1)
   status=$?
   echo "$said"
-  # ctest keeps what a test says to itself; what is replaced is said to who runs it, too. Not into
-  # a file, in which ctest would write over it.
+  # ctest hides a test's output; replaced baselines are also printed to ctest's own stderr, but not if
+  # that is a file, in which ctest would overwrite it.
   parent=/proc/$PPID
   if [ "$status" -eq 0 ] && [ "$(cat "$parent/comm" 2>/dev/null)" = ctest ] &&
     [ ! -f "$parent/fd/2" ]; then
@@ -65,7 +65,7 @@ fi
 "$glint" diff "$baseline" "$actual" "$@" --output "$difference" --json "$result"
 status=$?
 reached compared "$status"
-# The baseline may be that of a driver, or one of several: the result says which.
+# The baseline may be that of a driver, or one of several: the result names the one used.
 used=$(sed -n 's/^  "a": "\(.*\)",$/\1/p' "$result" 2>/dev/null)
 [ ! -f "$used" ] || cp "$used" "$kept"
 if [ "$status" -ne 0 ]; then

@@ -1,4 +1,4 @@
-# Manual pages and completions for bash, zsh and fish, made of the programs' help when they are built.
+# Manual pages and completions for bash, zsh and fish, generated from the help of the built programs.
 find_package(Python3 QUIET COMPONENTS Interpreter)
 if(NOT Python3_FOUND OR CMAKE_CROSSCOMPILING)
   return()

@@ -1,4 +1,4 @@
-"""Manual pages, completions and the reference of options, made of what the programs' help says.
+"""Generates manual pages, completions and the reference of options from the programs' help.
 
     manual.py --glint GLINT [--viewer GLINT_VIEWER] [--folder FOLDER] [--markdown FILE]
 
@@ -34,7 +34,7 @@ def described(program):
 
 
 def choices(option):
-    """The words that a value may be, as far as they are known."""
+    """The words that a value may be, if they are known."""
     if option.get("choices"):
         return option["choices"]
     parts = option["value"].split("|")
@@ -42,13 +42,13 @@ def choices(option):
 
 
 def kind(option):
-    """What a shell completes a value to: "files", "folders" or nothing more than choices."""
+    """What a shell completes a value to: "files", "folders", or "" for only the choices."""
     words = set(re.split(r"[^A-Z]+", option["value"]))
     return "files" if words & set(FILES) else "folders" if words & set(FOLDERS) else ""
 
 
 def first_clause(text):
-    """As much of a help as stands beside a name in a menu."""
+    """The part of a help text that is shown beside a name in a menu."""
     return re.split(r"[:;(\[]| - ", text)[0].strip()[:78]
 
 
@@ -118,7 +118,7 @@ def sections(command):
     return list(dict.fromkeys(o["section"] for o in command["options"]))
 
 
-# Completions. Each command has lists of options, and of each option with a value its words or kind.
+# Completions. Each command has a list of options; each option with a value has its words or kind.
 
 def bash(whole):
     commands = whole["commands"]
@@ -146,7 +146,7 @@ _glint_options() {
   esac
 }
 
-# What may follow option $2 of command $1, for the word $3; false: it is a flag, or unknown.
+# Completes the word $3 after option $2 of command $1; false if that option is a flag or unknown.
 _glint_value() {
   local current=$3
   words() { COMPREPLY+=($(compgen -W "$1" -- "$current")); }
@@ -286,12 +286,13 @@ def markdown(whole):
 
     lines = [
         "# Options\n",
-        "All options of all commands, made from the same table as `glint COMMAND --help`, the manual",
-        "pages and the shells' completions. `--name value` and `--name=value` both work. Vectors are",
-        "`x,y,z`; colours `r,g,b` in linear light, or `#rrggbb` in sRGB. The options of",
-        "[a look](#a-look) are the keys of look files too, and the names by which C++ and Python set",
-        "them.\n",
-        "`glint --help-json` and `glint-viewer --help-json` give the same to programs.\n",
+        "This page lists all options of all commands, as `glint COMMAND --help` prints them; it is",
+        "generated from the same table as the manual pages and the shells' completions.",
+        "`--name value` and `--name=value` both work. Vectors are `x,y,z`; colours are `r,g,b` in",
+        "linear light, or `#rrggbb` in sRGB. A look is everything that determines a picture of a",
+        "model: the options of [a look](#a-look) are also the keys of look files, and the names by",
+        "which C++ and Python set them.\n",
+        "`glint --help-json` and `glint-viewer --help-json` give the same to programs, as JSON.\n",
     ]
     shared = None
     for command in whole["commands"]:
@@ -309,7 +310,7 @@ def markdown(whole):
                 shared = looks
             missing = [o for o in looks if o["names"] not in [s["names"] for s in shared]]
             if missing:
-                raise SystemExit("options of a look that `%s` has alone" % command["name"])
+                raise SystemExit("options of a look that only `%s` has" % command["name"])
             lines.append("And the options of [a look](#a-look).\n")
     lines += ["## A look\n"]
     for section in dict.fromkeys(o["section"] for o in shared or []):

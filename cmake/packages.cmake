@@ -1,5 +1,5 @@
-# What glint is built with, found in one place; what is missing is told at once, by the names that
-# Debian's packages have. The targets are visible to a project that adds this one as a subdirectory.
+# Finds all dependencies in one place, and reports all missing ones at once, by the names of Debian's
+# packages. The targets are visible to a project that adds this one as a subdirectory.
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
 set(GLINT_MISSING "")
 
@@ -11,7 +11,7 @@ macro(glint_needs debian name)
   endif()
 endmacro()
 
-# glint_needs_module(DEBIAN_PACKAGE prefix module) looks for one of pkg-config: PkgConfig::prefix.
+# glint_needs_module(DEBIAN_PACKAGE prefix module) looks for a pkg-config module: PkgConfig::prefix.
 macro(glint_needs_module debian prefix module)
   if(PkgConfig_FOUND)
     pkg_check_modules(${prefix} QUIET IMPORTED_TARGET GLOBAL ${module})
@@ -85,7 +85,7 @@ if(GLINT_MISSING)
   if(hint)
     set(hint "Or leave out what is optional:\n ${hint}")
   endif()
-  # Lines that are set in are not broken.
+  # CMake does not wrap indented lines.
   message(FATAL_ERROR "glint needs packages that are not here. On Debian:\n"
                       "  apt-get install --no-install-recommends ${missing}\n" ${hint})
 endif()

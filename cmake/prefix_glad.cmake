@@ -1,5 +1,5 @@
-# cmake -P prefix_glad.cmake FILES...: gives what glad has generated names of glint's own, so that a
-# program that links glint may have a glad too.
+# cmake -P prefix_glad.cmake FILES...: prefixes the names that glad has generated, so that a program
+# that links glint can use a glad of its own.
 math(EXPR last "${CMAKE_ARGC} - 1")
 foreach(i RANGE 3 ${last})
   file(READ ${CMAKE_ARGV${i}} text)

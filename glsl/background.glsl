@@ -1,6 +1,6 @@
-// The environment behind the model: one triangle over the whole tile.
+// Draws the environment behind the model: one triangle that covers the whole tile.
 #if VERTEX_STAGE
-out vec2 vPicture;  // x and y of the ray at distance 1, eye space
+out vec2 vPicture;  // x and y of the ray at depth 1, eye space
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   vPicture = corner * frame.rayScale + frame.rayOffset;

@@ -1,5 +1,5 @@
-// environment: the Blinn-Phong sum, plus what the surface reflects and refracts of the environment.
-// reflectance() stands before it where a dielectric needs it: a form of fresnel.glsl.
+// environment: the Blinn-Phong sum, plus the reflection and refraction of the environment.
+// If a dielectric needs it, reflectance(), a form of fresnel.glsl, is defined before this file.
 #if !VERTEX_STAGE
 vec3 environmentToward(vec3 eyeDirection, float spread) {
   return environmentRadiance(mat3(frame.worldFromEye) * eyeDirection, spread);
@@ -8,8 +8,8 @@ vec3 environmentToward(vec3 eyeDirection, float spread) {
 vec3 mirroredAt(Pixel p) { return 2.0 * dot(p.normal, p.view) * p.normal - p.view; }
 
 #if REFRACTION
-// Along the surface and against the normal. In total reflection, where nothing is refracted, along the
-// surface, which is where the direction tends to.
+// The refracted direction: a component along the surface and one against the normal. In total
+// reflection nothing is refracted; then the limit, the direction along the surface, is returned.
 vec3 refractedAt(Pixel p, Boundary boundary) {
   vec3 along = (dot(p.normal, p.view) * p.normal - p.view) / sqrt(boundary.square);
   return along - sqrt(max(1.0 - dot(along, along), 0.0)) * p.normal;
@@ -51,8 +51,8 @@ vec3 shade(vec4 base) {
 #if OUTPUT != OUTPUT_SUM && OUTPUT != OUTPUT_REFLECTION
   vec3 refracted = refractedAt(at, boundary);
   float spread = spreadOf(refractedAt(middle, boundary));
-  // Total reflection leaves nothing to refract, also where
-  // a share of metal reflects less than all.
+  // In total reflection nothing is refracted, even if a share of metal
+  // reflects less than everything.
   if (refractedSquare(clamp(cosine, 0.0, 1.0), boundary) > 0.0) {
     radiance += t * (1.0 - f) * base.rgb * environmentToward(refracted, spread);
   }

@@ -1,5 +1,5 @@
-// flat: the sum once per face, at its centroid, with its normal. The last vertex of each triangle
-// carries both (GL's provoking vertex).
+// flat: the sum once per face, at its centroid, with the face's normal. The last vertex of each
+// triangle (GL's provoking vertex) has both as attributes.
 #if VERTEX_STAGE
 layout(location = 5) in vec3 faceCenter;
 

@@ -46,7 +46,7 @@ void main() {
 #elif OUTPUT == OUTPUT_IDS
   fragment = vec4(material.emission, 1.0);
 #elif OUTPUT != OUTPUT_RADIANCE && UNLIT
-  fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit things pass neither normal nor position
+  fragment = vec4(0.0, 0.0, 0.0, 1.0);  // unlit surfaces have neither normal nor position here
 #elif OUTPUT == OUTPUT_NORMAL
 #if NORMAL_TEXTURE
   fragment = vec4(surfaceNormal(inputsAtPlace()), gl_FrontFacing ? 1.0 : -1.0);

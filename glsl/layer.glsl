@@ -1,8 +1,8 @@
-// The depth of the next layer of what is blended, from the back: of all surfaces that are nearer than
-// the layer before (the opaque ones, at first), the depth test keeps the farthest, at every sample.
+// Finds the depth of the next layer of blended surfaces, from the back: among all surfaces nearer than
+// the previous layer (at first, the opaque surfaces), the depth test keeps the farthest, at every sample.
 #if VERTEX_STAGE
 layout(location = 0) in vec3 position;
-invariant gl_Position;  // of the same depth as in vertex.glsl
+invariant gl_Position;  // to give the same depth as in vertex.glsl
 void main() {
   vec4 eye = draw.eyeFromModel * vec4(position, 1.0);
   gl_Position = frame.projection * eye;

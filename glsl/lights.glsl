@@ -1,11 +1,11 @@
-// Adds the lights that have one form of the highlight: composed once for each form in use, under names
-// of its own (ADD_LIGHTS, ADD_LIGHT), for the lights from ..._FROM to before ..._END. What a form reads
-// of the material, LOBE_SHAPE, is loaded before the loops. LOBE_OF is the form, a function of
-// lobe.glsl that stands before this file.
+// Adds the lights whose highlight has one form. This file is included once for each form in use, with
+// its own function names (ADD_LIGHTS, ADD_LIGHT), for the lights from ..._FROM to before ..._END. The
+// constants that a form reads from the material, LOBE_SHAPE, are loaded before the loops. LOBE_OF is
+// the form, a function of lobe.glsl, which comes before this file.
 
-// Adds one light from the direction l. The gate is N.L > 0 alone, for diffuse and specular light,
-// and stands before anything that would be 0/0 behind it. `halfway` is L + V (Phong) or H
-// (Blinn-Phong) where those are constant, and is not read otherwise. `even`: the exponent is 0, where
+// Adds one light from the direction l. The only gate is N.L > 0, for diffuse and specular light; it
+// comes before anything that could be 0/0 otherwise. `halfway` is L + V (Phong) or H
+// (Blinn-Phong) if these are constant, and is not read otherwise. `even`: the exponent is 0, for which
 // every form is 1 up to 90 degrees.
 void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 halfway,
                bool isConstant, vec2 shape, bool even) {
@@ -17,7 +17,7 @@ void ADD_LIGHT(inout LightSum sum, vec3 n, vec3 v, vec3 l, vec3 intensity, vec3 
 #if LOBE
   vec3 between = isConstant ? halfway : l + v;
 #if BLINN
-  // Where L = -V the half vector is undefined and the light grazes: no highlight.
+  // For L = -V the half vector is undefined; there is no highlight.
   float square = dot(between, between);
   if (!(square > 1e-12)) return;
   vec3 h = isConstant ? between : between / sqrt(square);
@@ -60,7 +60,7 @@ void ADD_LIGHTS(inout LightSum sum, vec3 position, vec3 n, vec3 v, Parameters p)
 #if SPOT_END > SPOT_FROM
   for (int i = SPOT_FROM; i < SPOT_END; ++i) {
     vec3 way = lights[i].position - position, l = safeUnit(way);
-    // glTF's cone: full inside the inner angle, the square of a ramp in the cosine to the outer one.
+    // glTF's cone: 1 inside the inner angle, then the square of a linear ramp in the cosine, 0 outside.
     float cone = clamp((dot(-l, lights[i].axis) - lights[i].cosOuter) * lights[i].coneScale, 0.0, 1.0);
     vec3 intensity = lights[i].intensity * (cone * cone);
 #if LIGHT_FALLOFF

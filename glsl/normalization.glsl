@@ -1,5 +1,5 @@
-// What a highlight is multiplied by so that it keeps its light when its exponent n moves, where a
-// texture gives what n depends on; elsewhere it comes with the material's numbers.
+// Factors by which a highlight keeps its light when its exponent n changes. They are used if a
+// texture varies n; otherwise the material's numbers include the factor.
 // src/glint/shading/normalization.h has the same in double, and the sources.
 float phongNormalization(float n) { return 0.5 * (n + 2.0); }
 float exactPhongNormalization(float n) { return 0.5 * (n + 1.0); }

@@ -1,5 +1,5 @@
-// The material's parameters where textures give some of them, for the stage that adds the lights up.
-// Each ..._PLACE is where a texture is looked up.
+// The material's parameters if textures give some of them, for the stage that sums up the lights.
+// Each ..._PLACE holds the coordinates at which a texture is looked up.
 #if METALLIC_ROUGHNESS_TEXTURE
 uniform sampler2D metallicRoughnessTexture;
 #endif
@@ -13,7 +13,7 @@ uniform sampler2D specularTexture;
 uniform sampler2D transmissionTexture;
 #endif
 
-// A vertex or a face has no neighbours to tell how much of the picture it stands for.
+// A vertex or a face has no neighbours from which a level of detail could be derived.
 #if VERTEX_STAGE
 #define TEXEL(image, rule, place) textureAtLevel(image, rule, place, 0.0)
 #else
@@ -50,7 +50,7 @@ Parameters parametersHere() {
 #if NORMALIZED
   p.specular = mix(reflectance, 1.0, metallic);
 #else
-  // The peaks of the lobes of a dielectric and of a metal.
+  // The peaks of the lobe for a dielectric and for a metal.
   float blinn = 4.0 * exponent, metal = (blinn / 8.0) * (blinn / (blinn + 8.0));
   float dielectric = reflectance * metal;
   p.specular = mix(dielectric / (1.0 + dielectric), metal / (1.0 + metal), metallic);

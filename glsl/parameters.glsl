@@ -1,4 +1,4 @@
-// The numbers of the material at one point: at a pixel, a vertex or a face.
+// The parameters of the material at one point: a pixel, a vertex or a face.
 struct Parameters {
   float ambient, diffuse, specular;  // m_a, m_d, m_s
   float exponent;                    // of the lobe

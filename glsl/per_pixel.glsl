@@ -1,4 +1,4 @@
-// What the per-pixel programs get from the vertices: position (where something reads it) and normal.
+// The inputs of the per-pixel programs from the vertices: position (if something reads it) and normal.
 VARYING VERTEX_OUT vec3 vNormal;
 #if PIXEL_POSITION
 VARYING VERTEX_OUT vec3 vPosition;
@@ -12,7 +12,7 @@ uniform sampler2D normalTexture;
 #if VERTEX_STAGE
 #if NORMAL_TEXTURE
 void passTangent(vec4 tangent, vec2 texcoord) {
-  // A mirroring transform turns the handedness.
+  // A mirroring transform reverses the handedness.
   vTangent = vec4(safeUnit(mat3(draw.eyeFromModel) * tangent.xyz), tangent.w * draw.handedness);
   vNormalTexcoord = texcoord;
 }
@@ -26,12 +26,12 @@ void passVertex(vec3 eye, vec3 n) {
 }
 #else
 struct Pixel {
-  vec3 position;  // eye space; zero where nothing reads it
+  vec3 position;  // eye space; zero if nothing reads it
   vec3 normal;    // unit
   vec3 view;      // unit, to the viewer
 };
 
-// What arrives at a point of the surface from the vertices.
+// The interpolated vertex values at a point of the surface.
 struct Inputs {
   vec3 position, normal;
 #if NORMAL_TEXTURE
@@ -39,7 +39,7 @@ struct Inputs {
 #endif
 };
 
-// Where the fragment is shaded.
+// The inputs at the position at which the fragment is shaded.
 Inputs inputsAtPlace() {
   Inputs at;
   at.position = vec3(0.0);
@@ -55,7 +55,7 @@ Inputs inputsAtPlace() {
 }
 
 #if SHADES_AT_OFFSET
-// In the middle of the pixel, wherever the fragment is shaded: what changes from pixel to pixel.
+// The inputs at the centre of the pixel, wherever the fragment is shaded, for differences between pixels.
 Inputs inputsInMiddle() {
   Inputs at;
   at.position = vec3(0.0);
@@ -73,11 +73,11 @@ Inputs inputsInMiddle() {
 #endif
 
 // The normal of the front side before it is renormalised: the interpolated one, or that of the
-// normal map in the frame of the interpolated tangent and normal, as MikkTSpace wants it.
+// normal map in the frame of the interpolated tangent and normal, as MikkTSpace requires.
 vec3 surfaceNormal(Inputs at) {
   vec3 n = at.normal;
 #if VANISHING_NORMAL
-  // Vertex normals of this mesh are so far apart that they may cancel: then the face's stands in.
+  // Vertex normals of this mesh differ so much that they may cancel; then the face's normal is used.
   vec3 face = safeUnit(cross(dFdx(vPosition), dFdy(vPosition)));
   if (!gl_FrontFacing) face = -face;
   if (!(dot(n, n) > 1e-6)) n = face;
@@ -91,8 +91,8 @@ vec3 surfaceNormal(Inputs at) {
   return n;
 }
 
-// The interpolated normal, renormalised: interpolation shortens it, and a highlight's peak with it.
-// Back faces that are drawn turn it to the viewer.
+// The interpolated normal is renormalised, because interpolation shortens it and lowers the peak of
+// the highlight. On back faces it is turned to the viewer.
 Pixel shadedPixel(Inputs at) {
   vec3 n = unit(surfaceNormal(at));
 #if TWO_SIDED
@@ -103,7 +103,7 @@ Pixel shadedPixel(Inputs at) {
 
 Pixel shadedPixel() { return shadedPixel(inputsAtPlace()); }
 
-// The material's numbers for the pixel's lights.
+// The material's parameters with which the pixel's lights are summed up.
 #if SPECULAR_ANTIALIASING
 Parameters pixelParameters();  // specular_filter.glsl
 #else

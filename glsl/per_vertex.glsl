@@ -1,5 +1,5 @@
-// What flat and Gouraud shading carry from the vertex to the pixel: the light without the colours,
-// so that textures stay sharp. Both sides of faces that show both.
+// flat and Gouraud shading pass the light from the vertex to the pixel without the colours, so that
+// textures stay sharp; for two-sided faces, the light of both sides.
 CARRIED VERTEX_OUT vec3 vDiffuse;
 #if SPECULAR
 CARRIED VERTEX_OUT vec3 vSpecular;

@@ -1,8 +1,8 @@
-// Where in its pixel a fragment is shaded, and how textures are looked up there.
+// The position in its pixel at which a fragment is shaded, and the texture look-up there.
 
 #if LEVELS_OF_DETAIL
-// The largest value that the pixels of a 2 x 2 square have. Drivers look up one level of detail for a
-// square, whichever of its pixels' they take; with this all four have the same. To be called by all.
+// The largest value among the pixels of a 2 x 2 square. Drivers use the same level of detail for the
+// whole square, from an unspecified one of its pixels; with this all four agree. All four must call it.
 float mostOfSquare(float value) {
   vec2 toOther = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
   value = max(value, value + toOther.x * dFdx(value));
@@ -10,16 +10,16 @@ float mostOfSquare(float value) {
 }
 #endif
 
-// Multisampled: the mean of the samples that the triangle covers, from the pixel's middle. That is the
-// middle itself where it covers them all, as without multisampling, and never outside the triangle;
-// and as the places of the two sides of an edge have the pixel's middle as their mean, surfaces look
-// the same across edges within them. Drivers without GL_ARB_gpu_shader5 shade at their centroid.
+// With multisampling, a fragment is shaded at the mean position of the covered samples, relative to the
+// pixel's centre. This is the centre itself if all are covered, as without multisampling, and it is
+// never outside the triangle. The mean of the positions on both sides of an edge is the pixel's centre,
+// so edges inside a surface are not visible. Drivers without GL_ARB_gpu_shader5 use their centroid.
 #if SHADES_AT_OFFSET
 in float vDistance;
 vec2 shadingPlace = vec2(0.0);
 bool inMiddle = true;
-// Some drivers (llvmpipe of Mesa 22.3) divide at an offset by the 1/w of the pixel's middle. What that
-// makes of w itself tells by how much all else is off; where they divide rightly this is 1.
+// Some drivers (llvmpipe of Mesa 22.3) divide values at an offset by the 1/w of the pixel's centre.
+// Interpolating w itself gives the factor that corrects this; it is 1 for correct drivers.
 float placeScale = 1.0;
 
 void findShadingPlace() {
@@ -42,7 +42,7 @@ void findShadingPlace() {
 #endif
 
 #if TEXTURES
-// With the true length of the footprint's axes: drivers are free to estimate it. `across` and `along`
+// Uses the true length of the footprint's axes, which drivers may only estimate. `across` and `along`
 // are the change of `place` to the next pixel.
 vec4 textureAt(sampler2D image, Rule rule, vec2 place, vec2 across, vec2 along) {
   vec2 size = vec2(textureSize(image, 0));

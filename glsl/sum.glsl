@@ -1,5 +1,5 @@
-// All lights at the point `position` (eye space) with unit normal n and unit direction to the viewer
-// v, of the material p: those of each form of the highlight in turn.
+// The sum of all lights at the point `position` (eye space) with unit normal n, unit direction to the
+// viewer v and parameters p: for each form of the highlight, the lights that use it.
 LightSum sumLights(vec3 position, vec3 n, vec3 v, Parameters p) {
   LightSum sum = LightSum(vec3(0.0), vec3(0.0));
 #if LOBE_FORMS > 0
@@ -25,8 +25,8 @@ vec3 surfaceColor(LightSum sum, vec3 color, float metalness) {
   return color * sum.diffuse + shine * sum.specular;
 }
 
-// To the viewer from the point `position` (eye space). At the eye itself, and where its square
-// overflows: towards +Z.
+// The unit direction from the point `position` (eye space) to the viewer; +Z at the eye itself and
+// where the square overflows.
 vec3 toViewer(vec3 position) {
 #if CONSTANT_VIEW
   return frame.toViewer;

@@ -1,13 +1,13 @@
-// How textures are looked up: GL's rule, written out. Drivers decode sRGB with errors of 1e-3, filter
-// 8-bit texels with 3e-3 and blend levels with 4e-2; texels as the file has them, which drivers do give
-// exactly, take a quarter of the memory that floats would.
+// Texture look-up by GL's rules, written out. Drivers decode sRGB with errors of 1e-3, filter
+// 8-bit texels with errors of 3e-3 and blend levels with errors of 4e-2, but return texels as they are
+// in the file exactly; these take a quarter of the memory that floats would.
 
-// Of one texture in one material; constant in every call, so that each gets the code it needs.
+// How one texture of one material is looked up; constant in every call, so that unused code is removed.
 struct Rule {
   int wrapS, wrapT;      // WRAP_...
-  bool magnify, minify;  // linear and not nearest
+  bool magnify, minify;  // linear instead of nearest
   int levels;            // LEVELS_...
-  bool isData;           // numbers and not sRGB
+  bool isData;           // numbers instead of sRGB
 };
 #define WRAP_REPEAT 0
 #define WRAP_CLAMP 1
@@ -17,7 +17,7 @@ struct Rule {
 #define LEVELS_LINEAR 2
 
 #if CODED_TEXTURES
-// Of each code of sRGB the linear value.
+// The linear value of each sRGB code.
 layout(std140) uniform CurveBlock {
   float linearOfCode[256];
 };
@@ -34,7 +34,7 @@ vec4 texelAt(sampler2D image, int x, int y, int level, bool isData) {
   return texel;
 }
 
-// A place along one side, where 0 to 1 is the picture once; in it.
+// A coordinate along one side, wrapped into [0, 1], the range of the picture.
 float wrapped(float place, int wrap) {
   if (wrap == WRAP_REPEAT) place -= floor(place);
   if (wrap == WRAP_MIRROR) {
@@ -44,11 +44,11 @@ float wrapped(float place, int wrap) {
   return clamp(place, 0.0, 1.0);
 }
 
-// The texels beside those of the picture: a mirrored one's border shows itself, as at an edge.
+// The indices before the first and after the last texel; mirroring repeats the border, as clamping does.
 int before(int i, int size, int wrap) { return i >= 0 ? i : wrap == WRAP_REPEAT ? size - 1 : 0; }
 int after(int i, int size, int wrap) { return i < size ? i : wrap == WRAP_REPEAT ? 0 : size - 1; }
 
-// One level, of a picture of the size `whole`, at a wrapped place.
+// Looks up one level of a picture of the size `whole` at a wrapped place.
 vec4 levelAt(sampler2D image, Rule rule, ivec2 whole, int level, vec2 place, bool isLinear) {
   ivec2 size = max(whole >> level, 1);
   vec2 at = place * vec2(size);
@@ -56,7 +56,7 @@ vec4 levelAt(sampler2D image, Rule rule, ivec2 whole, int level, vec2 place, boo
     ivec2 texel = min(ivec2(at), size - 1);
     return texelAt(image, texel.x, texel.y, level, rule.isData);
   }
-  // In the middle of a texel the linear filter gives that one.
+  // At the centre of a texel the linear filter gives that texel.
   if (rule.magnify != rule.minify && !isLinear) at = min(floor(at), vec2(size - 1)) + 0.5;
   at -= 0.5;
   vec2 corner = floor(at), share = at - corner;
@@ -72,14 +72,14 @@ vec4 levelAt(sampler2D image, Rule rule, ivec2 whole, int level, vec2 place, boo
   return a + share.y * (c - a);
 }
 
-// With the level of detail given, the same for the four pixels of a square; above 0 the texture is made
-// smaller.
+// Looks up with a given level of detail, which must be the same for the four pixels of a square; above 0
+// the texture is minified.
 vec4 textureAtLevel(sampler2D image, Rule rule, vec2 place, float detail) {
   ivec2 whole = textureSize(image, 0);
   place = vec2(wrapped(place.x, rule.wrapS), wrapped(place.y, rule.wrapT));
   bool isLinear = detail > 0.0 ? rule.minify : rule.magnify;
   if (rule.levels == LEVELS_NONE) return levelAt(image, rule, whole, 0, place, isLinear);
-  // The last level, of 1 x 1: the exponent of the longer side.
+  // The index of the last level, 1 x 1: the binary exponent of the longer side.
   int last = (floatBitsToInt(float(max(whole.x, whole.y))) >> 23) - 127;
   detail = clamp(detail, 0.0, float(last));
   if (rule.levels == LEVELS_NEAREST)

@@ -1,7 +1,7 @@
 // The vertex stage of every program.
 layout(location = 0) in vec3 position;
 #if !UNLIT
-layout(location = 1) in vec3 normal;  // of the vertex; with flat shading, of the face
+layout(location = 1) in vec3 normal;  // of the vertex, or with flat shading of the face
 #endif
 #if VERTEX_COLORS
 layout(location = 2) in vec4 vertexColor;
@@ -16,7 +16,7 @@ layout(location = 4) in vec2 emissionTexcoord;
 VARYING out vec2 vEmissionTexcoord;
 #endif
 #if PARAMETER_PLACES > 0
-// Where the textures of parameters are looked up; of a face, at its centroid.
+// The coordinates for the parameter textures; for flat shading, those at the face's centroid.
 layout(location = 8) in vec2 parameterTexcoords[PARAMETER_PLACES];
 #if PER_PIXEL
 VARYING out vec2 vParameterTexcoords[PARAMETER_PLACES];
@@ -32,8 +32,8 @@ out float vDistance;  // w of clip space
 #endif
 
 #if !UNLIT
-// Cofactors keep normals perpendicular under any transform; where the transform is a rotation with
-// one scale they stay unit and need no division.
+// Multiplying by the cofactor matrix keeps normals perpendicular under any transform. If the transform
+// is a rotation with a uniform scale, they stay unit vectors and need no division.
 vec3 eyeNormal() {
   vec3 n = draw.normalMatrix * normal;
 #if UNEVEN_SCALE
@@ -44,7 +44,7 @@ vec3 eyeNormal() {
 #endif
 
 #if ALPHA_BLEND
-invariant gl_Position;  // of the same depth as in layer.glsl
+invariant gl_Position;  // to give the same depth as in layer.glsl
 #endif
 
 void main() {

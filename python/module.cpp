@@ -1,4 +1,4 @@
-// glint._glint: glint/glint.h and glint/compare.h for Python; python/glint wraps it.
+// The module glint._glint: glint/glint.h and glint/compare.h for Python; python/glint wraps it.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -17,7 +17,7 @@ namespace {
 using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using ByteArray = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
 
-/// A NumPy array of the values, which it takes over.
+/// A NumPy array that takes ownership of the values.
 template <typename Value>
 py::array_t<Value> arrayOf(std::vector<Value>&& values, std::vector<py::ssize_t> shape) {
   auto* const kept = new std::vector<Value>(std::move(values));
@@ -29,7 +29,7 @@ py::array_t<float> arrayOf(glint::Image&& image) {
   return arrayOf(std::move(image.values), {image.height, image.width, 4});
 }
 
-/// Image or Codes of an array (height, width, 4).
+/// Image or Codes from an array (height, width, 4).
 template <typename Picture, typename Array>
 Picture pictureOf(const Array& array) {
   if (array.ndim() != 3 || array.shape(2) != 4)
@@ -93,7 +93,7 @@ py::dict dictOf(glint::Differences&& found) {
   return result;
 }
 
-/// Without Python's lock, so that other threads go on.
+/// Runs without Python's global lock, so that other threads keep running.
 template <typename Work>
 auto unlocked(Work work) {
   const py::gil_scoped_release release;

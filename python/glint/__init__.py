@@ -1,17 +1,18 @@
-"""Pictures of glTF models by classic shading models, and comparisons of pictures.
+"""Draws glTF models with the classic shading models, and compares pictures.
 
     import glint
     picture = glint.render("teapot.glb", shading="gouraud", resolution=(640, 480))
     picture.save("teapot.png")
     assert glint.compare("baseline.png", picture, flip=0.02)
 
-It needs neither a GPU nor a display. Errors are :class:`Error`: one line that says what, where and
-what to do; :class:`InputError` where what was given cannot be used, :class:`ContextError` where
-there is no OpenGL.
+It needs neither a GPU nor a display. Errors derive from :class:`Error`: one line that says what is
+wrong, where, and what to do. :class:`InputError` is raised for unusable arguments and files,
+:class:`ContextError` if there is no OpenGL.
 
-Threads: everything may be called from any thread; OpenGL is used by one call at a time, others
-wait, and Python goes on meanwhile. ``fork``: a process that has drawn with OpenGL cannot draw in
-its children (:class:`ContextError`); use multiprocessing's "spawn", or the backend "reference".
+Threads: every function may be called from any thread. Only one call at a time uses OpenGL; other
+calls wait, and other Python threads keep running. ``fork``: a process that has drawn with OpenGL
+cannot draw in its children (:class:`ContextError`); use multiprocessing's "spawn", or the backend
+"reference".
 """
 
 from __future__ import annotations
@@ -48,22 +49,23 @@ FloatArray = numpy.typing.NDArray[numpy.float32]
 
 
 class _Exportable(Protocol):
-    """What gives itself as glTF: trimesh's meshes and scenes."""
+    """Objects that export themselves as glTF, such as meshes and scenes of trimesh."""
 
     def export(self, *, file_type: str) -> Any:
-        """The bytes of a file of that type."""
+        """The bytes of a file of the given type."""
 
 
 @dataclass
 class Mesh:
     """Triangles given as arrays, in one material.
 
-    positions: (n, 3). indices: three a triangle, counter-clockwise from its front, of any shape;
-    without any the positions as they follow each other. normals: (n, 3), or flat faces. colors:
-    (n, 4) linear RGB and alpha in [0, 1], which multiply the material's colour. texcoords: (n, 2),
-    (0, 0) the picture's upper left corner. texture: the bytes of a PNG, JPEG or WebP.
-    material: parameters by name, such as {"color": "#c04020", "exponent": 50}. name: of the
-    material. two_sided: the back is drawn too. place: (4, 4), from these positions to the world.
+    positions: (n, 3). indices: three for each triangle, counter-clockwise seen from its front, in an
+    array of any shape; by default the positions in their order. normals: (n, 3); without them,
+    faces are flat. colors: (n, 4), linear RGB and alpha in [0, 1], multiplied by the material's
+    colour. texcoords: (n, 2), with (0, 0) at the picture's upper left corner. texture: the bytes of
+    a PNG, JPEG or WebP. material: parameters by name, such as {"color": "#c04020", "exponent": 50}.
+    name: of the material. two_sided: back faces are drawn too. place: (4, 4), the matrix from these
+    positions to world space.
     """
 
     positions: numpy.typing.ArrayLike
@@ -96,10 +98,10 @@ ModelLike = Union[str, "os.PathLike[str]", bytes, Mesh, "Model", _Exportable, It
 
 
 class Model:
-    """What is drawn, kept from picture to picture.
+    """A model to draw, which can be kept for several pictures.
 
-    source: the path of a .gltf or .glb file, the bytes of such a file, a :class:`Mesh` or several,
-    or what exports itself as glTF (trimesh's meshes and scenes).
+    source: the path of a .gltf or .glb file, the bytes of such a file, a :class:`Mesh` or several
+    of them, or an object that exports itself as glTF (meshes and scenes of trimesh).
     """
 
     def __init__(self, source: ModelLike) -> None:
@@ -118,12 +120,12 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """What was mended or left out so far, one line each."""
+        """What was repaired or left out so far, one line each."""
         return self._model.warnings()
 
     @property
     def bounds(self) -> tuple[tuple[float, float, float], float]:
-        """Centre and radius of the sphere around all of it, world space."""
+        """Centre and radius of the bounding sphere, in world space."""
         x, y, z, radius = self._model.bounds()
         return (x, y, z), radius
 
@@ -131,12 +133,12 @@ class Model:
 class Picture(numpy.ndarray):  # type: ignore[type-arg]
     """A picture: float32 (height, width, 4), linear light, colours premultiplied by alpha.
 
-    It is an array as any other, and shows itself in notebooks.
+    It is an ordinary NumPy array, and notebooks show it as a picture.
     """
 
-    #: EV: codes() multiplies by 2 to this power.
+    #: Exposure in EV: codes() multiplies by 2 to this power.
     exposure: float
-    #: Parts of the picture by name, where render() was asked for them: "depth" (height, width),
+    #: Parts of the picture by name, if render() was asked for them: "depth" (height, width),
     #: "normal" and "id" (height, width, 3), terms of light (height, width, 4).
     layers: dict[str, numpy.typing.NDArray[Any]]
 
@@ -145,7 +147,7 @@ class Picture(numpy.ndarray):  # type: ignore[type-arg]
         self.layers = getattr(other, "layers", {})
 
     def codes(self) -> numpy.typing.NDArray[numpy.uint8]:
-        """The picture as a PNG has it: uint8 (height, width, 4), sRGB, straight alpha."""
+        """The picture as stored in a PNG: uint8 (height, width, 4), sRGB, straight alpha."""
         return _glint.encode(numpy.asarray(self), 2.0**self.exposure)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -178,7 +180,7 @@ def _picture(values: numpy.typing.ArrayLike, exposure: float = 0.0) -> Picture:
 
 
 def _text(value: Any) -> str:
-    """A value as an option has it."""
+    """A value as the text of an option."""
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
@@ -211,8 +213,8 @@ def _materials(value: Any) -> list[str]:
 
 
 def _camera(value: Any) -> list[tuple[str, str]]:
-    """A camera's number in the file, parameters by name, or a pose (4, 4): camera to world, the
-    camera looks along its -Z, +Y up."""
+    """Options for a camera: its index in the file, parameters by name, or a pose (4, 4) from camera
+    to world, where the camera looks along its -Z, with +Y up."""
     if isinstance(value, (int, numpy.integer)):
         return [("camera-index", _text(value))]
     if isinstance(value, Mapping):
@@ -228,8 +230,8 @@ def _camera(value: Any) -> list[tuple[str, str]]:
 
 
 def _intrinsics(value: numpy.typing.ArrayLike) -> str:
-    """fx, fy, cx, cy, the first pixel's centre at (0.5, 0.5); or OpenCV's matrix (3, 3), for which
-    it is at (0, 0)."""
+    """The option for fx, fy, cx, cy, with the first pixel's centre at (0.5, 0.5); or for an OpenCV
+    matrix (3, 3), with that centre at (0, 0)."""
     given = numpy.asarray(value, float)
     if given.shape == (3, 3):
         if given[0, 1] != 0:
@@ -241,7 +243,7 @@ def _intrinsics(value: numpy.typing.ArrayLike) -> str:
 
 
 def _options(look: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Options of the command line, of keywords."""
+    """The options of the command line for these keywords."""
     options: list[tuple[str, str]] = []
     for keyword, value in look.items():
         name = keyword.replace("_", "-")
@@ -261,7 +263,7 @@ def _options(look: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 class Session:
-    """A context of OpenGL with its programs and models: pictures after the first are quick.
+    """An OpenGL context with its shaders and models, so that pictures after the first are fast.
 
     backend: auto, egl, egl-software, osmesa, or reference (double precision, without OpenGL).
     """
@@ -271,12 +273,12 @@ class Session:
 
     @property
     def description(self) -> str:
-        """What draws, such as "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)"."""
+        """The backend and driver, such as "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)"."""
         return self._session.description()
 
     def render(self, model: ModelLike, *, layers: Iterable[str] | None = None,
                **look: Any) -> Picture:
-        """As :func:`render`, with this session."""
+        """Like :func:`render`, with this session."""
         options = _options(look)
         own = model if isinstance(model, Model) else Model(model)
         picture = _picture(self._session.draw(own._model, options),
@@ -308,15 +310,15 @@ def render(model: ModelLike, *, backend: str = "auto", layers: Iterable[str] | N
            **look: Any) -> Picture:
     """Draws a model.
 
-    model: see :class:`Model`. layers: names of parts to be drawn too, into the picture's `layers`:
+    model: see :class:`Model`. layers: names of parts that are also drawn, into the picture's `layers`:
     "depth", "normal", "id", "ambient", "diffuse-0", "specular-0", "reflection", "refraction",
     "emission", "background", or "all". Every option of a look (docs/options.md) is a keyword, with
     _ for -: shading="gouraud", resolution=(640, 480), light=["directional:1,2,3"],
-    material={"exponent": 50} or {"Helmet": {"metalness": 1}}, no_background=True. Beside them
-    camera=: the number of one in the file, a pose (4, 4) from camera to world, or {"position":
-    (0, 1, 4), "focal_point": (0, 0, 0)}; intrinsics=: fx, fy, cx, cy or OpenCV's matrix (3, 3).
+    material={"exponent": 50} or {"Helmet": {"metalness": 1}}, no_background=True. There are two more:
+    camera=: the index of a camera in the file, a pose (4, 4) from camera to world, or {"position":
+    (0, 1, 4), "focal_point": (0, 0, 0)}; intrinsics=: fx, fy, cx, cy or an OpenCV matrix (3, 3).
 
-    A session for each backend is kept for the process.
+    The process keeps one session for each backend.
     """
     with _sessions_lock:
         session = _sessions.get(backend)
@@ -328,23 +330,23 @@ def render(model: ModelLike, *, backend: str = "auto", layers: Iterable[str] | N
 
 
 def read(path: str | os.PathLike[str]) -> Picture:
-    """Reads a picture (PNG, EXR, PFM, HDR, JPEG, WebP, TIFF ...) to linear light."""
+    """Reads a picture (PNG, EXR, PFM, HDR, JPEG, WebP, TIFF ...) as linear light."""
     return _picture(_glint.read(os.fspath(path)))
 
 
 @dataclass(frozen=True)
 class Differences:
-    """What compare() found; true where the pictures count as the same."""
+    """The result of compare(); true if the pictures count as the same."""
 
     #: All limits hold; without any, the pictures are equal.
     same: bool
-    #: By metric.
+    #: The values by metric.
     values: dict[str, float]
-    #: One line for each limit that does not hold.
+    #: One line for each limit that is exceeded.
     failures: list[str]
-    #: The pixels that differ most, a line each.
+    #: The pixels that differ most, one line each.
     worst: str
-    #: The error that FLIP sees, float32 (height, width) in [0, 1]; empty unless "flip" was asked for.
+    #: The FLIP error of each pixel, float32 (height, width) in [0, 1]; empty unless "flip" was given.
     map: FloatArray
 
     def __bool__(self) -> bool:
@@ -358,7 +360,7 @@ PictureLike = Union[str, "os.PathLike[str]", numpy.typing.NDArray[Any]]
 
 
 def _comparable(picture: PictureLike) -> numpy.typing.NDArray[Any]:
-    """An array (height, width, 4), of float32 or uint8."""
+    """The picture as an array (height, width, 4) of floats or uint8."""
     if isinstance(picture, (str, os.PathLike)):
         array: numpy.typing.NDArray[Any] = numpy.asarray(read(picture))
     else:
@@ -379,13 +381,13 @@ def _comparable(picture: PictureLike) -> numpy.typing.NDArray[Any]:
 
 def compare(a: PictureLike, b: PictureLike, *, metrics: Iterable[str] = (), tolerance: float = 0.1,
             ignore_alpha: bool = False, **limits: float) -> Differences:
-    """Compares two pictures, `a` being the baseline.
+    """Compares two pictures; `a` is the baseline.
 
-    A picture is a file's path, float (linear light, premultiplied) or uint8 (sRGB, straight alpha).
-    A file beside a Picture, and uint8 beside float, are compared as codes of 8 bits: what a PNG of
-    it would hold. limits: the largest value of each metric that counts as the same, with _ for -
-    (psnr, ssim: the smallest): max, mean, rmse, relative_rmse, psnr, pixels, ssim, flip, hdr_flip.
-    Without any the pictures must be equal. metrics: to be reported beside those. tolerance: of "pixels".
+    A picture is the path of a file, an array of floats (linear light, premultiplied) or of uint8
+    (sRGB, straight alpha). A file and a Picture, or uint8 and float, are compared as 8-bit codes, as
+    in a PNG. limits: the largest value of each metric that counts as the same (psnr, ssim: the
+    smallest), with _ for -: max, mean, rmse, relative_rmse, psnr, pixels, ssim, flip, hdr_flip.
+    Without any, the pictures must be equal. metrics: others to report. tolerance: that of "pixels".
     """
     rules = ([(name.replace("_", "-"), float(limit)) for name, limit in limits.items()],
              list(metrics), tolerance, ignore_alpha)

@@ -1,11 +1,11 @@
-"""The fixture `image_baseline`: pictures of tests against baselines, as glint_add_image_test() has it.
+"""The fixture `image_baseline`, which compares pictures with baselines like glint_add_image_test().
 
     def test_teapot(image_baseline):
         image_baseline(glint.render("teapot.glb"), flip=0.01)
 
-compares with baselines/test_teapot.png beside the test's file. ``pytest --glint-update-baselines``
+compares with baselines/test_teapot.png next to the test's file. ``pytest --glint-update-baselines``
 makes and replaces baselines, ``--glint-report FILE`` writes a page of all tests. Pictures, baselines
-and differences are left in the folder ``--glint-output`` (image-tests).
+and differences are left in the folder ``--glint-output`` (by default image-tests).
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ class ImageBaseline(Protocol):
     def __call__(self, picture: Any, name: str | None = None, *, ending: str = ".png",
                  max_pixels: str | int | None = None, options: list[str] | None = None,
                  **limits: float) -> None:
-        """Fails the test unless the picture is like its baseline.
+        """Fails the test unless the picture matches its baseline.
 
-        picture: as :func:`glint.compare` takes it. name: of the baseline, without ending; the test's
-        own unless given. ending: ".exr" and ".pfm" keep linear light. limits: by metric, see
-        :func:`glint.compare`; without any the pictures must be equal. max_pixels: how many may be
-        over the tolerance, "0.1%" or a number. options: more of `glint diff`.
+        picture: as for :func:`glint.compare`. name: of the baseline, without ending; by default the
+        test's name. ending: ".exr" and ".pfm" keep linear light. limits: by metric, see
+        :func:`glint.compare`; without any, the pictures must be equal. max_pixels: how many may
+        exceed the tolerance, "0.1%" or a number. options: further options of `glint diff`.
         """
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The options of the fixture."""
+    """Adds the options of the fixture."""
     group = parser.getgroup("glint", "pictures against baselines")
     group.addoption("--glint-update-baselines", action="store_true",
                     help="make baselines that are missing, and replace those that differ")
@@ -57,12 +57,12 @@ def _folder(config: pytest.Config) -> pathlib.Path:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Forgets the tests of the run before."""
+    """Deletes the list of tests of the previous run."""
     shutil.rmtree(_folder(session.config) / "tests", ignore_errors=True)
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Writes the page."""
+    """Writes the report."""
     config = session.config
     folder = _folder(config)
     report = config.getoption("--glint-report")
@@ -72,7 +72,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def _file_of(name: str) -> str:
-    """A file's name for a test's; no two have the same."""
+    """Maps the name of a test to a file name, one to one."""
     text = "".join(chr(b) if re.match(rb"[A-Za-z0-9_-]", bytes([b])) or (b == 46 and i) else
                    "%%%02X" % b for i, b in enumerate(name.encode()))
     return text

@@ -176,24 +176,25 @@ Command addConvert(CLI::App& app) {
   command
       ->add_option(
           "OUT", options->out,
-          "the model to write, .gltf or .glb as IN: its materials have the parameters in "
-          "extras.glint and the nearest values that other viewers read; everything else is "
-          "kept byte for byte. Files that it refers to are copied beside it. - is stdout")
+          "the model to write, .gltf or .glb like IN: its materials get the parameters in "
+          "extras.glint and the nearest values that other viewers read; everything else is kept "
+          "byte for byte. Files that it refers to are copied next to it. - is stdout")
       ->required();
   command
       ->add_option("--material", options->materials,
-                   "set parameters as in glint render: of every material, of those called NAME, of "
-                   "the N-th of them, or of the file's N-th; repeatable")
+                   "set parameters as in glint render: of every material, of those called NAME, "
+                   "of the N-th of these, or of the file's N-th; repeatable")
       ->type_name("[NAME:|NAME#N:|#N:]key=value,...")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
   command
       ->add_option("--look", options->look,
-                   "take the materials of this look (JSON), or of a picture that glint has drawn")
+                   "take the material parameters of this look (JSON), or of a picture that glint "
+                   "has drawn")
       ->type_name("FILE");
   addConfineOption(*command);
-  command->add_flag("--in-place", options->inPlace, "allow OUT to be IN");
+  command->add_flag("--in-place", options->inPlace, "allow OUT to be the same file as IN");
   return [options] {
     options->in = localPath(options->in);
     return readModelFile(options->in,

@@ -85,10 +85,10 @@ Command addDiff(CLI::App& app) {
   addComparisonOptions(*command, given->comparison);
   text("-o,--output", request.settings.output, "FILE", "write a picture of the differences");
   text("--difference", given->difference, "flip|absolute|side-by-side",
-       "content of that picture: the FLIP map, |a - b|, or a, b and |a - b| [default: flip]");
+       "content of this picture: the FLIP map, |a - b|, or a, b and |a - b| [default: flip]");
   command
       ->add_option("--scale", request.settings.scale,
-                   "factor of |a - b| in that picture [default: 1]")
+                   "factor for |a - b| in this picture [default: 1]")
       ->type_name("K")
       ->check(numberIn(0.0, 1e6));
   text("--json", request.json, "FILE", "write all metrics as JSON; - is stdout");
@@ -96,30 +96,32 @@ Command addDiff(CLI::App& app) {
   text("--markdown", request.markdown, "FILE", "write a summary for a merge request; - is stdout");
   text("--html", request.html, "FILE", "write a report as one HTML file");
   command->add_flag("--pictures-beside", request.picturesBeside,
-                    "with --html: put the pictures into a folder beside it, FILE.pictures");
+                    "with --html: put the pictures into a folder next to it, FILE.pictures");
   command
       ->add_option("--jobs", request.jobs,
                    "number of pairs compared at the same time [default: the number of processors]")
       ->type_name("N")
       ->check(wholeNumberIn(1, 256));
   text("--conditions", request.conditions, "FILE",
-       "of folders: lines PATTERN OPTION... for some pairs [default: glint-diff.txt in A]");
+       "file with the conditions of some pairs of folders, in lines PATTERN OPTION... "
+       "[default: glint-diff.txt in A]");
   CLI::Option* updating =
       command
           ->add_option(
               "--update", request.named,
-              "replace or create the baseline where B differs or none exists, of all pairs or "
-              "of these: names, patterns (*, ?) or folders; lists what it wrote")
+              "replace baselines that B differs from, and create missing ones; for all pairs, or "
+              "only for these names, patterns (*, ?) or folders; lists the files written")
           ->type_name("[NAME...]")
           ->expected(0, 1 << 20);
   command->add_flag(
       "--prune", request.pruning,
-      "remove baselines without a picture (with --run: that no test uses); prints each");
+      "remove baselines without a picture (with --run: those that no test uses); lists the files "
+      "removed");
   text("--run", request.testRun, "FOLDER",
        "instead of A and B: report what the tests of glint_add_image_test() left in this folder");
   command->add_flag(
       "--baselines-per-driver", request.perDriver,
-      "prefer baselines in a folder driver-NAME of A (of a file: beside it), NAME made "
+      "prefer baselines in a folder driver-NAME in A (next to A if it is a file), with NAME made "
       "from the GL_RENDERER recorded in B");
   return [=] {
     given->request.updating = updating->count() > 0;

@@ -88,7 +88,8 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
   }
   given.metric = command
                      .add_option("--metric", given.metricNames,
-                                 names + "; repeatable; without a threshold it is only reported")
+                                 "metric to compute: " + names +
+                                     "; repeatable; without a threshold it is only reported")
                      ->type_name("NAME")
                      ->allow_extra_args(false);
   given.threshold =
@@ -101,17 +102,18 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
           ->allow_extra_args(false);
   command
       .add_option("--max-pixels", given.maxPixels,
-                  "how many pixels may be over the tolerance; repeatable: all must hold")
+                  "how many pixels may exceed the tolerance; repeatable: all limits must hold")
       ->type_name("N|P%")
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--tolerance", given.tolerance,
-          "of a pixel, 0 to 1: a distance, the same as pixelmatch's threshold [default: 0.1]")
+      .add_option("--tolerance", given.tolerance,
+                  "largest colour distance at which a pixel counts as the same (0 to 1, like "
+                  "pixelmatch's threshold) [default: 0.1]")
       ->type_name("T")
       ->check(numberIn(0.0, 1.0));
   text("--pixelmatch", given.pixelmatch, "7|8",
-       "the version of pixelmatch whose distance is used: 7 in YIQ, 8 HyAB in OKLab [default: 7]");
+       "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab "
+       "[default: 7]");
   command
       .add_option("--shift", given.shift,
                   "do not count pixels that the other picture has up to N pixels away")
@@ -132,24 +134,30 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "compare alpha as a fourth value, ignore it, or put both pictures over a colour "
        "[default: straight]");
   text("--values", given.values, "stored|encoded|linear",
-       "compare sRGB values or linear light; stored: as in the files, which must be of one kind "
-       "[default: stored]");
-  text(
-      "--layer", given.layer, "NAME|main|all",
-      "of EXR files: compare this layer, channel or part, the main picture, or all [default: all]");
+       "compare sRGB values or linear light; stored: as in the files, which must be of the same "
+       "kind [default: stored]");
+  text("--layer", given.layer, "NAME|main|all",
+       "part of EXR files to compare: a layer, channel or part by name, the main picture, or all "
+       "[default: all]");
   command
       .add_option("--pixels-per-degree", given.pixelsPerDegree,
-                  "viewing condition of FLIP [default: 67.0206]")
+                  "viewing condition for FLIP [default: 67.0206]")
       ->type_name("P")
       ->check(numberIn(1e-3, 1000.0));
   text("--screen", given.screen, "distance,pixels,width",
-       "viewing condition of FLIP by metres to the screen, its width in pixels, and in metres");
-  text("--start-exposure", given.startExposure, "EV", "for HDR-FLIP [default: from the baseline]");
-  text("--stop-exposure", given.stopExposure, "EV", "for HDR-FLIP [default: from the baseline]");
-  command.add_option("--exposures", given.exposures, "for HDR-FLIP [default: one a stop]")
+       "viewing condition for FLIP, instead: distance to the screen in metres, its width in "
+       "pixels and in metres");
+  text("--start-exposure", given.startExposure, "EV",
+       "first exposure of HDR-FLIP [default: from the baseline]");
+  text("--stop-exposure", given.stopExposure, "EV",
+       "last exposure of HDR-FLIP [default: from the baseline]");
+  command
+      .add_option("--exposures", given.exposures,
+                  "number of exposures of HDR-FLIP [default: one a stop]")
       ->type_name("N")
       ->check(wholeNumberIn(1, 64));
-  text("--tone-mapper", given.toneMapper, "aces|hable|reinhard", "for HDR-FLIP [default: aces]");
+  text("--tone-mapper", given.toneMapper, "aces|hable|reinhard",
+       "tone mapper of HDR-FLIP [default: aces]");
 }
 
 DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArguments& given,

@@ -191,9 +191,9 @@ int diffFolders(const DiffRequest& request) {
 void refuseOfFolders(const DiffRequest& request, bool ofPictures) {
   if (!request.conditions.empty())
     throw InputError("--conditions " + printablePath(request.conditions) +
-                     ": it is of two folders: give its options themselves");
+                     ": only for two folders: give its options themselves");
   if (ofPictures && request.pruning)
-    throw InputError("--prune: it is of folders: remove the file yourself");
+    throw InputError("--prune: only for folders: remove the file yourself");
 }
 
 /// What the tests of a build have left.
@@ -294,7 +294,7 @@ int runDiff(DiffRequest request) {
                 {"--html", request.html}},
                {request.a, request.b, request.mask});
   if (request.picturesBeside && (request.html.empty() || request.html == "-"))
-    throw InputError("--pictures-beside: it is of a report in a file: give --html FILE, too");
+    throw InputError("--pictures-beside: only for a report in a file: give --html FILE, too");
   if (!request.testRun.empty()) return diffTestRun(request);
   std::error_code ignored;
   const bool folderA = fs::is_directory(request.a, ignored);
@@ -305,7 +305,7 @@ int runDiff(DiffRequest request) {
                      ": one is a folder, the other a file: give two of a kind");
   if (folderA)
     throw InputError(printablePath(request.b) + ": No such file or directory: check the path");
-  if (request.pruning) throw InputError("--prune: it is of two folders, or of --run");
+  if (request.pruning) throw InputError("--prune: only for two folders, or with --run");
   return diffPictures(request);
 }
 

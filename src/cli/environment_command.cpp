@@ -66,7 +66,7 @@ Command addEnvironment(CLI::App& app) {
       ->take_last();
   command
       ->add_option("--height", options->height,
-                   "in pixels; the picture is twice as wide [default: 512]")
+                   "height in pixels; the picture is twice as wide [default: 512]")
       ->type_name("PIXELS");
   return [options] { return writeEnvironment(*options); };
 }

@@ -17,10 +17,10 @@
 namespace {
 
 constexpr const char* description =
-    "glint draws glTF 2.0 models with the classic shading models, in a window or offscreen without "
-    "GPU and display, compares pictures, and measures how fast and how exact each way of shading "
-    "is.\n"
-    "glint help COMMAND lists a command's options; glint MODEL is glint view MODEL.";
+    "glint draws glTF 2.0 models with the classic shading models, in a window or offscreen "
+    "without a GPU or a display, compares pictures, and measures how fast and how exact each way "
+    "of shading is.\nglint help COMMAND lists a command's options; glint MODEL is short for "
+    "glint view MODEL.";
 
 // In the order of the help.
 constexpr std::array<std::pair<std::string_view, glint::Command (*)(CLI::App&)>, 9> commands{

@@ -14,9 +14,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command
       .add_option("-o,--output", options.output,
                   "the picture: .png (8 or 16 bits, sRGB), .jpg or .webp (8 bits, sRGB), .exr or "
-                  ".pfm (linear float), - (PNG to stdout); another ending gives a PNG; {model} is "
-                  "replaced by the model's name, {folder} by that of its folder, {n} by its "
-                  "number, {frame} by the picture's number")
+                  ".pfm (linear float), - (PNG to stdout); another ending gives a PNG; {model} "
+                  "is replaced by the model's name, {folder} by that of its folder, {n} by the "
+                  "model's number, {frame} by the picture's number in a turntable or animation")
       ->type_name("OUT")
       ->required()
       ->take_last();
@@ -26,21 +26,21 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->type_name("BITS");
   command
       .add_option("--quality", options.quality,
-                  "of a JPEG or WebP, 1 to 100; from 90 on a JPEG has colours at full resolution, "
-                  "at 100 a WebP is without loss [default: 90]")
+                  "quality of a JPEG or WebP, 1 to 100; from 90 on a JPEG has full-resolution "
+                  "colour, at 100 a WebP is lossless [default: 90]")
       ->type_name("Q")
       ->check(wholeNumberIn(1, 100));
   command
       .add_option("--output-format", options.formatName,
-                  "the pictures' format, whatever their names; raw is for programs, several on "
-                  "stdout too: 32-bit words, little-endian: GLNT, width, height, channels (3, or "
-                  "4 with --no-background), then linear floats, rows from the top")
+                  "format of the pictures, whatever their names; raw is for programs, also for "
+                  "several pictures on stdout: little-endian 32-bit words GLNT, width, height, "
+                  "channels (3, or 4 with --no-background), then linear floats, rows from the top")
       ->type_name("png|jpg|webp|exr|pfm|raw")
       ->take_last();
   command
       .add_option("--rendering-backend", options.backend,
-                  "what to draw with; auto tries egl, then osmesa; reference is double precision "
-                  "on the CPU, without GL [default: auto]")
+                  "how to draw; auto tries egl, then osmesa; reference draws in double precision "
+                  "on the CPU, without OpenGL [default: auto]")
       ->type_name("auto|egl|egl-software|osmesa|reference")
       ->take_last();
   command.add_option("--json", options.json, "write a report of the run; - is stdout")
@@ -74,9 +74,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->take_all();
   command.add_flag(
       "--terms", options.terms,
-      "also write the terms whose sum the picture is (ambient, diffuse and specular of "
-      "each light, reflection, refraction, emission, background), normal and depth: as "
-      "layers of an EXR, or one file each (OUT.ambient.png)");
+      "also write the terms whose sum is the picture (ambient, diffuse and specular of each "
+      "light, reflection, refraction, emission, background), and normal, depth and ids: as "
+      "layers of an EXR, or as one file each (OUT.ambient.png)");
   addConfineOption(command);
   addDecodeLimitOption(command);
   const char* batch = "Batches";
@@ -100,8 +100,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->group(batch);
   command
       .add_option("--shard", options.shard,
-                  "draw only every N-th model, starting with the K-th (K from 1 to N); of a single "
-                  "model, every N-th of its pictures")
+                  "draw only every N-th model, starting with the K-th (K from 1 to N), or every "
+                  "N-th picture of a single model; files of very different sizes are divided by "
+                  "their sizes")
       ->type_name("K/N")
       ->group(batch);
   command

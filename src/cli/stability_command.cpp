@@ -164,9 +164,8 @@ Command addStability(CLI::App& app) {
   command
       ->add_option(
           "--search", options->search,
-          "also evaluate COUNT random points in every program and draw COUNT/10000 random "
-          "scenes, half of them pathological, and fail if anything is NaN or infinite; 1e8 "
-          "takes minutes")
+          "also test COUNT random points in every program (and draw COUNT/10000 random scenes, "
+          "half of them pathological) and fail if anything is NaN or infinite; 1e8 takes minutes")
       ->type_name("COUNT")
       ->check(numberIn(1.0, 1e12))
       ->take_last();

@@ -245,31 +245,33 @@ Command addStudy(CLI::App& app) {
   command->add_option("MODEL", given->model,
                       "a glTF 2.0 model, .gltf or .glb; - is stdin [default: a sphere]");
   command->add_flag("--quick", given->quick,
-                    "512 x 512 pixels, fewer forms and frames: less than a minute on two cores");
+                    "study fewer pixels (512 x 512), forms and frames, in less than a minute on "
+                    "two cores");
   command
       ->add_option(
           "--repetitions", given->repetitions,
-          "frames measured of each variant, after 10 that are not [default: 60; with --quick "
-          "30]")
+          "number of frames measured for each variant, after 10 that are not [default: 60; with "
+          "--quick 30]")
       ->type_name("N")
       ->check(wholeNumberIn(1, 100000));
   command
       ->add_option("--time-budget", given->timeBudget,
-                   "stop after this time, as Ctrl-C does, and report what was measured by then and "
+                   "stop after this time (like Ctrl-C) and report what has been measured and "
                    "what is missing")
       ->type_name("SECONDS")
       ->check(numberIn(0.001, 1e6));
   command
       ->add_option("--clock", given->clock,
-                   "what times are compared by: wall, until a frame is done; cpu, what all threads "
-                   "ran meanwhile, which on a software driver hardly feels other programs; gpu, "
-                   "the GPU's own timer; auto is gpu where a GPU draws, else wall [default: auto]")
+                   "clock for comparing times: wall, the time until a frame is done; cpu, the "
+                   "time that all threads ran meanwhile, which on a software driver is hardly "
+                   "affected by other programs; gpu, the GPU's own timer; auto is gpu if a GPU "
+                   "draws, else wall [default: auto]")
       ->type_name("auto|wall|cpu|gpu")
       ->take_last();
   command
       ->add_option("--spread-limit", given->spreadLimit,
-                   "no front where one program measured twice differs from itself by more than "
-                   "this [default: 10]")
+                   "report no front if the same program measured twice differs by more than this "
+                   "[default: 10]")
       ->type_name("PERCENT")
       ->check(numberIn(0.0, 1e6));
   command
@@ -288,7 +290,7 @@ Command addStudy(CLI::App& app) {
                    "write the study's questions and answers, with figures, to this file")
       ->type_name("FILE");
   addDecodeLimitOption(*command);
-  command->add_option("--json", given->json, "write the whole result; - is stdout")
+  command->add_option("--json", given->json, "write the whole result as JSON; - is stdout")
       ->type_name("FILE");
   command
       ->add_option("--measure-costs", given->costs,
@@ -298,8 +300,8 @@ Command addStudy(CLI::App& app) {
       ->take_last();
   command
       ->add_option("--half-precision", given->half,
-                   "instead of a study, compute what each form of the highlight loses in half "
-                   "floats, at every input that there is, and write the table; - is stdout")
+                   "instead of a study, compute the error of each highlight form in half floats "
+                   "(for all possible inputs) and write the table; - is stdout")
       ->type_name("FILE")
       ->take_last();
   auto look = addLookOptions(*command);

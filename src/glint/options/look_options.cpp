@@ -52,8 +52,8 @@ LookSource addLookOptions(CLI::App& app) {
   }
   app.add_option(
          "--look", state->lookFile,
-         "start from the look in this file (JSON), or from that stored in a picture drawn by glint "
-         "(PNG or EXR); options on the command line change it")
+         "start from the look in this file (JSON), or from the look stored in a picture that "
+         "glint has drawn (PNG or EXR); options on the command line override it")
       ->type_name("FILE")
       ->group("Looks");
   app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")

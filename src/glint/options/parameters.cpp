@@ -18,13 +18,13 @@ using namespace kinds;
 Parameter lights() {
   Parameter p = custom(
       "light", "TYPE:...",
-      "a light in place of the model's or the default one; repeatable. "
+      "a light that replaces the model's lights and the default light; repeatable. "
       "directional:x,y,z[:r,g,b] (x,y,z points TO the light), point:x,y,z[:r,g,b], "
       "spot:x,y,z:dx,dy,dz:inner,outer[:r,g,b] (shines along d; angles in degrees), "
-      "camera[@x,y,z][:r,g,b] (fixed to the eye; x,y,z points to it in eye space, 0,0,1, along the "
-      "view, unless given). Point and spot lights do not weaken with distance, "
-      "unless :falloff[,RANGE] is appended: then with its square from 1 world unit on, to 0 at "
-      "RANGE",
+      "camera[@x,y,z][:r,g,b] (fixed to the eye; x,y,z points to the light in eye space, by "
+      "default 0,0,1, along the view). Point and spot lights weaken with distance only if "
+      ":falloff[,RANGE] is appended: with the square of the distance, the intensity being that "
+      "at 1 world unit, and to 0 at RANGE",
       [](Look& look, const std::string& text) {
         const Light light = parseLight(text);
         if (!look.light) look.light.emplace();
@@ -80,12 +80,11 @@ Parameter highlight() {
   Parameter p = custom(
       "highlight", "FORM[/N,FORM...]",
       "how the specular lobe is computed: " + formNames() +
-          " (G = 1, 2, 4, ... 64; N = 16, 32, ... 1024); exact is from the difference vector, "
-          "stable, pow the textbook's "
-          "pow(dot), integer takes whole exponents from 1 to 128 by squaring and others exactly, "
-          "table reads N steps of the cosine linearly, docs/approximations.md has the others; "
-          "exact/2,lyon:8 uses the first form for the two "
-          "brightest lights and the second for the others",
+          " (G = 1, 2, 4, ... 64; N = 16, 32, ... 1024); exact is computed stably from the "
+          "difference vector; pow is the textbook's pow(dot); integer computes whole exponents "
+          "from 1 to 128 by squaring and others exactly; table interpolates linearly between N "
+          "steps of the cosine; docs/approximations.md describes the others; exact/2,lyon:8 uses "
+          "the first form for the two brightest lights and the second for the others",
       [](Look& look, const std::string& text) {
         look.highlight = parseHighlights(text, "--highlight");
       },
@@ -116,13 +115,13 @@ Parameter materials() {
   for (const MaterialParameter& each : materialParameters()) names += std::string(each.name) + ", ";
   Parameter p = custom(
       "material", "[NAME:|NAME#N:|#N:]key=value,...",
-      "set parameters of every material, of those called NAME, of the N-th of them, or of the "
-      "file's N-th (N from 0; a name that holds = or ends in #N goes into quotation marks): " +
+      "set parameters of every material, of those called NAME, of the N-th of these, or of the "
+      "file's N-th (N from 0; put a name that contains = or ends in #N in quotation marks): " +
           names +
           "color; color-texture, normal-texture and emission-texture on or off; and the forms "
-          "highlight and fresnel; metalness 1: the highlight has the "
-          "material's colour, as on real metals; 0: it is white (the lecture notes' words say the "
-          "opposite of their formula, which is used); repeatable",
+          "highlight and fresnel; with metalness 1 the highlight has the material's colour, as on "
+          "real metals, with 0 it is white (the lecture notes' text says the opposite of their "
+          "formula, which is used); repeatable",
       [](Look& look, const std::string& text) { parseMaterialEdit(look, text); }, materialEdits);
   p.repeatable = true;
   p.reset = [](Look& look) { look.material.clear(); };
@@ -132,8 +131,8 @@ Parameter materials() {
 Parameter costTable() {
   Parameter p = custom(
       "cost-table", "FILE",
-      "the cost of each form on a driver, as glint study --measure-costs writes it; --max-error "
-      "uses it in place of the table that ships with glint",
+      "file with the cost of each form on a driver (from glint study --measure-costs); "
+      "--max-error uses it instead of the table that ships with glint",
       [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
       [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
   return resetting(std::move(p), &Look::costTable);
@@ -150,9 +149,9 @@ Parameter maxError() {
   };
   Parameter p = numbers<double>(
       ParameterKind::number, "max-error", "E|Ncode",
-      "use the cheapest forms of lobe and reflectance whose proven error for this scene is at most "
-      "E, in linear light, or Ncode: N codes of the 8-bit picture after exposure; the exact ones "
-      "where there is none",
+      "use the cheapest forms within this error: those of lobe and reflectance whose proven "
+      "error for this scene is at most E in linear light, or with Ncode N codes of the 8-bit "
+      "picture after exposure; the exact forms if no others are within it",
       0, 1e6, &Look::maxError, parse);
   p = then(std::move(p), [](Look& look) { look.maxErrorInCodes = false; });
   p.read = [read = p.read](Look& look, const std::string& text) {
@@ -170,9 +169,9 @@ Parameter maxError() {
 Parameter intrinsics() {
   Parameter p = custom(
       "camera-intrinsics", "FX,FY,CX,CY",
-      "the lens of a calibrated camera in pixels of the picture, in place of the view angle: focal "
-      "lengths across and down, and the principal point from the picture's top left corner (the "
-      "first pixel's centre is at 0.5,0.5; OpenCV calls it 0,0, so add 0.5 to its CX and CY)",
+      "lens of a calibrated camera, in pixels, instead of the view angle: focal lengths across "
+      "and down, and the principal point from the picture's top left corner (the first pixel's "
+      "centre is at 0.5,0.5; in OpenCV it is at 0,0, so add 0.5 to its CX and CY)",
       [](Look& look, const std::string& text) {
         look.cameraIntrinsics = parseIntrinsics(text);
         look.cameraViewAngle.reset();
@@ -211,18 +210,19 @@ std::vector<Parameter> makeTable() {
               "phong, or flat or gouraud where --max-error allows"),
        highlight(),
        choice("fresnel", fresnelTexts(), &Look::fresnel,
-              "how the program environment computes reflectance: exact (without cancellation), the "
-              "textbook's equations, Schlick's approximation, the same with its power by exp2, or "
-              "a rational function fitted to the index"),
+              "how the program environment computes the reflectance: exact (without "
+              "cancellation), the textbook's equations, Schlick's approximation, the same with "
+              "the power computed by exp2, or a rational function fitted to the index"),
        maxError(), costTable(),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),
        choice("normalization", normalizationNames, &Look::normalization,
-              "multiply each highlight so that it keeps its light when its exponent n moves; "
-              "specular is then the share of light it reflects: none, the lecture notes' formula; "
-              "simple, (n+2)/2 for Phong and (n+8)/8 for Blinn-Phong, meant for a highlight with "
-              "N.L; exact, what reflects that share along the normal in the notes' formula"),
+              "multiply each highlight so that it keeps its light when its exponent n changes; "
+              "specular is then the share of light that it reflects; none is the lecture notes' "
+              "formula, without a factor; simple is (n+2)/2 for Phong and (n+8)/8 for "
+              "Blinn-Phong, meant for a highlight with N.L; exact is the factor with which the "
+              "notes' formula reflects that share along the normal"),
        slider(number("schlick-exponent", "X", 0, 1e3, &Look::schlickExponent,
                      "exponent of Schlick's approximation"),
               0, 20, false),
@@ -233,9 +233,10 @@ std::vector<Parameter> makeTable() {
   section("Lights and environment",
           {color("ambient-light", &Look::ambientLight,
                  "light from all directions, added to all other lights"),
-           lights(), flag("no-lights", &Look::noLights, "only ambient light"), lightScale(),
+           lights(), flag("no-lights", &Look::noLights, "use ambient light only"), lightScale(),
            choice("viewer", viewerNames, &Look::viewer,
-                  "infinite: one direction to the viewer for the whole picture"),
+                  "direction to the viewer; local: from each point; infinite: one direction for "
+                  "the whole picture"),
            slider(number("medium-ior", "N", 1e-3, 1e3, &Look::mediumIor,
                          "index of refraction of the medium around the viewer"),
                   1, 3, false, 1, "n1"),
@@ -243,8 +244,8 @@ std::vector<Parameter> makeTable() {
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",
-                         "an equirectangular picture, -Z in its middle, in place of --environment: "
-                         "Radiance .hdr, OpenEXR, PNG or JPEG",
+                         "an equirectangular picture in place of --environment, with -Z at its "
+                         "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM",
                          [](Look& look, const std::string& text) {
                            look.hdriFile = nonEmpty(text, "--hdri-file");
                          },
@@ -269,18 +270,17 @@ std::vector<Parameter> makeTable() {
                    1, 120, false, 30),
             dropIntrinsics),
        intrinsics(),
-       direction(
-           "camera-direction", &Look::cameraDirection,
-           "direction in which the camera looks, where position and focal point do not say it"),
+       direction("camera-direction", &Look::cameraDirection,
+                 "direction in which the camera looks (unless position and focal point are given)"),
        slider(number("camera-azimuth-angle", "DEGREES", -1e6, 1e6, &Look::cameraAzimuthAngle,
-                     "then turn the camera about the focal point, to its right"),
+                     "turn the placed camera about the focal point, to its right"),
               -180, 180, false),
        slider(number("camera-elevation-angle", "DEGREES", -1e6, 1e6, &Look::cameraElevationAngle,
-                     "then turn the camera about the focal point, upwards"),
+                     "turn the placed camera about the focal point, upwards (after the azimuth)"),
               -90, 90, false),
        slider(number("camera-zoom-factor", "FACTOR", 1e-6, 1e6, &Look::cameraZoomFactor,
-                     "how much of the picture the model's bounding sphere fills, unless "
-                     "--camera-position is given"),
+                     "how much of the picture the model's bounding sphere fills (unless "
+                     "--camera-position is given)"),
               0.05, 20, true),
        then(flag("camera-orthographic", &Look::cameraOrthographic,
                  "parallel projection; half the picture's height is the distance to the focal "
@@ -298,7 +298,7 @@ std::vector<Parameter> makeTable() {
        resetting(
            custom(
                "clipping-range", "NEAR,FAR",
-               "distances along the view between which things are drawn [default: from the "
+               "nearest and farthest distance along the view that is drawn [default: from the "
                "scene]",
                [](Look& look, const std::string& text) { look.clippingRange = parseRange(text); },
                [](const Look& look) {
@@ -355,8 +355,8 @@ std::vector<Parameter> makeTable() {
            &Look::resolution),
        resetting(custom(
                      "anti-aliasing", "none|msaa:N|ssaa:N",
-                     "msaa: N coverage samples per pixel; ssaa: N x N shaded samples per pixel; "
-                     "averaged in linear light",
+                     "samples per pixel, averaged in linear light; msaa: N coverage samples, "
+                     "shaded once for each triangle; ssaa: N x N shaded samples",
                      [](Look& look, const std::string& text) {
                        look.antiAliasing = parseAntiAliasing(text);
                      },
@@ -364,14 +364,14 @@ std::vector<Parameter> makeTable() {
                  &Look::antiAliasing),
        switchable(
            choice("specular-antialiasing", specularAntialiasingNames, &Look::specularAntialiasing,
-                  "widen highlights that are narrower than what a pixel sees of the normals, "
-                  "and dim them to the same light, so that they do not flicker: alone or "
-                  "=kaplanyan by how far the normals turn over the pixel, =toksvig by how far "
-                  "those are apart that a smaller level of the normal map stands for, =none "
-                  "not; of programs that shade pixels"),
+                  "widen highlights that are narrower than a pixel, so that they do not flicker; "
+                  "they are dimmed so that their total light stays the same. Without a value, or "
+                  "with =kaplanyan, by how much the normals of neighbouring pixels differ; with "
+                  "=toksvig, by how much detail of the normal map is lost in its smaller levels; "
+                  "with =none, not at all. For programs that shade pixels"),
            "none", "kaplanyan"),
        color("background-color", &Look::backgroundColor, "colour behind the model"),
-       flag("no-background", &Look::noBackground, "transparent background"),
+       flag("no-background", &Look::noBackground, "make the background transparent"),
        slider(number("exposure", "EV", -64, 64, &Look::exposure,
                      "multiply the picture by 2^EV before it is encoded"),
               -8, 8, false)});

@@ -8,7 +8,7 @@ namespace glint {
 namespace {
 
 std::string placeText(const FrontPlace& place, const std::string& by) {
-  return (place.isSlower ? "by " : "not told from ") + by;
+  return (place.isSlower ? "by " : "undecided against ") + by;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ const FrontPlace* placeOf(const StudyFront* front, std::size_t variant);
 /// The name of the variant that dominates a place, or that it cannot be told from.
 std::string dominator(const StudyResult& r, const StudyFront& front, const FrontPlace& place);
 
-/// "on the front"; "by X" if X dominates it; "not told from X" if it cannot be told which is
+/// "on the front"; "by X" if X dominates it; "undecided against X" if it cannot be told which is
 /// faster; empty without a place. For variants and for ways.
 std::string placeWords(const StudyResult& r, const StudyFront* front, std::size_t variant);
 std::string wayPlaceWords(const StudyResult& r, std::size_t way);

@@ -19,10 +19,11 @@ class Results {
   std::string write(const std::string& command) {
     add("# Results\n\nMade by\n\n```sh\n" + command + "\n```\n\n");
     add(formatted(
-        "of %s (%zu triangles, %d x %d pixels, %zu compared) on\n%s, %s. Times are this "
-        "machine's: compare\nthem with each other. They are %s; two count as different beyond the "
-        "spread of one program\nmeasured twice, %.1f %%, and each ratio stands with its 95 %% "
-        "interval. [study.md](study.md) says how all of\nthis is measured.\n",
+        "of %s (%zu triangles, %d x %d pixels, %zu compared) on\n%s, %s. Times are of this "
+        "machine: compare\nthem only with each other. They are %s; two count as different if "
+        "they differ by more than the spread of\none program measured twice, %.1f %%, and each "
+        "ratio is given with its 95 %% interval. [study.md](study.md)\ndescribes the "
+        "measurements.\n",
         head_.model.c_str(), r_.triangles, head_.look.resolution.x, head_.look.resolution.y,
         r_.mask.pixels.size(), r_.gl.renderer.c_str(), r_.gl.version.c_str(),
         r_.clock == FrameClock::cpu   ? "CPU time, of all threads"
@@ -75,7 +76,7 @@ class Results {
   }
   /// "faster", "slower" or "the same", beyond the spread.
   std::string compared(const FrameTimes& a, const FrameTimes& b) const {
-    if (!r_.noFront.empty()) return "no more can be told";
+    if (!r_.noFront.empty()) return "undecided";
     if (faster(a, b)) return "faster beyond the spread";
     return faster(b, a) ? "slower beyond the spread" : "the same within the spread";
   }
@@ -107,8 +108,8 @@ class Results {
     }
     if (const StudySeries* s = series("exponent"); s && !s->lines.empty()) {
       largestErrors("the exponent α, `phong`", *s);
-      add("\nTimes do not change with α, but that `integer` needs more products for larger ones; "
-          "errors do, and every sentence\nabove is of the exponents named there.\n");
+      add("\nTimes do not depend on α, except that `integer` needs more multiplications for "
+          "larger ones. Errors do; the\nsentences above hold for the exponents that they name.\n");
     }
   }
 
@@ -137,8 +138,8 @@ class Results {
   }
 
   std::string lyonWords(const Lyons& lyons, const VariantResult& pow, const char* program) const {
-    if (lyons.count == 0) return "No form of Lyon's was measured.";
-    if (!r_.noFront.empty()) return "It cannot be told: see above.";
+    if (lyons.count == 0) return "None of Lyon's forms was measured.";
+    if (!r_.noFront.empty()) return "Undecided: see above.";
     const std::string where = atExponents(program);
     if (lyons.faster == 0)
       return formatted(
@@ -155,8 +156,8 @@ class Results {
     const VariantResult* integer = variant(std::string(program) + " integer");
     if (!integer || integer->times.wall.empty())
       return words +
-             " `integer` has no such exponent (whole ones from 1 to 128): where it has, it "
-             "is exact for about the same time.";
+             " `integer` does not have this exponent (only whole ones from 1 to 128); where it "
+             "applies, it is exact and takes about the same time.";
     return words + formatted(
                        " But the exponent is whole, and `integer` is exact: it takes %s of "
                        "the time of the fastest of Lyon's forms, `%s`: %s.",
@@ -182,7 +183,8 @@ class Results {
   }
 
   void blinn() {
-    add("\n## What does Blinn cost or save against Phong through D, and how far off is 4α?\n");
+    add("\n## What does Blinn cost or save compared with Phong computed from D, and how far off "
+        "is 4α?\n");
     const VariantResult *phong = variant("phong exact"), *half = variant("blinn-phong exact");
     if (phong && half && !phong->times.wall.empty()) {
       const VariantError* distance = errorAgainst(*half, Shading::phong);
@@ -190,7 +192,9 @@ class Results {
           " of one of `phong`, both in the exact form: " + compared(half->times, phong->times) +
           ".");
       if (distance)
-        add(formatted(" On this scene its picture is off Phong's by %.1e at most, RMSE %.1e.",
+        add(
+            formatted(" On this scene its picture differs from Phong's by at most %.1e, RMSE "
+                      "%.1e.",
                       distance->whole.max, distance->whole.rmse));
       add("\n");
     }
@@ -212,9 +216,9 @@ class Results {
   void gouraud() {
     const StudySeries* s = series("fineness");
     if (!s || s->lines.empty()) return;
-    add("\n## From which fineness on is Gouraud enough for a given error?\n\n" + s->note +
-        ".\nThe largest edge / radius h (and number of triangles) whose largest error is within "
-        "E:\n\n| E |");
+    add("\n## On how fine a mesh is Gouraud enough for a given error?\n\n" + s->note +
+        ".\nThe largest h, edge over radius, (and number of triangles) for which the largest "
+        "error is within E:\n\n| E |");
     std::vector<const SeriesLine*> lines;
     for (const SeriesLine& l : s->lines) lines.push_back(&l);
     for (const SeriesLine* l : lines) add(" " + l->name + " |");
@@ -233,13 +237,13 @@ class Results {
         add(cell);
       }
     }
-    add("\n\nOrders of the last step, RMSE and largest error (1, 2 and 2 are expected of `flat`, "
-        "`gouraud` and per pixel):");
+    add("\n\nOrders of convergence of the last step, for RMSE and largest error (1, 2 and 2 are "
+        "expected for `flat`, `gouraud` and per pixel):");
     for (const SeriesLine* l : lines)
       add(formatted("%s %s %.2f and %.2f", l == lines[0] ? "" : ";", l->name.c_str(), l->orderRmse,
                     l->orderMax));
-    add(".\nThe law behind it: the largest error is near (2/3) m_s α h², so Gouraud is enough from "
-        "h = √(1.5 E / (m_s α)) on.\n");
+    add(".\nThe largest error is about (2/3) m_s α h², so Gouraud is enough for h up to √(1.5 E "
+        "/ (m_s α)).\n");
   }
 
   void schlick() {
@@ -255,14 +259,13 @@ class Results {
           on += (on.empty() ? "" : ", ") + front.metric;
     }
     if (!any) {
-      add(r_.noFront.empty() ? "The environment was not measured.\n"
-                             : "It cannot be told: see above.\n");
+      add(r_.noFront.empty() ? "The environment was not measured.\n" : "Undecided: see above.\n");
       return;
     }
     add(variant("environment rational") ? "" : "(There is no rational form here.) ");
     const VariantResult *approximate = variant("environment schlick"),
                         *rational = variant("environment rational");
-    add(on.empty() ? "No, of no metric" : "Yes, of the metrics " + on);
+    add(on.empty() ? "No, for no metric" : "Yes, for the metrics " + on);
     if (approximate && rational && !approximate->times.wall.empty())
       add(": it takes " + ratio(approximate->times, rational->times) +
           " of the time of `rational`, " + compared(approximate->times, rational->times));
@@ -289,11 +292,11 @@ class Results {
 
   void aliasing() {
     if (r_.ways.empty()) return;
-    add("\n## What does aliasing add, and what takes it away?\n\nAgainst the exact form "
-        "supersampled "
-        "in double: the whole error, of form, interpolation, driver and aliasing; inside, where\na "
-        "surface covers all of a pixel, and of the whole picture. `kaplanyan` and `toksvig` are "
-        "`--specular-antialiasing`; the RMSE of the truth itself\nis below");
+    add("\n## What does aliasing add, and what reduces it?\n\nThe whole error, from form, "
+        "interpolation, driver and aliasing, compared with the exact form supersampled "
+        "in\ndouble: inside, where a surface covers all of a pixel, and for the whole picture. "
+        "`kaplanyan` and `toksvig` are\nvalues of `--specular-antialiasing`. The RMSE of the "
+        "truth itself is below");
     for (const WholeTruth& truth : r_.wholeTruths)
       add(formatted("%s %.1e (%s, %d x %d samples)", &truth == &r_.wholeTruths[0] ? "" : ",",
                     truth.own.rmse, std::string(shadingName(truth.model)).c_str(), truth.samples,
@@ -328,16 +331,16 @@ class Results {
                     each.error.inside.max, each.error.inside.rmse, each.error.picture.rmse));
     }
     if (const StudySeries* s = series("aliasing"); s && !s->lines.empty())
-      largestErrors("the exponent α, `phong` at 128 pixels across against 16 x 16 samples", *s);
+      largestErrors("the exponent α, `phong`, 128 pixels wide, compared with 16 x 16 samples", *s);
     if (const StudySeries* s = series("distance"); s && !s->lines.empty())
-      largestErrors("the pixels that the model is across as it moves away, likewise", *s, true);
+      largestErrors("the width of the model in pixels as it moves away, likewise", *s, true);
     if (const StudySeries* s = series("motion"); s && !s->lines.empty())
-      largestErrors("the exponent α, of the change as the model moves by 0.5 and 0.25 pixels", *s);
+      largestErrors("the exponent α, for the change when the model moves by 0.5 and 0.25 pixels",
+                    *s);
     if (const StudySeries* s = series("bumps"); s && !s->lines.empty())
-      largestErrors("the pixels that a sphere with a normal map of small bumps is across", *s,
-                    true);
+      largestErrors("the width in pixels of a sphere with a normal map of small bumps", *s, true);
     if (const StudySeries* s = series("bumps-motion"); s && !s->lines.empty())
-      largestErrors("the exponent α, of the change as that sphere moves likewise", *s);
+      largestErrors("the exponent α, for the change when that sphere moves likewise", *s);
   }
 
   void specialisation() {
@@ -356,13 +359,11 @@ class Results {
 
   void fronts() {
     if (r_.fronts.empty()) return;
-    add("\n## The fronts\n\nFrom the most accurate to the fastest what is on the front for sure: "
-        "faster than all that is as accurate, beyond the\nspread; each with its time beside that "
-        "of "
-        "the one before it and the 95 % interval of that ratio. Then how many\ncannot be told: "
-        "neither are they, nor is any other that is as accurate faster. All others are dominated "
-        "for "
-        "sure.\n\n");
+    add("\n## The fronts\n\nFrom the most accurate to the fastest, the variants that are "
+        "certainly on the front: faster, beyond the spread,\nthan all that are as accurate. Each "
+        "is given with its time relative to the one before it, and the 95 % interval\nof that "
+        "ratio. Then the number of undecided ones: they are not certainly on the front, and no "
+        "other that is as\naccurate is certainly faster. All others are certainly dominated.\n\n");
     for (const StudyFront& front : r_.fronts) {
       if (front.metric != "rmse" && front.metric != "max") continue;
       std::vector<std::pair<double, const VariantResult*>> members;
@@ -383,7 +384,7 @@ class Results {
             formatted("%s (%.1e, %.2f ms", v->variant.name.c_str(), error, median(v->times)));
         add(i == 0 ? ")" : "; " + ratio(v->times, members[i - 1].second->times) + ")");
       }
-      add(formatted("%s%d of %d cannot be told\n", members.empty() ? "" : "; ", open,
+      add(formatted("%s%d of %d undecided\n", members.empty() ? "" : "; ", open,
                     int(front.variants.size())));
     }
   }
