@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   app.add_option("--scale", options.scale,
                  "size of text and widgets, 0.5 to 4 [default: the screen's]")
       ->type_name("FACTOR")
-      ->check(numberIn(0.5, 4.0));
+      ->check(glint::numberIn(0.5, 4.0));
   glint::addConfineOption(app);
   glint::addDecodeLimitOption(app);
   const auto makeLook = glint::addLookOptions(app);
