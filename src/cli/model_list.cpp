@@ -72,8 +72,9 @@ ModelList::ModelList(std::vector<std::string> models) : models_(std::move(models
 }
 
 ModelList::ModelList(const std::string& path) : path_(path == "-" ? "standard input" : path) {
+  // O_NONBLOCK: opening a FIFO must not wait for its writer; fill() does, and a signal ends that.
   file_ = path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
-                      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+                      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
   if (file_ < 0 || ::fstat(file_, &status) != 0)
     throw InputError("--from-list: " + printablePath(path_) + ": " +

@@ -1,5 +1,6 @@
 #include "stdin_model.h"
 
+#include <poll.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -29,14 +30,25 @@ void writeAll(int file, const char* from, std::size_t count) {
   }
 }
 
+// Waits until stdin has bytes or has ended; a signal ends the wait. Sets errno where it fails.
+bool waitForStdin() {
+  pollfd ready[2] = {{STDIN_FILENO, POLLIN, 0}, {Interrupt::descriptor(), POLLIN, 0}};
+  while (Interrupt::signal() == 0) {
+    if (::poll(ready, 2, -1) < 0 && errno != EINTR) return false;
+    if (ready[0].revents != 0) return true;
+  }
+  errno = EINTR;
+  return false;
+}
+
 // A file without a name, which stays until the process ends: readers open it more than once.
 std::string spooled() {
   const int file = ::memfd_create("stdin", MFD_CLOEXEC);
   if (file < 0) fail("give the model as a file");
   std::vector<char> piece(std::size_t(1) << 16);
   for (std::uint64_t size = 0;;) {
-    const ssize_t got = ::read(STDIN_FILENO, piece.data(), piece.size());
-    if (got < 0 && errno == EINTR && Interrupt::signal() == 0) continue;
+    const ssize_t got = waitForStdin() ? ::read(STDIN_FILENO, piece.data(), piece.size()) : -1;
+    if (got < 0 && (errno == EAGAIN || errno == EINTR) && Interrupt::signal() == 0) continue;
     if (got < 0) fail("give a model, as in glint render - -o OUT < MODEL");
     if (got == 0) break;
     size += static_cast<std::uint64_t>(got);

@@ -1,7 +1,9 @@
 #include "glint/options/exit_status.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -19,6 +21,18 @@ namespace glint {
 
 namespace {
 
+/// Throws InputError if an option of the command was given an empty value: mostly a shell variable
+/// that is not set, where a check that was asked for must not be left out.
+void refuseEmptyValues(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const bool takesValue = option->get_items_expected_max() > 0;
+    if (!takesValue || option->get_positional() || option->count() == 0) continue;
+    if (std::ranges::any_of(option->results(), &std::string::empty))
+      throw InputError(option->get_name() + ": '' is empty: give " + option->get_type_name());
+  }
+  for (const CLI::App* command : app.get_subcommands()) refuseEmptyValues(*command);
+}
+
 /// The body's status, or 0 after --help, --help-json and --version.
 int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   try {
@@ -27,6 +41,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>
       return done;
     }
     app.parse(argc, argv);
+    refuseEmptyValues(app);
     return body();
   } catch (const CLI::Success& success) {
     return app.exit(success);
@@ -40,6 +55,9 @@ std::string failureOf(const std::exception& error, const std::string& what) {
   if (dynamic_cast<const Error*>(&error)) return error.what();
   if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
     return place + "out of memory: give a smaller model, picture or --resolution";
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return (file->path1().empty() ? place : printablePath(file->path1().string()) + ": ") +
+           file->code().message() + ": check the path";
   if (dynamic_cast<const std::system_error*>(&error))
     return place + "this system refuses more threads or files (" + error.what() +
            "): raise its limits (ulimit -u, ulimit -n)";
