@@ -144,8 +144,8 @@ void App::dolly(glm::dvec2 pixel, double factor) {
     if (const auto hit = hitAt(pixel)) surface = hit->position;
   const double height = std::max(1.0, double(resolution_.y));
   const glm::dvec2 cursor = (pixel - glm::dvec2(resolution_) / 2.0) * glm::dvec2(2, -2) / height;
-  // The near plane is at least 1e-5 of the far one's distance (cameraFor), which is at most twice
-  // the radius.
+  // The near plane can be as near as 1e-5 of the far one (cameraFor), which is then at most twice
+  // the radius away.
   const double nearest = 1e-4 * session_.model->bounds.radius;
   bool tooNear = false;
   moveCamera([&](const Pose& p) {
