@@ -40,8 +40,7 @@ inline Light lightOf(Light::Type type) {
   return light;
 }
 
-/// Single features and pairs of adjacent ones in the list, under each program: some hundred
-/// variants.
+/// Single features and some pairs of them, under each program: some hundred variants.
 inline std::set<Variant> sampledVariants() {
   using Change = void (*)(VariantInputs&);
   static constexpr Change changes[] = {
