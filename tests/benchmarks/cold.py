@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Times whole processes that make one picture: glint, the bare lower limit, and f3d if it is
-installed.
+"""Times whole processes that make one picture: glint, the bare lower limit, and f3d if installed.
 
   tests/benchmarks/cold.py BUILD MODEL [--runs N] [--backend egl|osmesa]
 
