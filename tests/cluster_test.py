@@ -6,7 +6,6 @@ cluster_test.py GLINT PROJECT_FOLDER; needs Debian's slurm-wlm, munge and parall
 Runs a controller and two nodes on this machine, in a folder of their own and without root. Draws a
 list of 500 in 8 tasks, one of which is killed and requeued; one node is drained. Then the same with
 parallel, one of whose jobs is killed.
-same by parallel, one of whose jobs is killed.
 """
 
 import json
