@@ -166,8 +166,7 @@ TEST_P(OnBackend, ReadsAPartFromTheTop) {
   for (const int turns : {drivers, 0}) {  // 0: as on drivers that cannot flip rows
     GLINT_GLAD_GL_MESA_pack_invert = turns;
     std::vector<float> rows(4 * 7 * 3, -1.0f);
-    target.read(rows.data(), 4, 3,
-                7);  // rows 2, 1, 0; the three pixels after each stay as they are
+    target.read(rows.data(), 4, 3, 7);  // rows 2, 1, 0; three pixels after each stay unchanged
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 7; ++x)
         EXPECT_EQ(rows[std::size_t(4 * (7 * y + x))], x < 4 ? float(2 - y) : -1.0f)
