@@ -58,10 +58,10 @@ inline double reflectance(double cosTheta, double n1, double n2) {
 inline constexpr double rounding = 1.0 / (1 << 24);
 
 /// The error bound of a lobe drawn in float. Directions carry e = 8 roundings each (a rotation of
-/// three products, a normalisation), so D = L + V - 2 (N.L) N is off by at most about 6 e; lambda =
-/// |D|^2 / 2 then changes by |D| 6 e, and the lobe (1 - lambda)^a by at most max over D of a |D|
-/// exp(-a D^2 / 2) 6 e = sqrt(a / e) 6 e = 0.61 sqrt(a) 6 e. The power itself, exp2 of a logarithm
-/// with a relative error of some 4 roundings, adds 4 roundings / e.
+/// three products, a normalisation), so D = L + V - 2 (N.L) N is off by at most about 6 e.
+/// lambda = |D|^2 / 2 then changes by |D| 6 e, and the lobe (1 - lambda)^a by at most
+/// max over D of a |D| exp(-a D^2 / 2) 6 e = sqrt(a / e) 6 e = 0.61 sqrt(a) 6 e. The power itself,
+/// exp2 of a logarithm with a relative error of some 4 roundings, adds 4 roundings / e.
 inline double lobeTolerance(double exponent) {
   return 0.61 * std::sqrt(exponent) * 48 * rounding + 16 * rounding;
 }

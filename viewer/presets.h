@@ -23,10 +23,10 @@ struct Preset {
 /// usual tables of minerals, and a few more materials, were added.
 std::span<const Preset> presets();
 
-/// A preset as Phong parameters. OpenGL's light model is Blinn-Phong in display values: C =
-/// diffuse, decoded from sRGB to linear light like the others, and m_d = 1. m_a, and m_s with m_sm,
-/// are least-squares fits of ambient = m_a C and specular = m_s (m_sm C + 1 - m_sm), with m_sm = 1
-/// for metals. OpenGL's exponent applies to N.H: m_sp = 128 shininess / 4.
+/// A preset as Phong parameters. OpenGL's light model is Blinn-Phong in display values:
+/// C = diffuse, decoded from sRGB to linear light like the others, and m_d = 1. m_a, and m_s with
+/// m_sm, are least-squares fits of ambient = m_a C and specular = m_s (m_sm C + 1 - m_sm), with
+/// m_sm = 1 for metals. OpenGL's exponent applies to N.H: m_sp = 128 shininess / 4.
 ShadingParameters presetParameters(const Preset&);
 
 }  // namespace glint::viewer
