@@ -210,7 +210,7 @@ function look(x, y, scale) {
   view.scrollTo((x + 0.5) * zoom - view.clientWidth / 2, (y + 0.5) * zoom - view.clientHeight / 2);
 }
 
-/// Exposure and range of pictures whose numbers are no codes.
+/// Exposure and range for pictures whose values are not codes.
 function developBar() {
   const bar = element('div', undefined, 'bar');
   bar.id = 'develop';
