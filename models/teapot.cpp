@@ -39,8 +39,8 @@ glm::dvec3 blend(const int (&patch)[16], const std::array<double, 4>& u,
 SurfacePoint evaluate(const int (&patch)[16], double u, double v) {
   const glm::dvec3 alongU = blend(patch, weightSlopes(u), weights(v));
   glm::dvec3 alongV = blend(patch, weights(u), weightSlopes(v));
-  // At the poles of lid and bottom the row u = 0 is one point and S_v is zero. Near it, S_v is u
-  // S_uv to first order, so S_uv gives the limit of the normal's direction.
+  // At the poles of lid and bottom the row u = 0 is one point and S_v is zero. Near it, S_v is
+  // u S_uv to first order, so S_uv gives the limit of the normal's direction.
   if (glm::length(alongV) < 1e-12) {
     alongV = blend(patch, weightSlopes(u), weightSlopes(v));
   }

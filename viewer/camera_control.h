@@ -52,8 +52,8 @@ void fit(Look&, const Scene&, const Bounds&);
 /// Restores the framing that a scene has without camera options.
 void resetCamera(Look&);
 
-/// A ray in world space with a unit direction. At the distance t, its pixel's footprint
-/// has the width `width` + `spread` t.
+/// A ray in world space with a unit direction. At the distance t, its pixel's footprint has the
+/// width `width` + `spread` t.
 struct Ray {
   glm::dvec3 origin{0.0}, direction{0, 0, -1};
   double width = 0, spread = 0;

@@ -28,7 +28,7 @@ class Dialogs {
   bool open() const { return kind_ != Kind::none; }
   void draw();
 
-  /// Keys in the current ImGui frame for a dialog.
+  /// Passes a key of the current ImGui frame to the dialog.
   void pressEnter() { enter_ = true; }
   void pressEscape() { escape_ = true; }
 

@@ -15,7 +15,7 @@ std::string withoutEffect(const Look&, const Scene*, std::string_view parameter)
 
 /// A difference between two looks, in words.
 struct Difference {
-  std::string what, a, b;  ///< "-" if a look leaves it open
+  std::string what, a, b;  ///< "exponent of Gold", "80", "20"; "-" if a look leaves it open
 };
 
 /// All differences between two looks, with the materials' parameters one by one; the resolution is

@@ -14,7 +14,7 @@ namespace glint::viewer {
 /// A texture of a material, as the panel shows it.
 struct MaterialTexture {
   std::string name, drives;              ///< "base colour"; "multiplies color"
-  int image = 0;                         ///< index in the scene
+  int image = 0;                         ///< index into the scene's images
   unsigned gives = 0;                    ///< parameters that it gives instead of numbers, as bits
   unsigned replaced = 0;                 ///< those of them for which the look has numbers
   const SwitchedTexture* own = nullptr;  ///< set if it gives no parameters: switched by its name

@@ -42,7 +42,7 @@ class Pace {
   static constexpr int most = 6;
   double whole_ = 0;
   int division_ = 1;
-  int useful_ = most;  ///< largest division that helped
+  int useful_ = most;  ///< largest division worth trying
   double larger_ = 0;  ///< ms with one division less
   double least_ = 0;   ///< ms, the fastest of `tries_` with this division that were too slow
   int tries_ = 0;

@@ -109,7 +109,7 @@ void drawCameraTab(PanelContext& context) {
   for (const Parameter& p : lookParameters()) {
     if (p.section != "Camera") continue;
     std::optional<glm::dvec3> shown;
-    // Snaps values that are zero except for rounding.
+    // Sets values that are 0 except for rounding to 0.
     const auto tidy = [](glm::dvec3 v) {
       const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
       for (int c = 0; c < 3; ++c)

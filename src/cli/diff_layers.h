@@ -28,7 +28,7 @@ struct LayerPairs {
 /// The smallest and the largest finite value; 0 and 1 if there is none.
 std::pair<float, float> rangeOf(const StoredImage& image);
 
-/// Matches layers by name, and notes what is not compared and which metadata are not followed.
+/// Matches layers by name, and notes what is not compared and which metadata is ignored.
 LayerPairs matchLayers(const PictureLayers& a, const PictureLayers& b, DiffEntry& entry);
 
 /// Compares two layers and adds the result to the entry. Layers that are not colours are judged by

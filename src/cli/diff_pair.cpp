@@ -270,8 +270,7 @@ void showAlone(const DiffSettings& settings, const std::string& path, bool isA, 
 
 std::vector<std::byte> pictureBytes(const std::string& path) {
   if (path != "-") return readFile(path);
-  static const std::vector<std::byte> bytes = readStdin();  // kept, as several baselines may be
-                                                            // tried
+  static const std::vector<std::byte> bytes = readStdin();  // several baselines may be tried
   return bytes;
 }
 

@@ -79,7 +79,7 @@ std::string metricText(const Json& pair, const std::string& name) {
   if (metrics == pair.end() || !metrics->contains(name)) return "";
   const Json& value = (*metrics)[name]["value"];
   if (value.is_number()) return shortNumber(value.get<double>());
-  // Equal pictures have no noise; without any numbers there is no PSNR.
+  // The PSNR of equal pictures is infinite; a metric without any numbers is NaN.
   const bool equal =
       name == "psnr" && metrics->contains("max") && (*metrics)["max"]["value"].is_number();
   return equal ? "inf" : "nan";

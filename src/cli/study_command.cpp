@@ -46,7 +46,7 @@ constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
 constexpr double quickLongFrame = 15, fullLongFrame = 50;
 constexpr int longRounds = 36;
 constexpr int quickTruth = 4, fullTruth = 8;  ///< N x N samples per pixel of the second truth
-constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< lower limits
+constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< most builds, least rounds
 
 /// A study takes single samples; sets what the given look leaves open.
 Look studyLook(const StudyArguments& given, Look look) {
@@ -181,7 +181,7 @@ void refuseOthers(const CLI::App& command, const std::string& mode, const std::s
   }
 }
 
-/// Whether this driver computes `mediump` in 16 bits, as the table does.
+/// Reports whether this driver computes `mediump` in 16 bits, as the table does.
 std::string driversHalves() {
   try {
     const MediumpReport driver = mediumpOfDriver();
