@@ -1,5 +1,5 @@
-// The small interface of glint/glint.h and glint/compare.h: it gives the program's pictures;
-// layers, models from memory and arrays, errors, threads, fork, and memory over many sessions.
+// The small interface of glint/glint.h and glint/compare.h: the program's pictures, layers, models
+// from memory and arrays, errors, threads, fork, and memory over many sessions.
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

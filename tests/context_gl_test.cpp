@@ -132,7 +132,7 @@ TEST_P(OnBackend, DrawsWhatTheFormulaSays) {
   for (int samples : {1, 4}) {
     const std::vector<float> pixels = drawTriangle(samples);
     const auto at = [&](int x, int y) { return &pixels[4 * ((height - 1 - y) * width + x)]; };
-    // Row 0 is the bottom one: it crosses the triangle's base; the tip is at the top.
+    // Row 0 is the bottom one, where the triangle's base is; its tip is at the top.
     EXPECT_FLOAT_EQ(at(0, height - 1)[0], 0.01f);
     const int x = 18, y = 9;
     const double u = (x + 0.5) / width, v = (y + 0.5) / height;

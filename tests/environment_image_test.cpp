@@ -79,9 +79,9 @@ double quadraticIn(const glm::dvec3& d) { return 0.5 + 0.4 * (d.x * d.y + d.z * 
 
 // The mean over a footprint with the variance v along each axis is E + v (E_xx + E_yy) / 2. The
 // square of side s has v = s^2 / 12. The mip levels have at most 1.27 s^2 / 9 (h^2 / 3 between
-// texels of the height h = s / sqrt(3), which blending two levels makes 1.27 times that); this is
-// the distance from the value at the centre. E_xx is at most 0.5 for the linear radiance and 4
-// times 0.7 for the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8
+// texels of the height h = s / sqrt(3), which blending two levels makes 1.27 times that), which
+// gives the distance from the value at the centre. E_xx is at most 0.5 for the linear radiance and
+// 4 times 0.7 for the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8
 // times both second derivatives; near a pole, the widening of a row adds 0.35 h^2 for the quadratic
 // radiance.
 TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {

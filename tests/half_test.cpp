@@ -63,9 +63,9 @@ TEST(HalfForms, PowLosesTheCosineNextToThePeak) {
   EXPECT_GT(halfErrorOf(Highlight::pow, 0, 10000).half, 0.5);
 }
 
-// Lambda's halves are fine enough near 0: rounding it moves a lobe by at most 2^-11 alpha lambda
-// exp(-alpha lambda) <= 2^-11 / e. Three operations and g squarings follow, each with an error of
-// at most 2^-11, whose sum g + 2 squarings multiply.
+// Lambda's halves are fine enough near 0: rounding it moves a lobe by at most
+// 2^-11 alpha lambda exp(-alpha lambda) <= 2^-11 / e. Three operations and g squarings follow, each
+// with an error of at most 2^-11, whose sum g + 2 squarings multiply.
 TEST(HalfForms, SquaringFromLambdaHoldsForEveryExponent) {
   for (const int gamma : {1, 4, 16})
     for (const double alpha : {20.0, 100.0, 1000.0, 10000.0}) {

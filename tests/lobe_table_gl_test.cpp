@@ -39,8 +39,8 @@ int pixelsOff(const Image& drawn, const Image& truth, double tolerance) {
 }
 
 // Compared with the same form in double. The tolerance is its rounding and the driver's
-// interpolation of normals (1e-6, times the steepest slope 0.61 sqrt(a)); at edges, some 1000
-// pixels, the driver may choose the adjacent triangle.
+// interpolation of normals (1e-6, times the steepest slope 0.61 sqrt(a)); at edges, in a
+// few of some 1000 pixels, the driver may choose the adjacent triangle.
 TEST_P(LobeTable, IsThatInDouble) {
   for (const Shading shading : {Shading::phong, Shading::blinnPhong, Shading::gouraud})
     for (const int steps : {16, 64, 1024})

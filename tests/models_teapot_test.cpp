@@ -147,7 +147,7 @@ TEST(Teapot, StandsOnTheGroundAndIsOneAndAHalfHigh) {
     least = glm::min(least, p);
     most = glm::max(most, p);
   }
-  // Vertices lie on the handle's, the widest ring's, the ground's and the knob's extremes.
+  // The extremes of the handle, the body's widest ring, the ground and the knob are vertices.
   EXPECT_NEAR(least.x, -3.0 * teapotScale, rounding * 2.0);
   EXPECT_EQ(least.y, 0.0);
   EXPECT_EQ(most.y, 1.5);

@@ -121,8 +121,8 @@ TEST(Sphere, LiesOnTheUnitSphere) {
     ASSERT_EQ(model.normals[i], model.positions[i]);
   }
   EXPECT_EQ(openEdges(model), 0u);
-  // A polyhedron with 72 by 36 faces inside the sphere lacks a fraction of the order of (2
-  // pi/72)^2.
+  // A polyhedron with 72 by 36 faces inside the sphere lacks a fraction of the order of
+  // (2 pi/72)^2.
   EXPECT_NEAR(volume(model) / (4.0 / 3.0 * std::numbers::pi), 1.0, 0.0076);
 }
 

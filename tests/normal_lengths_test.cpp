@@ -122,8 +122,8 @@ TEST(NormalLengths, AreMadeWhereTheLookAsksForThem) {
   EXPECT_EQ(again(false), 0u);
 }
 
-// a / (1 + 4 a v) for Phong, n / (1 + n v) for Blinn-Phong. The total light of the lobe, 2 pi / (a
-// + 1), is unchanged.
+// a / (1 + 4 a v) for Phong, n / (1 + n v) for Blinn-Phong. The total light of the lobe,
+// 2 pi / (a + 1), is unchanged.
 TEST(NormalLengths, WidenTheLobe) {
   for (const double n : {0.0, 1.0, 20.0, 400.0, 1e6})
     for (const double v : {0.0, 1e-5, 0.01, 1.0}) {

@@ -42,8 +42,8 @@ double integral(double a, double b, int cells, F f) {
 }
 
 /// The radiance that a surface with the normal +Z reflects in a furnace of radiance 1, towards V at
-/// the angle `view` from the normal: 1/pi times the integral of the highlight over all L with N.L >
-/// 0. A white diffuse surface reflects 1/pi times the integral of N.L, which is 1. Integrated
+/// the angle `view` from the normal: 1/pi times the integral of the highlight over all L with
+/// N.L > 0. A white diffuse surface reflects 1/pi times the integral of N.L, which is 1. Integrated
 /// around the lobe's axis, with the angle a as 1 - cos a = exp(y), so that lobes of every width get
 /// enough steps.
 double furnace(const SumParameters& p, bool blinn, double view) {
@@ -81,7 +81,7 @@ TEST(Normalization, ExactShowsTheShareInAFurnaceAlongTheNormal) {
   }
 }
 
-// The unnormalised formula reflects less and less.
+// The notes' formula, without normalisation, reflects less and less.
 TEST(Normalization, WithoutItTheLightIsThatOfTheLobesSize) {
   for (const double n : exponents)
     EXPECT_NEAR(furnace(parametersFor(n, Normalization::none), false, 0) * (n + 1) / 2, 1,

@@ -54,8 +54,8 @@ void expectCounts(std::initializer_list<Counted> cases, PixelDistance distance) 
   }
 }
 
-// Counted by the program itself, version 7.2.0: pixelmatch(a, b, null, 48, 48, {threshold,
-// includeAA}).
+// Counted by the program itself, version 7.2.0:
+// pixelmatch(a, b, null, 48, 48, {threshold, includeAA}).
 TEST(PixelCount, AsPixelmatch7) {
   expectCounts({{192, 191, 0, {{0, 96, 0}, {0.02, 96, 0}, {0.1, 37, 0}, {0.3, 0, 0}}},
                 {194, 190, 0, {{0, 120, 0}, {0.02, 120, 0}, {0.1, 64, 0}, {0.3, 0, 0}}},

@@ -125,8 +125,8 @@ TEST(StudyFront, ALargerErrorMustBePaidForByMoreThanNoise) {
   EXPECT_EQ(membersOf(paretoFront(candidates, 0.1)), (std::vector{0}));
 }
 
-// None exceeds the spread of its neighbour, but the last exceeds the first's: it may be on the
-// front, and so may those in between, but none is certain.
+// None is beyond the spread of its neighbour, but the last is beyond that of the first: it may be
+// on the front, and so may those in between, but none is certain.
 TEST(StudyFront, AChainOfSmallStepsHasItsBeginAlone) {
   const Times a = framesOf(4.0, 1, 0.01), b = framesOf(3.8, 2, 0.01), c = framesOf(3.5, 3, 0.01);
   const FrontCandidate candidates[] = {{1e-6, a}, {1e-5, b}, {1e-4, c}};

@@ -81,8 +81,8 @@ TEST_F(StudySeriesOnGl, AShaderWithEverythingGivesTheSamePicture) {
   }
 }
 
-// Aliasing far larger than the error of a form, and what the filter leaves of it. The truth has 8 x
-// 8 samples, whose own error is far below.
+// Aliasing far larger than the error of a form, and what the filter leaves of it. The truth has
+// 8 x 8 samples, whose own error is far below.
 TEST_F(StudySeriesOnGl, AliasingIsLargerThanAFormsErrorAndIsFilteredAway) {
   const SeriesTools small = tools();
   const StudySeries series = *aliasingSeries(small);
