@@ -1,4 +1,4 @@
-// The same picture drawn by the driver and in double precision on the CPU.
+// Compares the picture drawn by the driver with the one drawn in double precision on the CPU.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@ TEST(Teapot, LooksLikeTheReference) {
   const glint::Model model = glint::Model::load(MODEL);
   const glint::Options look{{"resolution", "128,128"}, {"anti-aliasing", "none"}};
   glint::Session driver, reference("reference");
-  // At edges a driver may give a pixel to the neighbour: the mean says more than the maximum.
+  // At edges a driver may give a pixel to either side, so the mean is more telling than the
+  // maximum.
   EXPECT_THAT(driver.draw(model, look),
               glint::LooksLike(reference.draw(model, look), {{"mean", 1e-4}, {"flip", 1e-3}}));
 }

@@ -11,8 +11,8 @@ int main(int argc, char** argv) try {
   }
   glint::Session session;  // keeps its shaders from picture to picture
   const glint::Model model = glint::Model::load(argv[1]);
-  // As `glint render` without options, but for these. Within an error of 0.001 of linear light the
-  // cheapest formulas are taken.
+  // Like `glint render`, with only these options. The cheapest formulas within an error of 0.001 of
+  // linear light are chosen.
   const glint::Options look{{"resolution", "256,256"},
                             {"shading", "blinn-phong"},
                             {"no-background", "true"},

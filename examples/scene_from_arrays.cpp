@@ -1,4 +1,4 @@
-// scene_from_arrays PICTURE: a wave made of numbers, without a model file.
+// scene_from_arrays PICTURE: a wave computed in the program, without a model file.
 
 #include <cmath>
 #include <cstdio>

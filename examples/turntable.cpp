@@ -1,4 +1,4 @@
-// turntable MODEL COUNT NAME: NAME-0.png and so on, the model seen from all around.
+// turntable MODEL COUNT NAME: writes NAME-0.png and so on, views of the model from all around.
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
     return 2;
   }
   glint::Session session;
-  const glint::Model model = glint::Model::load(argv[1]);  // once, for all pictures
+  const glint::Model model = glint::Model::load(argv[1]);  // loaded once, for all pictures
   for (int i = 0; i < count; ++i) {
     const std::string path = argv[3] + ("-" + std::to_string(i)) + ".png";
     const std::string degrees = std::to_string(360.0 * i / count);

@@ -5,9 +5,9 @@
 
 namespace glint::models {
 
-// Reduced to half a quadrant, so that symmetric points
-// have the same digits and the axes are met exactly; summed as Taylor series instead of asking
-// libm, so that the files are the same whatever library the program runs with.
+// Reduced to half a quadrant, so that symmetric points have the same digits and the axes are met
+// exactly. Summed as Taylor series instead of calling libm, so that the files do not depend on the
+// library that the program runs with.
 glm::dvec2 onCircle(int k, int n) {
   assert(n % 8 == 0);
   k = ((k % n) + n) % n;

@@ -13,7 +13,7 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// A chunk of a GLB file, filled up to a multiple of four bytes.
+/// A chunk of a GLB file, padded to a multiple of four bytes.
 void appendChunk(std::string& file, const char (&type)[5], std::string data, char filler) {
   data.resize((data.size() + 3) / 4 * 4, filler);
   append(file, static_cast<std::uint32_t>(data.size()));
@@ -67,7 +67,7 @@ int GlbBuilder::addIndices(const std::vector<std::uint32_t>& indices, std::size_
                      {{"target", Gl::elements}},
                      {{"componentType", componentType}, {"type", "SCALAR"}});
   };
-  // The largest 16-bit index is not a vertex in glTF: it restarts strips.
+  // The largest 16-bit index must not be used in glTF: it is the primitive restart value.
   if (vertices > std::numeric_limits<std::uint16_t>::max()) {
     return add(indices, Gl::unsignedInt);
   }

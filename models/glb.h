@@ -24,28 +24,28 @@ enum Gl {
   elements = 34963
 };
 
-/// A binary glTF 2.0 file while it grows: the document, and the buffer with all accessors, each in
-/// a view of its own. The functions that add something return its index.
+/// A binary glTF 2.0 file under construction: the document, and the buffer with all accessors, each
+/// in a view of its own. The functions that add something return its index.
 class GlbBuilder {
  public:
   json document;  ///< materials, skins, animations and extensions are written here directly
 
-  /// Floats, with the bounds that glTF asks of positions.
+  /// Floats, with the bounds that glTF requires for positions.
   template <int Size>
   int addVertices(const std::vector<glm::vec<Size, float>>& values);
   int addBytes(const std::vector<glm::u8vec4>& values);
   int addMatrices(const std::vector<glm::mat4>& values);
   int addKeys(const std::vector<float>& values);      ///< times, or weights
   int addKeys(const std::vector<glm::vec4>& values);  ///< rotations
-  /// 16 bits wide where `vertices` fit.
+  /// 16 bits wide if that is enough for `vertices`.
   int addIndices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
 
-  /// The glTF primitive of a mesh whose vertices and indices it adds.
+  /// Adds the vertices and indices of a mesh; returns its glTF primitive.
   json primitive(const Mesh& mesh, int material);
   int addMesh(const std::string& name, const json& primitive);
   int addNode(const json& node);
 
-  /// The file, its scene made of these nodes.
+  /// The complete file; `roots` are the root nodes of its scene.
   std::string bytes(const std::vector<int>& roots);
 
  private:
@@ -77,8 +77,8 @@ int GlbBuilder::addVertices(const std::vector<glm::vec<Size, float>>& values) {
                     {"max", maximum}});
 }
 
-/// The bytes of a file with one node, one mesh and one material (a glTF material object; its name
-/// also names the mesh and the node).
+/// The bytes of a file with one node, one mesh and one material. `material` is a glTF material
+/// object, whose name is also that of the mesh and the node.
 std::string glb(const Mesh& mesh, const json& material);
 
 }  // namespace glint::models

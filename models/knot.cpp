@@ -18,7 +18,7 @@ Mesh torusKnot(double major, double minor, double thickness, int along, int arou
         glm::dvec3(-turnsOfCircle * minor * q.y * p.x - turnsAboutAxis * distance * p.y,
                    turnsOfCircle * minor * q.x,
                    -turnsOfCircle * minor * q.y * p.y + turnsAboutAxis * distance * p.x));
-    // The curve lies on a torus, whose normal is at right angles to it and closes with it.
+    // The curve lies on a torus, whose normal is perpendicular to it and has the curve's period.
     const glm::dvec3 up(q.x * p.x, q.y, q.x * p.y);
     const glm::dvec3 side = glm::cross(up, tangent);
     for (int j = 0; j < around; ++j) {

@@ -9,7 +9,7 @@
 namespace glint::models {
 
 void Profile::add(const Point& point) {
-  // Pieces that continue one another smoothly have their common point once.
+  // Where pieces join smoothly, their common point is stored once.
   if (!points_.empty() && glm::distance(points_.back().position, point.position) < 1e-9 &&
       glm::distance(points_.back().normal, point.normal) < 1e-9) {
     return;
@@ -31,7 +31,7 @@ void Profile::grooves(glm::dvec2 center, double radius, int from, int to, int wa
   for (int i = 0; i <= steps; ++i) {
     const glm::dvec2 outward = onCircle(from * steps + (to - from) * i, 360 * steps);
     const glm::dvec2 wave = onCircle(i, stepsPerWave);
-    // In polar coordinates the normal of r(t) is r e_r - r' e_t, with r' by the angle.
+    // In polar coordinates the normal of r(t) is r e_r - r' e_t, where r' is dr/dt.
     const double r = radius - depth * (1.0 - wave.x) / 2.0;
     const double slope = -depth * wave.y / 2.0 * waves * 2.0 * std::numbers::pi / angle;
     const glm::dvec2 along(-outward.y, outward.x);
@@ -75,7 +75,7 @@ Mesh lathe(const Profile& profile, int around) {
     }
   };
   for (std::size_t row = 0; row + 1 < points.size(); ++row) {
-    // Two points at one place are an edge: the surface has another normal on each side.
+    // Two points at the same place are a crease: the surface has a different normal on each side.
     if (glm::distance(points[row].position, points[row + 1].position) < 1e-9) continue;
     for (int i = 0; i < around; ++i) {
       triangle(index(row, i), index(row, i + 1), index(row + 1, i + 1));

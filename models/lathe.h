@@ -7,8 +7,8 @@
 
 namespace glint::models {
 
-/// A line in the half plane of radius (x >= 0) and height (y), of arcs, straight pieces and waves
-/// that continue one another; its normals point to the left of its way, seen with x to the right.
+/// A line in the half plane of radius (x >= 0) and height (y), made of connected arcs, straight
+/// pieces and waves. Its normals point to the left of its direction, with x to the right.
 class Profile {
  public:
   struct Point {
@@ -16,8 +16,8 @@ class Profile {
     glm::dvec2 normal;
   };
 
-  /// An arc from `from` to `to` 360ths of a turn, in `steps` pieces; clockwise it is convex, the
-  /// normals pointing away from the centre, counter-clockwise hollow.
+  /// An arc from `from` to `to`, in 360ths of a turn, in `steps` pieces. Clockwise arcs are convex,
+  /// with normals that point away from the centre; counter-clockwise ones are concave.
   void arc(glm::dvec2 center, double radius, int from, int to, int steps);
   /// The arc with `waves` grooves of this depth cut into it, smooth at both ends.
   void grooves(glm::dvec2 center, double radius, int from, int to, int waves, double depth);
@@ -32,7 +32,7 @@ class Profile {
   std::vector<Point> points_;
 };
 
-/// The profile turned about the Y axis; `around` is a multiple of 8. It goes downwards outside.
+/// The profile rotated about the Y axis; `around` is a multiple of 8. Its outside goes downwards.
 Mesh lathe(const Profile& profile, int around);
 
 }  // namespace glint::models

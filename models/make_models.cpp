@@ -55,7 +55,7 @@ json glazedCeramic() {
                           {{"baseColorFactor", {0.02, 0.35, 0.38, 1}},
                            {"metallicFactor", 0},
                            {"roughnessFactor", 0.2807}});
-  // Between lid and rim, and through the spout, one sees the inside of the pot.
+  // The inside of the pot is visible between lid and rim, and through the spout.
   ceramic["doubleSided"] = true;
   return ceramic;
 }

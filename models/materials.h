@@ -6,13 +6,13 @@
 
 namespace glint::models {
 
-/// A glTF material whose Phong parameters stand in extras.glint. The roughness beside them is the
-/// one that the conversion of docs/materials.md takes back to the same exponent: 2/r⁴ - 2 is four
-/// times Phong's.
+/// A glTF material with Phong parameters in extras.glint. Its roughness is the one that the
+/// conversion of docs/materials.md turns back into the same exponent: 2/r⁴ - 2 is four times
+/// Phong's.
 nlohmann::json material(const std::string& name, const nlohmann::json& phong,
                         const nlohmann::json& pbr);
 
-/// One with all the light that a plastic (metalness 0) or a metal (1) scatters and mirrors.
+/// A material that scatters and mirrors all light, as a plastic (metalness 0) or a metal (1).
 nlohmann::json material(const std::string& name, const std::array<double, 3>& color,
                         double specular, double exponent, double metalness);
 

@@ -6,12 +6,12 @@
 
 namespace glint::models {
 
-/// Triangles as they go into a file: model space, +Y up, counter-clockwise seen from outside.
+/// Triangles as stored in a file: model space, +Y up, counter-clockwise seen from outside.
 struct Mesh {
   std::vector<glm::vec3> positions;
-  /// Unit length, one a position; empty on the unit sphere, where the positions are the normals.
+  /// Unit length, one per position; empty for the unit sphere, where the positions are the normals.
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec2> texcoords;  ///< one a position, or empty; (0, 0) is the upper left
+  std::vector<glm::vec2> texcoords;  ///< one per position, or empty; (0, 0) is the upper left
   std::vector<std::uint32_t> indices;
 };
 
@@ -20,22 +20,22 @@ struct Mesh {
 /// `around` is a multiple of 8, `down` one of 4.
 Mesh sphere(int around, int down);
 
-/// The torus around the Y axis; the circle of radius `minor` runs at the distance `major`.
-/// `around` and `along` (the small circle) are multiples of 8.
+/// The torus around the Y axis: a tube of radius `minor` around a circle of radius `major`.
+/// `around` and `along` (around the tube) are multiples of 8.
 Mesh torus(double major, double minor, int around, int along);
 
-/// The unit sphere as an icosahedron, each triangle cut into four `level` times with the new
-/// vertices moved onto the sphere: 20 * 4^level triangles. It is turned so that no vertex lies on
-/// an axis or in a coordinate plane, where errors of shading could vanish by symmetry.
+/// The unit sphere as an icosahedron whose triangles are divided into four `level` times, with the
+/// new vertices moved onto the sphere: 20 * 4^level triangles. It is rotated so that no vertex lies
+/// on an axis or in a coordinate plane, where shading errors could vanish by symmetry.
 Mesh icosphere(int level);
 
-/// A tube of radius `thickness` about the trefoil knot that goes twice around the Y axis and three
-/// times around the small circle of the torus of these radii. `along` and `around` (the tube) are
+/// A tube of radius `thickness` around the trefoil knot that goes twice around the Y axis and three
+/// times around the tube of the torus with these radii. `along` and `around` (the tube) are
 /// multiples of 8.
 Mesh torusKnot(double major, double minor, double thickness, int along, int around);
 
-/// The Utah teapot, 1.5 high, standing on y = 0, the spout towards +X; each patch is a grid of
-/// `steps` by `steps` quadrilaterals. Vertices that patches share are one where the normals agree.
+/// The Utah teapot, 1.5 high, standing on y = 0, with its spout towards +X; each patch is a grid of
+/// `steps` by `steps` quadrilaterals. Patches share vertices where their normals agree.
 Mesh teapot(int steps);
 
 }  // namespace glint::models

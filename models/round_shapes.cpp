@@ -19,10 +19,10 @@ void addQuad(std::vector<std::uint32_t>& indices, std::uint32_t a, std::uint32_t
 
 using Face = std::array<std::uint32_t, 3>;
 
-/// The 20 triangles of the icosahedron's twelve vertices: every three that are neighbours of each
-/// other, turned counter-clockwise seen from outside.
+/// The 20 triangles of the icosahedron's twelve vertices: every three mutual neighbours, ordered
+/// counter-clockwise seen from outside.
 std::vector<Face> icosahedronFaces(const std::vector<glm::dvec3>& points) {
-  // Neighbours have the dot product 1/sqrt(5), all others are at most -1/sqrt(5).
+  // Neighbours have the dot product 1/sqrt(5), for all others it is at most -1/sqrt(5).
   const auto areNeighbours = [&](std::uint32_t a, std::uint32_t b) {
     return glm::dot(points[a], points[b]) > 0.0;
   };
@@ -41,7 +41,7 @@ std::vector<Face> icosahedronFaces(const std::vector<glm::dvec3>& points) {
   return faces;
 }
 
-/// Vertices at the middle of edges, on the sphere; each edge is cut once.
+/// Vertices at edge midpoints, moved onto the sphere; each edge is divided once.
 class Midpoints {
  public:
   explicit Midpoints(std::vector<glm::dvec3>& points) : points_(points) {}
@@ -61,8 +61,9 @@ class Midpoints {
 };
 
 /// A rotation without symmetry, from the quaternion (9, 2, 5, 1) / sqrt(111): rational, so that its
-/// entries are exact to one rounding. Of 108 small quaternions this one keeps the vertices of level
-/// 6 farthest from the axes (0.007; edges are 0.017 long) and 1.2e-5 off the coordinate planes.
+/// entries are exact to one rounding. Among 108 small quaternions this one keeps the vertices of
+/// level 6 farthest from the axes (0.007; edges are 0.017 long) and 1.2e-5 off the coordinate
+/// planes.
 glm::dvec3 turned(const glm::dvec3& p) {
   return glm::dvec3(59 * p.x + 2 * p.y + 94 * p.z, 38 * p.x + 101 * p.y - 26 * p.z,
                     -86 * p.x + 46 * p.y + 53 * p.z) /
@@ -84,7 +85,7 @@ Mesh sphere(int around, int down) {
     return glm::dvec3(-fromPole.y * fromSeam.y, fromPole.x, -fromPole.y * fromSeam.x);
   };
 
-  const std::uint32_t rowLength = around + 1;  // the seam's vertices stand twice: u is 0 and 1
+  const std::uint32_t rowLength = around + 1;  // the seam's vertices are stored twice: u is 0 and 1
   for (int row = 1; row < down; ++row) {
     for (int column = 0; column <= around; ++column) {
       add(at(row, column), {double(column) / around, double(row) / down});
@@ -96,7 +97,7 @@ Mesh sphere(int around, int down) {
       addQuad(mesh.indices, a, a + rowLength, a + rowLength + 1, a + 1);
     }
   }
-  // Each triangle at a pole has a vertex of its own there, with u in its middle.
+  // Each triangle at a pole has its own pole vertex, with u at the triangle's middle.
   const std::uint32_t lastRow = (down - 2) * rowLength;
   for (std::uint32_t column = 0; column + 1 < rowLength; ++column) {
     const double u = (column + 0.5) / around;

@@ -12,7 +12,7 @@
 namespace glint::models {
 namespace {
 
-/// The quaternion x, y, z, w of a turn by 2 k/n turns about X or Z.
+/// The quaternion x, y, z, w of a rotation by 2 k/n turns about X or Z.
 glm::vec4 aboutX(int k, int n) {
   const glm::dvec2 half = onCircle(k, n);
   return {half.y, 0.0, 0.0, half.x};
@@ -30,7 +30,7 @@ Mesh plainSphere(int around, int down) {
   return mesh;
 }
 
-/// A square about the origin, facing up.
+/// A square centred at the origin, facing up.
 Mesh floorMesh(double size, int pieces) {
   Mesh mesh;
   for (int row = 0; row <= pieces; ++row) {
@@ -70,8 +70,8 @@ std::string preview() {
   const double slant = std::sqrt(0.5);
   const glm::dvec2 diagonal(slant, slant);
   const double dish = 0.35, rim = 0.05, throat = 0.2;
-  // Each circle touches the one before: the rim the dish at 45 degrees, the ball the rim at 60
-  // degrees from the horizon, the throat the ball at 45 degrees below it.
+  // Each circle touches the previous one: the rim touches the dish at 45 degrees, the ball the rim
+  // at 60 degrees above the horizontal, the throat the ball at 45 degrees below it.
   const glm::dvec2 rimCenter(slant * (dish + rim), 0.0);
   const glm::dvec2 dishCenter = rimCenter + (dish + rim) * glm::dvec2(-slant, slant);
   const glm::dvec2 at60 = onCircle(60, 360);
@@ -144,7 +144,8 @@ std::string bend() {
   profile.arc({0.0, radius}, radius, 0, -90, 6);
   const Mesh mesh = lathe(profile, 24);
 
-  // Halfway up each bone its joint holds alone; from there on the next one takes over.
+  // Up to the middle of each bone only its own joint has weight; from there the next one takes
+  // over.
   std::vector<glm::u8vec4> holders;
   std::vector<glm::vec4> weights;
   for (const glm::vec3& p : mesh.positions) {
@@ -194,7 +195,7 @@ std::string morph() {
     const glm::dvec3 axes(0.6, 1.5, 0.6);
     toTall.emplace_back(axes * p - p);
     toTallNormal.emplace_back(glm::normalize(p / axes) - p);
-    // x^4 + y^4 + z^4 = 1/2, whose normal goes along the third powers.
+    // x^4 + y^4 + z^4 = 1/2, whose normal is along the third powers.
     const glm::dvec3 square = p * p;
     const double size = std::sqrt(std::sqrt(2.0 * glm::dot(square, square)));
     toCube.emplace_back(p / size - p);
@@ -256,7 +257,8 @@ std::string lights() {
                          {"rotation", jsonOf(turn)},
                          {"extensions", {{extension, {{"light", light}}}}}}));
   };
-  // Lights shine along -Z: turned by -60 and -75 degrees about X, downwards and somewhat back.
+  // Lights shine along -Z: rotated by -60 and -75 degrees about X, they point down and slightly
+  // back.
   addLight(0, {0.0, 3.0, 0.0}, aboutX(-2, 24));
   addLight(1, {-1.5, 0.9, 0.7}, aboutX(0, 24));
   addLight(2, {1.2, 2.0, 0.6}, aboutX(-5, 48));

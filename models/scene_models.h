@@ -4,17 +4,17 @@
 
 namespace glint::models {
 
-/// Binary glTF files of more than one mesh and material.
+/// Binary glTF files with more than one mesh and material.
 
-/// An object to judge a material by: a hollow dish, a rim, a ball with a belt of grooves and a
+/// An object for judging materials: a hollow dish, a rim, a ball with a belt of grooves and a
 /// throat ("Preview") on a flat base with round edges ("Base").
 std::string preview();
 
-/// Spheres of one mesh: the exponent doubles to the right, the metalness grows upwards; the
+/// Spheres of one mesh: the exponent doubles to the right, the metalness increases upwards; the
 /// materials are called "e10-m0.5".
 std::string chart();
 
-/// A rod with a skin of four joints, bent to both sides in four seconds.
+/// A rod with a skin of four joints, which bends to both sides in four seconds.
 std::string bend();
 
 /// A ball that becomes tall, then a cube, then a ball again, in three seconds.

@@ -9,7 +9,7 @@ namespace {
 
 struct SurfacePoint {
   glm::dvec3 position;
-  glm::dvec3 normal;  ///< unit length, out of the pot
+  glm::dvec3 normal;  ///< unit length, pointing out of the pot
 };
 
 /// Cubic Bernstein polynomials at t in [0, 1].
@@ -40,21 +40,21 @@ SurfacePoint evaluate(const int (&patch)[16], double u, double v) {
   const glm::dvec3 alongU = blend(patch, weightSlopes(u), weights(v));
   glm::dvec3 alongV = blend(patch, weights(u), weightSlopes(v));
   // At the poles of lid and bottom the row u = 0 is one point and S_v is zero. Near it, S_v is
-  // u S_uv to first order, so that S_uv gives the limit of the normal's direction.
+  // u S_uv to first order, so S_uv gives the limit of the normal's direction.
   if (glm::length(alongV) < 1e-12) {
     alongV = blend(patch, weightSlopes(u), weightSlopes(v));
   }
   return {blend(patch, weights(u), weights(v)), glm::normalize(glm::cross(alongV, alongU))};
 }
 
-/// The vertices so far; points that differ by rounding alone are one vertex.
+/// The vertices so far; points that differ only by rounding are merged.
 class Vertices {
  public:
   explicit Vertices(Mesh& mesh) : mesh_(mesh) {}
 
   std::uint32_t add(const SurfacePoint& point) {
-    // Where patches meet, their points agree but for rounding (1e-15), and so do their normals:
-    // the published surface has no crease. All others are farther apart than this.
+    // Where patches meet, their points agree up to rounding (1e-15), and so do their normals: the
+    // published surface has no crease. All other points are farther apart than this.
     constexpr double tolerance = 1e-6;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (glm::distance(points_[i].position, point.position) < tolerance &&
@@ -63,7 +63,7 @@ class Vertices {
       }
     }
     points_.push_back(point);
-    // From +Z up to +Y up, and from 3.15 high to 1.5.
+    // From +Z up to +Y up, and from a height of 3.15 to 1.5.
     constexpr double scale = 1.5 / 3.15;
     mesh_.positions.emplace_back(scale * point.position.x, scale * point.position.z,
                                  -scale * point.position.y);
@@ -83,7 +83,7 @@ Mesh teapot(int steps) {
   Mesh mesh;
   Vertices vertices(mesh);
   const auto addTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a != b && b != c && c != a) {  // at a pole half of the triangles are a line
+    if (a != b && b != c && c != a) {  // at a pole, half of the triangles are degenerate
       mesh.indices.insert(mesh.indices.end(), {a, b, c});
     }
   };

@@ -7,7 +7,7 @@
 
 namespace glint::models {
 
-// A line holds one row of a control net, or the part of it that is new.
+// Each line holds one row of a control net, or the part of it that is new.
 // clang-format off
 
 inline constexpr double teapotPoints[306][3] = {
@@ -120,9 +120,9 @@ inline constexpr double teapotPoints[306][3] = {
     {0.798, -1.425, 0}, {1.425, -0.798, 0},
 };
 
-/// Sixteen control points a patch, counted from 1 as published. The first index of a net's rows
-/// grows along the profile (away from the pole, down the body, along handle and spout), the second
-/// one around it, so that second tangent × first tangent points out of the pot on every patch.
+/// Sixteen control points per patch, counted from 1 as published. The first index increases along
+/// the profile (away from the pole, down the body, along handle and spout), the second around it,
+/// so that second tangent × first tangent points out of the pot on every patch.
 inline constexpr int teapotPatches[32][16] = {
     // Rim
     {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16},

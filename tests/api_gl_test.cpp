@@ -1,5 +1,5 @@
-// The small interface of glint/glint.h and glint/compare.h: the pictures of the program, layers,
-// models from memory and arrays, errors, threads, fork, and memory over many sessions.
+// The small interface of glint/glint.h and glint/compare.h: the program's pictures, layers, models
+// from memory and arrays, errors, threads, fork, and memory over many sessions.
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -35,7 +35,7 @@ std::vector<std::byte> bytesOf(const std::string& path) {
   return {first, first + text.size()};
 }
 
-/// A square from -1 to 1 that faces +Z.
+/// A square from -1 to 1 facing +Z.
 Arrays square() {
   Arrays arrays;
   arrays.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -44,7 +44,7 @@ Arrays square() {
   return arrays;
 }
 
-/// The whole of it in the middle of the picture, lit by 1 from all sides.
+/// The whole square in the middle of the picture, lit by 1 from all sides.
 const Options frontal{{"resolution", "32,32"},         {"camera-position", "0,0,4"},
                       {"camera-focal-point", "0,0,0"}, {"camera-view-angle", "40"},
                       {"ambient-light", "1,1,1"},      {"no-lights", "true"},
@@ -107,7 +107,7 @@ TEST(Api, ModelsComeFromMemoryAndArrays) {
   EXPECT_NEAR(middle.b, 0.125f, 1e-6);
   EXPECT_EQ(corner, glm::vec4(0, 0, 0, 1));
 
-  // Colours, a place, and the back.
+  // Colours, a position, and the back.
   Arrays back = part;
   back.colors.assign(4, {0.5f, 1, 1, 1});
   back.place = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
@@ -115,7 +115,7 @@ TEST(Api, ModelsComeFromMemoryAndArrays) {
   back.twoSided = true;
   EXPECT_NEAR(at(session.draw(Model::fromArrays({&back, 1}), frontal), 16, 16).r, 0.25f, 1e-6);
 
-  // A texture of one red pixel.
+  // A texture with one red pixel.
   Folder folder("texture");
   glint::writePicture(folder / "red.png", Codes{1, 1, {255, 0, 0, 255}});
   Arrays red = part;
@@ -158,7 +158,7 @@ TEST(Api, AnimationsAndLooksMayChangeFromPictureToPicture) {
   const Image rest = one.draw(model, small), bent = one.draw(model, atTime("0.5"));
   EXPECT_NE(rest.values, bent.values);
   EXPECT_EQ(one.draw(model, small).values, rest.values);
-  // A session that has missed poses.
+  // A session that has skipped poses.
   (void)one.draw(model, atTime("0.3"));
   EXPECT_EQ(other.draw(model, atTime("0.5")).values, bent.values);
   (void)one.draw(model, atTime("0.2"));
@@ -181,7 +181,7 @@ TEST(Api, RefusesInOneLine) {
   EXPECT_THAT(drawing({{"material", "Nothing:exponent=5"}}),
               ThrowsMessage<InputError>(HasSubstr("Nothing")));
   EXPECT_THAT(drawing({{"animation", "walk"}}), ThrowsMessage<InputError>(HasSubstr("walk")));
-  (void)session.draw(model, small);  // and draws on
+  (void)session.draw(model, small);  // and still draws
   EXPECT_THAT([] { Session other("vulkan"); }, ThrowsMessage<InputError>(HasSubstr("vulkan")));
   EXPECT_THAT([] { (void)Model::load("nowhere.glb"); },
               ThrowsMessage<InputError>(HasSubstr("nowhere.glb")));
@@ -210,7 +210,7 @@ TEST(Api, RefusesInOneLine) {
               ThrowsMessage<InputError>(HasSubstr("neither PNG nor JPEG nor WebP")));
   EXPECT_THAT([] { (void)Model::fromArrays({}); },
               ThrowsMessage<InputError>(HasSubstr("there are none")));
-  // What is not finite is left out, not drawn.
+  // Triangles that are not finite are left out.
   Arrays part = square();
   part.positions[3][0] = NAN;
   EXPECT_THAT(Model::fromArrays({&part, 1}).warnings(),
@@ -271,7 +271,7 @@ TEST(Api, DrawsInThreads) {
   EXPECT_EQ(same, 4 * 5 * 4);
 }
 
-/// What a child of this process says of `work`, or "ended with N".
+/// What `work` returns in a child process, or "ended with N".
 std::string inChild(const std::function<std::string()>& work) {
   int ends[2];
   if (pipe(ends) != 0) return "no pipe";
@@ -303,7 +303,7 @@ bool hasOpenGl() {
 }
 
 TEST(Api, TellsWhatForkForbids) {
-  // Before OpenGL is used, children may.
+  // Before this process has used OpenGL, children may use it.
   if (!hasOpenGl()) {
     EXPECT_THAT(inChild([] {
                   Session session;
@@ -327,7 +327,7 @@ TEST(Api, TellsWhatForkForbids) {
               return std::to_string(other.draw(model, small).width);
             }),
             "64");
-  // A child that ends in order takes nothing of its parent's with it.
+  // A child that exits normally does not destroy its parent's objects.
   EXPECT_EQ(inChild([&] {
               const Session taken = std::move(session);
               return std::string("gone");
@@ -341,10 +341,10 @@ TEST(Api, SessionsLeaveNothing) {
   GTEST_SKIP() << "the sanitizer keeps what was freed, and looks for leaks itself";
 #endif
   const std::string model = modelFile("torus.glb");
-  glint::test::drawSessions(20, 1, model);  // what is kept once
+  glint::test::drawSessions(20, 1, model);  // allocates what is kept once
   const double before = glint::test::residentBytes();
   glint::test::drawSessions(20, 1, model);
-  // The model alone is 100 kB; tests/api_memory_long_test.cpp has a sharper bound, and threads.
+  // The model alone is 100 kB. tests/api_memory_long_test.cpp has a tighter bound, and threads.
   EXPECT_LT(glint::test::residentBytes() - before, 1e6);
 }
 

@@ -11,7 +11,7 @@
 
 namespace glint::test {
 
-/// Bytes of this process in memory.
+/// The resident memory of this process in bytes.
 inline double residentBytes() {
   long pages = 0, resident = 0;
   if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
@@ -21,7 +21,7 @@ inline double residentBytes() {
   return double(resident) * double(sysconf(_SC_PAGESIZE));
 }
 
-/// Sessions that each draw one picture of a model of their own, in so many threads at once.
+/// Draws one picture in each of `count` sessions, each with its own model, on `threads` threads.
 inline void drawSessions(int count, int threads, const std::string& model) {
   std::vector<std::thread> workers;
   for (int i = 0; i < threads; ++i)

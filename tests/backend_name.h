@@ -6,7 +6,7 @@
 
 namespace glint {
 
-/// As GoogleTest prints the parameter of a test.
+/// How GoogleTest prints a test's parameter.
 inline void PrintTo(Backend backend, std::ostream* out) { *out << backendName(backend); }
 
 }  // namespace glint

@@ -1,4 +1,4 @@
-// Many pictures in one run: lists, what is left after an interruption, shards, reports.
+// Many pictures in one run: lists, files left after an interruption, shards, reports.
 
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 
 const std::string sphere = shipped + "sphere.glb", torus = shipped + "torus.glb";
 
-/// A cube to draw fast; with a material so that two can differ.
+/// A cube that is quick to draw; with a material so that two can differ.
 std::string cube(const std::string& name, const Folder& folder) {
   glint::Mesh mesh = glint::test::sphere(4, 2);
   return glint::test::writeGltf(name, mesh, nullptr, folder.path());
@@ -48,7 +48,7 @@ std::vector<std::string> tiny(std::vector<std::string> arguments) {
   return quick(arguments);
 }
 
-/// The binary with a pipe at each end.
+/// The binary with pipes for stdin and stdout.
 class Running {
  public:
   explicit Running(const std::vector<std::string>& arguments) {
@@ -91,7 +91,7 @@ class Running {
   }
   void signal(int number) { kill(child_, number); }
 
-  /// The next line of its output; empty at the end or if there is none in time.
+  /// The next line of its output; empty at the end or on a timeout.
   std::string line(int seconds = 30) {
     for (;;) {
       const auto end = text_.find('\n');
@@ -122,7 +122,7 @@ class Running {
   std::string text_;
 };
 
-// A model from a pipe is the picture of its file, and its faults are told as stdin's.
+// A model from a pipe gives the same picture as its file, and errors name it as stdin.
 TEST(Stdin, IsAModel) {
   Folder folder("stdin");
   ASSERT_EQ(runGlint(tiny({"render", sphere, "-o", folder / "file.png"})).status, 0);
@@ -212,7 +212,7 @@ TEST(List, EachLineIsAPictureAndALineOfJson) {
     for (const char* key : {"triangles", "draws", "samples", "variants", "ms", "warnings"})
       EXPECT_TRUE(lines[i].contains(key)) << key;
   }
-  // As when drawn alone.
+  // As when drawn separately.
   EXPECT_EQ(runGlint(tiny({"render", torus, "-o", folder / "alone.png"})).status, 0);
   EXPECT_EQ(contents(folder / "alone.png"), contents(folder / "own.png"));
 }
@@ -229,7 +229,7 @@ TEST(List, AReportHasAllThatWasDrawn) {
   EXPECT_TRUE(report["gl"]["renderer"].is_string());
   ASSERT_EQ(report["pictures"].size(), 3u);
   EXPECT_EQ(report["pictures"][1]["status"], 2);
-  // `--json -` is what stdout has in any case.
+  // `--json -` is the default for stdout.
   const Ran lines =
       runGlint(tiny({"render", "--from-list", list, "-o", folder / "{n}.png", "--json", "-"}));
   EXPECT_EQ(jsonLines(lines.out).size(), 3u);
@@ -259,7 +259,7 @@ TEST(List, AFailedModelDoesNotStopTheRest) {
   }
 }
 
-// The first picture is told before the second line is written.
+// The first picture is reported before the second line is written.
 TEST(List, FromAPipeEachPictureIsMadeAsSoonAsItsLineIsThere) {
   Folder folder("stream");
   Running run(tiny({"render", "--from-list", "-", "-o", folder / "{n}.png"}));
@@ -285,7 +285,7 @@ TEST(List, TwoPicturesWithOneNameAreRefusedBeforeAnythingIsDrawn) {
   EXPECT_THAT(ran.err, AllOf(HasSubstr("model 0"), HasSubstr("sphere.png"), HasSubstr("{n}")));
   EXPECT_THAT(ran.out, IsEmpty());
   EXPECT_THAT(folder.names(), ElementsAre("list"));
-  // From a pipe nobody can know: the second one fails alone.
+  // A pipe cannot be scanned beforehand: only the second one fails.
   Running run(tiny({"render", "--from-list", "-", "-o", folder / "{model}.png"}));
   run.write(sphere + "\n" + sphere + "\n" + torus + "\n");
   run.closeIn();
@@ -320,7 +320,7 @@ TEST(Shard, PartsAreDisjointAndTogetherAll) {
   EXPECT_EQ(drawn.size(), 11u);
   EXPECT_EQ(std::set<std::string>(drawn.begin(), drawn.end()).size(), 11u);
   EXPECT_EQ(drawn.count(folder / "10.png"), 1u);
-  // Of a single model the pictures are divided.
+  // For a single model, the pictures are divided.
   std::size_t frames = 0;
   for (const char* shard : {"1/2", "2/2"}) {
     const Ran ran = runGlint(tiny({"render", models[0], "-o", folder / "t{frame}.png",
@@ -348,12 +348,12 @@ TEST(Resume, SkipsWhatIsDoneWithTheSameModelAndLook) {
   const std::string bytes = contents(folder / "a.png");
   EXPECT_THAT(skipped(), ElementsAre(true, true));
   EXPECT_EQ(contents(folder / "a.png"), bytes);
-  // Another look, another depth: all anew.
+  // Another look or another depth: everything is made again.
   EXPECT_THAT(skipped({"--exposure", "1"}), ElementsAre(false, false));
   EXPECT_THAT(skipped({"--exposure", "1"}), ElementsAre(true, true));
   EXPECT_THAT(skipped({"--bit-depth", "16"}), ElementsAre(false, false));
   EXPECT_THAT(skipped(), ElementsAre(false, false));
-  // A model, or what it refers to, has changed.
+  // A model, or a file that it refers to, has changed.
   {
     std::fstream bin(folder / "a.bin", std::ios::in | std::ios::out | std::ios::binary);
     bin.seekp(3);
@@ -362,7 +362,7 @@ TEST(Resume, SkipsWhatIsDoneWithTheSameModelAndLook) {
   EXPECT_THAT(skipped(), ElementsAre(false, true));
   std::ofstream(b, std::ios::app) << "\n";
   EXPECT_THAT(skipped(), ElementsAre(true, false));
-  // A picture that is damaged, or another program's.
+  // A picture that is damaged, or not ours.
   std::ofstream(folder / "b.png") << bytes.substr(0, 60);
   EXPECT_THAT(skipped(), ElementsAre(true, false));
   std::filesystem::remove(folder / "a.png");
@@ -386,8 +386,8 @@ TEST(Resume, OfATurntableAndOfExr) {
   EXPECT_THAT(skipped("4"), ElementsAre(false, false, false, false));
 }
 
-// 1000 pictures, ended in the middle, then resumed: what was told as done is not made again, and
-// all are there in the end.
+// 1000 pictures, interrupted in the middle, then resumed: pictures reported as done are not made
+// again, and in the end all are there.
 TEST(Resume, ABatchOfAThousandKilledInTheMiddleLosesAndRepeatsNothing) {
   for (const int number : {SIGKILL, SIGINT, SIGTERM}) {
     Folder folder("killed");
@@ -406,7 +406,7 @@ TEST(Resume, ABatchOfAThousandKilledInTheMiddleLosesAndRepeatsNothing) {
     }
     EXPECT_GE(told.size(), 400u);
     EXPECT_LT(told.size(), 1000u);
-    // Every file is whole; what is there but not told of is at most what was on its way.
+    // Every file is complete; unreported files are at most those that were in progress.
     std::set<std::string> there;
     for (const auto& file : std::filesystem::directory_iterator(folder / "out")) {
       there.insert(file.path().string());
@@ -481,7 +481,7 @@ TEST(Batch, ReferencesAreComparedAtOnce) {
 }
 
 // The files of --terms add up to the picture, by GL and by the reference, and the layers of an EXR
-// are the same values.
+// have the same values.
 TEST(Terms, FilesAddUpAndLayersAreTheSame) {
   Folder folder("terms");
   for (const char* backend : {"osmesa", "reference"}) {
@@ -519,7 +519,7 @@ TEST(Terms, FilesAddUpAndLayersAreTheSame) {
     for (const auto& [name, path] : terms.items()) {
       const glint::Image image = glint::readImage(path);
       if (name == "id") {
-        // One object of one mesh and one material, or none.
+        // One object with one mesh and one material, or none.
         for (std::size_t i = 0; i < image.values.size(); i += 4)
           for (std::size_t c = 0; c < 3; ++c) {
             ASSERT_EQ(image.values[i + c], image.values[i]);
@@ -540,13 +540,13 @@ TEST(Terms, FilesAddUpAndLayersAreTheSame) {
       if (name == "normal" || name == "depth") continue;
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]);
     }
-    // Nine terms of a few roundings each, of values up to 4.
+    // Nine terms with a few roundings each, of values up to 4.
     for (std::size_t i = 0; i < sum.size(); ++i)
       if (i % 4 != 3) {
         ASSERT_NEAR(sum[i], double(picture.values[i]), 9 * 4 * 4 * 6e-8) << i;
       }
   }
-  // The picture itself is the one without the option.
+  // The picture itself is the same as without the option.
   EXPECT_EQ(runGlint({"render", sphere, "-o", folder / "b.pfm", "--resolution", "32,32",
                       "--shading", "environment", "--light", "camera:0.5,0.6,0.7", "--light",
                       "point:1,2,3", "--material", "specular=0.8,exponent=9", "--anti-aliasing",
@@ -582,7 +582,7 @@ TEST(Sweep, IsASheetOfThePicturesThatItsStepsGive) {
           ASSERT_EQ(sheet.row(row * down + gap + y)[4 * (column * across + gap) + i],
                     cell.row(y)[i])
               << row << " " << column;
-      // Something is written below.
+      // There is a label below.
       float label = 0;
       for (int y = 32 + gap; y < down; ++y)
         for (int x = 0; x < 32; ++x)
@@ -623,7 +623,7 @@ TEST(Frames, AreMomentsOfTheAnimationBeforeOneCamera) {
   const Ran ran = runGlint(tiny({"render", model, "-o", folder / "{frame}.png", "--frames", "4",
                                  "--camera-direction", "0,0,-1"}));
   EXPECT_EQ(ran.status, 0) << ran.err;
-  // The centre of what is drawn moves by one step a frame, to the right.
+  // The centre of the model moves to the right by one step per frame.
   std::vector<double> places;
   Json camera;
   for (int i = 0; i < 4; ++i) {
@@ -638,7 +638,7 @@ TEST(Frames, AreMomentsOfTheAnimationBeforeOneCamera) {
       }
     ASSERT_GT(weight, 20);
     places.push_back(sum / weight);
-    // Each says how it was made, and its look makes it again.
+    // Each records how it was made, and its look reproduces it.
     const Json look = Json::parse(glint::readPictureText(name).at("glint-look"));
     EXPECT_EQ(look["animation-time"], 0.25 * i);
     if (i > 0) {

@@ -1,5 +1,5 @@
-// What is blended: `over` at every sample, nearest surface last, within a mesh, between meshes and
-// where surfaces cut each other; and what is not blended though its material says so.
+// Blending: `over` at every sample, nearest surface last, within a mesh, between meshes and where
+// surfaces intersect; and surfaces that are not blended though their material asks for it.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ Material pane(const glm::dvec3& color, double alpha) {
   return m;
 }
 
-/// One mesh with unlit quads of these vertex colours, each with its own height as a function of x.
+/// One mesh of unlit quads with these vertex colours, whose heights are linear functions of x.
 Mesh quadsOf(const std::vector<glm::vec4>& colors, const std::vector<glm::vec2>& heights) {
   Mesh mesh;
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -68,14 +68,13 @@ TEST_P(Blending, PanesOfOneMeshLieOverOneAnother) {
   }
 }
 
-// Beyond a few layers the rest is drawn in one order where that is right: panes in any order of
-// their list, which it is, and with two of them cutting each other in front of all, which it never
-// is.
+// Beyond a few layers, the rest is drawn in a fixed order, if there is a correct one: for panes in
+// any order in their list there is; with two intersecting ones in front of all there never is.
 TEST_P(Blending, ManyPanesLieOverOneAnother) {
   for (const bool cutting : {false, true}) {
     std::vector<glm::vec4> colors;
     std::vector<glm::vec2> heights;
-    std::vector<std::size_t> order;  // from the back
+    std::vector<std::size_t> order;  // back to front
     constexpr std::size_t count = 40;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t level = (i * 17) % count;
@@ -103,14 +102,14 @@ TEST_P(Blending, ManyPanesLieOverOneAnother) {
         if (cutting && x >= 4) std::swap(here[count], here[count + 1]);
         glm::dvec3 expected(0);
         for (const std::size_t i : here) expected = over(colors[i], expected);
-        // Some 42 sums of floats, each within 2^-24 of numbers below 1.
+        // About 42 sums of floats, each within 2^-24 of numbers below 1.
         expectColor(color(image, x, 3), expected, 42 * std::exp2(-24.0));
       }
     }
   }
 }
 
-// Two panes that cut each other in the middle column: on either side the other one is in front.
+// Two panes that intersect in the middle column: on either side another one is in front.
 TEST_P(Blending, PanesThatCutEachOtherChangeTheirOrderThere) {
   const glm::vec4 red(1, 0, 0, 0.5f), blue(0, 0, 1, 0.25f);
   const Scene scene =
@@ -128,8 +127,8 @@ TEST_P(Blending, PanesThatCutEachOtherChangeTheirOrderThere) {
   }
 }
 
-// Random triangles in one mesh, opaque ones among them in another: against the reference, which
-// sorts every sample. A driver snaps corners, so that samples at edges differ; few do.
+// Random triangles in one mesh, and opaque ones in another, compared with the reference, which
+// sorts every sample. A driver snaps corners, so samples at edges differ; few do.
 TEST_P(Blending, AgreesWithTheReferenceOnAHeapOfTriangles) {
   Random random(7);
   Mesh heap, walls;
@@ -171,7 +170,7 @@ TEST_P(Blending, AgreesWithTheReferenceOnAHeapOfTriangles) {
   }
 }
 
-// What says BLEND and lets nothing through is drawn as an opaque thing, by the same programs.
+// Opaque surfaces with alpha mode BLEND are drawn as opaque ones, by the same programs.
 TEST_P(Blending, AnAlphaOfOneIsOpaque) {
   for (const Shading shading : {Shading::flat, Shading::phong, Shading::environment}) {
     Look look = parallelLook({0.2, 0.3, 1}, 32);
@@ -192,7 +191,7 @@ TEST_P(Blending, AnAlphaOfOneIsOpaque) {
   }
 }
 
-// The texture's left half is opaque, its right half is not: what counts is which half is used.
+// The texture's left half is opaque, its right half is not; it depends on which half is used.
 TEST_P(Blending, TexelsThatAreUsedDecide) {
   const auto half = png(8, 4, [](int x, int) { return glm::ivec4(200, 100, 50, x < 4 ? 255 : 0); });
   for (const bool nearest : {true, false})

@@ -1,6 +1,6 @@
-// The rounding part of the bounds, against the shaders' arithmetic in single precision done here
-// (additions, products, division and root correctly rounded, as on the software driver): forms that
-// have no error of the formula, so that nothing hides what rounding does.
+// The rounding part of the bounds, tested against the shaders' arithmetic in single precision done
+// here (additions, products, division and root correctly rounded, as on the software driver). The
+// forms used have no formula error, so nothing hides the effect of rounding.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ float powerOf(float x, int power) {
   return p;
 }
 
-// The forms without error of the formula: lyon and pade where alpha is gamma.
+// Forms without formula error: lyon and pade where alpha is gamma.
 float lobeOf(Highlight form, float lambda, float cosine, float alpha) {
   switch (form) {
     case Highlight::pow:
@@ -75,8 +75,8 @@ TEST(Bounds, OfRoundingCoverLobesInSinglePrecision) {
     double alpha = r.log(1, 1e5);
     if (k == 2) alpha = 1 + int(127 * r.unit());
     if (k > 2) alpha = 1 << int(7 * r.unit());
-    // Light and viewer anywhere, or almost opposite each other; the normal about as far from the
-    // highlight's as the lobe is wide.
+    // Light and viewer in any direction, or almost opposite each other; the normal about one lobe
+    // width away from the direction of the highlight.
     const glm::dvec3 L = r.direction();
     const glm::dvec3 V =
         i % 3 == 0 ? glm::normalize(r.log(0.27, 1) * r.direction() - L) : r.direction();
@@ -106,7 +106,7 @@ TEST(Bounds, OfRoundingCoverLobesInSinglePrecision) {
     std::printf("at most %.2f (Phong) and %.2f (Blinn-Phong) of the bound\n", each[0], each[1]);
   for (const auto& each : nearest) {
     EXPECT_GT(each[0], 0.2);
-    EXPECT_GT(each[1], 0.04);  // the factor 8 of directions almost opposite each other
+    EXPECT_GT(each[1], 0.04);  // the factor 8 for directions almost opposite each other
   }
 }
 

@@ -1,5 +1,5 @@
-// The bounds of the forms, attacked from both sides: nothing found is above, and none is more than
-// 1.5 times the worst found.
+// The bounds of the forms, tested from both sides: no error found is above its bound, and no bound
+// is more than 1.5 times the worst error found.
 
 #include "glint/shading/bounds.h"
 
@@ -18,8 +18,8 @@ int draws(int usual) {
   return more != nullptr ? std::max(std::atoi(more), 1) : usual;
 }
 
-// The worst error of a lobe's form: where it is cut off, at 90 degrees and just beyond, and over
-// two scales of lambda, then nearer and nearer to the worst of them.
+// Searches for the worst error of a lobe's form: at its cut-off, at 90 degrees and just beyond,
+// over two scales of lambda, and then ever closer around the worst of these.
 double worstOfLobe(Highlight form, int gamma, double alpha) {
   double worst = 0, at = 0;
   const auto attempt = [&](double x) {
@@ -34,7 +34,7 @@ double worstOfLobe(Highlight form, int gamma, double alpha) {
     attempt(2.0 * i / count);
     attempt(scale * i / count);
   }
-  if (row(form).hasTable)  // in the middles of the first steps and of the last ones
+  if (row(form).hasTable)  // at midpoints of the first and the last steps
     for (int step = 0; step < 3; ++step)
       for (int i = 1; i < 64; ++i) {
         attempt(1 - (step + i / 64.0) / gamma);
@@ -50,7 +50,7 @@ double worstOfLobe(Highlight form, int gamma, double alpha) {
   return worst;
 }
 
-// The forms that come near the exact lobe.
+// The forms that approximate the exact lobe.
 std::vector<Highlight> approximations() {
   std::vector<Highlight> forms;
   for (const HighlightRow& each : highlightRows())
@@ -66,7 +66,7 @@ TEST(Bounds, OfLobesAreTheWorstThereIs) {
   for (int i = 0; i < draws(4000); ++i) {
     const Highlight form = forms[std::size_t(i) % forms.size()];
     const int gamma = std::max(row(form).leastGamma, 1) << int(7 * unit(random));
-    // From 0.2 on: below, doubles next to lambda = 1 no longer reach what the lobe falls by there.
+    // From 0.2 on: below that, doubles next to lambda = 1 cannot resolve the lobe's steep fall.
     double alpha = 0.2 * std::pow(5e6, unit(random));
     if (i % 7 == 0) alpha = gamma * (1 + 0.02 * (unit(random) - 0.5));
     const double bound = lobeFormulaBound(form, gamma, alpha);
@@ -101,9 +101,9 @@ TEST(Bounds, OfLobesAtTheEndsOfTheRange) {
   EXPECT_NEAR(lobeFormulaBound(Highlight::gaussian, 1, 1e4), 0.1337e-4, 1e-8);
 }
 
-// The chord of x^2 over a step h is off by h^2 / 4 in its middle, that of the root by h^(1/2) / 4
-// in the first step; of larger exponents by a (a - 1) h^2 / 8 at most, and hardly less where that
-// is small.
+// The chord of x^2 over a step h is off by h^2 / 4 at its middle, that of the root by h^(1/2) / 4
+// in the first step; for larger exponents by at most a (a - 1) h^2 / 8, and hardly less if that is
+// small.
 TEST(Bounds, OfATableAreThoseOfItsChords) {
   for (const int steps : {16, 64, 1024}) {
     const double h = 1.0 / steps;
@@ -144,15 +144,15 @@ TEST(Bounds, OfReflectancesAreNearTheWorstThereIs) {
     const double bound = fresnelFormulaBound(form, 1, n, exponent);
     ASSERT_LE(worst, bound + 1e-9) << int(form) << " n " << n << " exponent " << exponent;
     ASSERT_LE(bound, 1.5 * worst + 1e-8) << int(form) << " n " << n << " exponent " << exponent;
-    // The same from the denser side, whose angles are compressed.
+    // The same from the denser side, where the angles are compressed.
     EXPECT_NEAR(fresnelFormulaBound(form, n, 1, exponent), bound, 1e-6 * bound + 1e-12);
   }
   EXPECT_EQ(fresnelFormulaBound(Fresnel::schlick, 1.5, 1.5), 0.0);
   EXPECT_EQ(fresnelFormulaBound(Fresnel::exact, 1, 1.5), 0.0);
 }
 
-// What rounding of the cosine does to the exact reflectance is largest at grazing incidence or next
-// to the critical angle.
+// The effect of rounding the cosine on the exact reflectance is largest at grazing incidence or
+// next to the critical angle.
 TEST(Bounds, OfRoundingCoverEveryCosine) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -172,7 +172,7 @@ TEST(Bounds, OfRoundingCoverEveryCosine) {
       }
     }
   }
-  // Out of glass, what the ring leaves out would be ten times as much.
+  // Out of glass, the part that the ring leaves out would be ten times as large.
   EXPECT_EQ(criticalRing(1, 1.5), 0.0);
   EXPECT_EQ(criticalRing(1.5, 1), 1e-5);
   EXPECT_LT(fresnelRoundingBound(Fresnel::exact, 1.5, 1), 1e-3);
@@ -192,7 +192,7 @@ TEST(Bounds, OfEnvironments) {
     };
     glm::dvec3 best(0, 1, 0), bestSlope(0, 1, 0);
     for (int i = 0; i < 100000; ++i) {
-      // A third of them ever nearer to the brightest, a third to the steepest.
+      // A third of them ever nearer to the brightest, a third to the steepest point.
       const glm::dvec3 any(normal(random), normal(random), normal(random));
       const glm::dvec3 middle = i % 3 == 0 ? glm::dvec3(0) : i % 3 == 1 ? best : bestSlope;
       const double around = i % 3 == 0 ? 1 : std::pow(0.5, i / 5000.0);

@@ -1,4 +1,4 @@
-"""Drives a page in headless Chromium, by its DevTools protocol over a pipe; standard library only.
+"""Drives a page in headless Chromium with the DevTools protocol over a pipe; standard library only.
 
     with Browser(width=1400, height=900) as browser:
         browser.open("report.html")                  # a path or a URL; returns when it has loaded
@@ -11,8 +11,8 @@
         browser.requests                             # URLs that the page asked for
         browser.metrics()                            # Chromium's own counters, e.g. JSHeapUsedSize
 
-run_tests(globals()) runs the functions test_NAME(browser) of a test file, all in one Chromium, or
-those named on the command line.
+run_tests(globals()) runs the functions test_NAME(browser) of a test file, or those named on the
+command line, all in one Chromium.
 """
 
 import json
@@ -37,7 +37,7 @@ _KEY_CODES = {"ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40,
 
 
 class BrowserError(AssertionError):
-    """The page or Chromium did not do what was asked."""
+    """The page or Chromium did not do what was requested."""
 
 
 class Browser:
@@ -82,7 +82,7 @@ class Browser:
         self.close()
 
     def close(self):
-        """Ends Chromium and all that it started."""
+        """Ends Chromium and its children."""
         if self._process is None:
             return
         try:
@@ -101,10 +101,10 @@ class Browser:
         os.close(self._from)
         shutil.rmtree(self._profile, ignore_errors=True)
 
-    # The protocol: messages of JSON that end with a zero byte.
+    # The protocol: JSON messages terminated by a zero byte.
 
     def send(self, method, **parameters):
-        """A command of the protocol and its result."""
+        """Sends a command of the protocol and returns its result."""
         self._last += 1
         message = {"id": self._last, "method": method, "params": parameters}
         if self._session:
@@ -152,7 +152,7 @@ class Browser:
     # The page.
 
     def open(self, page):
-        """Loads a page; errors and requests begin anew."""
+        """Loads a page; clears errors and requests."""
         url = page if "://" in str(page) else pathlib.Path(page).resolve().as_uri()
         self.errors, self.requests, self._loaded = [], [], False
         result = self.send("Page.navigate", url=url)
@@ -163,7 +163,7 @@ class Browser:
             self._receive(until, "loading " + url)
 
     def evaluate(self, expression):
-        """The value of a JavaScript expression, as JSON would carry it; promises are awaited."""
+        """The value of a JavaScript expression, as serialised to JSON; promises are awaited."""
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True,
                            awaitPromise=True, userGesture=True, replMode=True)
         if "exceptionDetails" in result:
@@ -173,7 +173,7 @@ class Browser:
         return result["result"].get("value")
 
     def wait_for(self, expression, seconds=10):
-        """Waits until an expression is true (or an element, a text, a number but 0)."""
+        """Waits until an expression is truthy."""
         until = time.monotonic() + seconds
         while not self.evaluate("!!(%s)" % expression):
             if time.monotonic() > until:
@@ -182,7 +182,7 @@ class Browser:
             time.sleep(0.02)
 
     def box(self, selector):
-        """Left, top, width and height of the first element that a CSS selector finds."""
+        """Left, top, width and height of the first element that matches a CSS selector."""
         box = self.evaluate(
             "(e => { if (!e) return null; e.scrollIntoView({block: 'nearest', inline: 'nearest'});"
             "const r = e.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })"
@@ -201,7 +201,7 @@ class Browser:
                   **more)
 
     def hover(self, selector, x=None, y=None):
-        """Moves the mouse onto an element: to its centre, or x, y from its corner."""
+        """Moves the mouse onto an element: to its centre, or to x, y from its upper left corner."""
         self._mouse("mouseMoved", self._point(selector, x, y))
 
     def click(self, selector, x=None, y=None, count=1):
@@ -213,7 +213,7 @@ class Browser:
             self._mouse("mouseReleased", at, 0, clickCount=n)
 
     def drag(self, selector, dx, dy, x=None, y=None, steps=5):
-        """Presses on an element, moves by dx, dy in steps and lets go."""
+        """Drags from an element by dx, dy in steps."""
         begin = self._point(selector, x, y)
         self._mouse("mouseMoved", begin)
         self._mouse("mousePressed", begin, 1, clickCount=1)
@@ -229,7 +229,7 @@ class Browser:
                   deltaY=delta, modifiers=2 if ctrl else 0)
 
     def key(self, key, ctrl=False, shift=False):
-        """Presses and releases a key, by the name that the page's KeyboardEvent.key has."""
+        """Presses and releases a key, named as in KeyboardEvent.key."""
         modifiers = (2 if ctrl else 0) | (8 if shift else 0)
         code = _KEY_CODES.get(key, ord(key.upper()) if len(key) == 1 else 0)
         text = {"text": key} if len(key) == 1 and not ctrl else {}
@@ -246,7 +246,7 @@ class Browser:
             self.key(letter)
 
     def screenshot(self, path):
-        """Writes what is seen as a PNG file."""
+        """Writes a screenshot as a PNG file."""
         import base64
         data = self.send("Page.captureScreenshot", format="png")["data"]
         pathlib.Path(path).write_bytes(base64.b64decode(data))

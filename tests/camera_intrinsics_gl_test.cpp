@@ -1,5 +1,5 @@
-// A lens whose axis is not in the middle of the picture sees a part of what a larger picture with
-// the axis in its middle sees: shapes, reflections, refractions and the environment behind.
+// A lens with an off-centre axis shows a part of the picture of a larger sensor with a centred
+// axis: shapes, reflections, refractions and the environment background.
 
 #include <gtest/gtest.h>
 
@@ -38,11 +38,11 @@ TEST_P(Intrinsics, SeeAPartOfALargerPicture) {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const glm::dvec4 d = glm::abs(pixel(small, x, y) - pixel(large, x + left, y + top));
-        // Positions are rounded in clip space, 2^-24 of the picture: 1e-5 pixels, which turn
+        // Positions are rounded in clip space, by 2^-24 of the picture: 1e-5 pixels, which turns
         // directions by less than 1e-7; the studio's lights have slopes of some hundreds.
         differing += std::max({d.x, d.y, d.z, d.w}) > 1e-4;
       }
-    // Where an edge runs through a pixel's centre the rounding decides.
+    // Where an edge passes through a pixel's centre, rounding decides.
     EXPECT_LE(differing, 8) << (reference ? "reference" : "GL");
     EXPECT_GT(largestDifference(small, drawn(
                                            scene,

@@ -1,4 +1,4 @@
-// Framing and projection against the formulas of the design.
+// Framing and projection compared with the formulas of the design.
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 
 namespace glint::test::camera_test {
 
-// Double arithmetic of some ten operations on numbers of about 1.
+// About ten operations in double on numbers around 1.
 constexpr double tight = 1e-14;
 
 Scene sphereAt(const glm::dvec3& center, double radius) {
@@ -54,7 +54,7 @@ TEST(Bounds, AreTheBoxesCentreAndTheFarthestVertex) {
   const Bounds bounds = glint::boundsOf(sphereAt(center, 2));
   expectNear(bounds.center, center, 1e-6);  // float positions
   EXPECT_NEAR(bounds.radius, 2, 1e-6);
-  // A corner of a box is the farthest vertex; a vertex that no triangle uses does not count.
+  // The corner of a box is the farthest vertex; a vertex that no triangle uses is ignored.
   glint::Mesh mesh = glint::test::quad({0, 0, 1}, 1);
   mesh.positions.emplace_back(100, 0, 0);
   EXPECT_NEAR(glint::boundsOf(glint::test::sceneOf(mesh)).radius, std::sqrt(2), tight);
@@ -100,15 +100,15 @@ TEST(Framing, FitsTheSmallerSideOfThePicture) {
   EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.9 * std::sin(20 * degrees)),
               10 * tight);
   look.resolution = {300, 900};
-  // Across, the half angle's tangent is that of the vertical one times the aspect.
+  // Horizontally, the half angle's tangent is the vertical one's times the aspect.
   const double half = std::atan(std::tan(20 * degrees) / 3);
   EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.9 * std::sin(half)), 100 * tight);
   look.cameraZoomFactor = 0.45;
   EXPECT_NEAR(glm::length(framed(look, bounds).eye), 1 / (0.45 * std::sin(half)), 100 * tight);
 }
 
-// In perspective the zoom factor is the sine ratio: the sphere's outline is seen at the angle whose
-// sine is r / distance = zoom sin(a'/2).
+// In perspective the zoom factor is the ratio of sines: the sphere's outline appears at the angle
+// whose sine is r / distance = zoom sin(a'/2).
 TEST(Framing, KeepsTheSphereInsideThePicture) {
   Look look;
   const Camera camera = framed(look, {{0, 0, 0}, 1});
@@ -128,7 +128,8 @@ TEST(Framing, OrthographicHalfHeightIsDistanceTimesTangent) {
   EXPECT_NEAR(camera.halfHeight, 6 * std::tan(25 * degrees), 10 * tight);
 }
 
-// VTK's, and so F3D's: azimuth turns about the way up, to the camera's right; elevation upwards.
+// As in VTK, and so in F3D: azimuth turns about the up vector, to the camera's right; elevation
+// upwards.
 TEST(Framing, AzimuthAndElevationTurnAsInF3d) {
   Look look;
   look.cameraPosition = glm::dvec3(1, 2, 3 + 4);
@@ -139,7 +140,7 @@ TEST(Framing, AzimuthAndElevationTurnAsInF3d) {
   look.cameraAzimuthAngle = 0;
   look.cameraElevationAngle = 90;
   expectNear(framed(look, bounds).eye, {1, 6, 3}, 10 * tight);
-  expectNear(framed(look, bounds).axes[1], {0, 0, -1}, 10 * tight);  // what was ahead is up
+  expectNear(framed(look, bounds).axes[1], {0, 0, -1}, 10 * tight);  // what was ahead is now up
   look.cameraElevationAngle = -30;
   expectNear(framed(look, bounds).eye,
              {1, 2 - 4 * std::sin(30 * degrees), 3 + 4 * std::cos(30 * degrees)}, 10 * tight);
@@ -169,7 +170,7 @@ TEST(Framing, UpIsUpwards) {
   expectNear(framed(look, {{0, 0, 0}, 1}).axes[1], {1, 0, 0}, tight);
 }
 
-// G6: eye at the target, up along the view, no radius; and G7, G8: extreme angles and pictures.
+// G6: the eye at the target, up along the view, no radius. G7, G8: extreme angles and pictures.
 TEST(Framing, DegenerateInputsGiveSoundCameras) {
   const Bounds bounds[] = {{{0, 0, 0}, 0},
                            {{1, 2, 3}, 1},
@@ -220,7 +221,7 @@ TEST(Framing, FileCamerasStandAsTheFileSays) {
   Scene scene = sphereAt({0, 0, 0}, 1);
   glint::FileCamera file;
   file.world = glint::test::translation({0, 0, 9}) *
-               glint::test::scaling(glm::dvec3(3));  // a camera's scale does not count
+               glint::test::scaling(glm::dvec3(3));  // a camera's scale is ignored
   file.viewAngle = 0.7;
   scene.cameras.push_back(file);
   file.orthographic = true;
@@ -248,8 +249,8 @@ TEST(Framing, FileCamerasStandAsTheFileSays) {
   EXPECT_THROW(cameraFor(Scene{}, {}, look), glint::InputError);
 }
 
-// u = fx X / Z + cx and v = fy Y / Z + cy with X to the right, Y down and Z ahead, as calibrations
-// give it.
+// u = fx X / Z + cx and v = fy Y / Z + cy with X to the right, Y down and Z ahead, as in camera
+// calibrations.
 TEST(Intrinsics, PutPointsWhereTheLensDoes) {
   Look look;
   look.resolution = {640, 360};
@@ -261,12 +262,12 @@ TEST(Intrinsics, PutPointsWhereTheLensDoes) {
     for (const bool reversed : {false, true}) {
       const glm::dmat4 m = glint::projection(camera, {0, 0}, {1, 1}, reversed);
       const glm::dvec3 at = ndc(m, glm::dvec3(p.x, -p.y, -p.z) / camera.unit);
-      // Pixels are some 1e3 times as large as numbers of about 1.
+      // Pixel coordinates are some 1e3 times larger than numbers around 1.
       EXPECT_NEAR((at.x + 1) / 2 * 640, 700 * p.x / p.z + 290, 1e3 * tight);
       EXPECT_NEAR((1 - at.y) / 2 * 360, 820 * p.y / p.z + 230, 1e3 * tight);
     }
   }
-  // A part of the picture: the same pixel of it.
+  // In a part of the picture, the same pixel.
   const glm::dmat4 part = glint::projection(camera, {0.25, 0.5}, {0.5, 1}, true);
   const glm::dvec3 at = ndc(part, glm::dvec3(-0.1, 0.05, -1) / camera.unit);
   EXPECT_NEAR((at.x + 1) / 2 * 160, 700 * -0.1 + 290 - 160, 1e3 * tight);
@@ -306,7 +307,7 @@ TEST(Intrinsics, AreNotOfParallelProjections) {
   look.cameraOrthographic = false;
   look.cameraIndex = 0;
   EXPECT_THROW(cameraFor(scene, {}, look), glint::InputError);
-  // Of a perspective camera of the file they take the lens's place, and nothing else.
+  // For a perspective camera of the file they replace the lens, and nothing else.
   scene.cameras[0].orthographic = false;
   scene.cameras[0].world = glint::test::translation({1, 2, 9});
   const Camera camera = cameraFor(scene, {}, look);
@@ -323,7 +324,7 @@ TEST(Projection, ReversedMapsNearToOneAndFarToZero) {
     const double near = camera.near / camera.unit, far = camera.far / camera.unit;
     const glm::dmat4 reversed = glint::projection(camera, {0, 0}, {1, 1}, true);
     const glm::dmat4 plain = glint::projection(camera, {0, 0}, {1, 1}, false);
-    // far times a relative rounding of 2^-53, divided by far: no worse than a few ulps of 1.
+    // far times a relative rounding of 2^-53, divided by far: at most a few ulps of 1.
     EXPECT_NEAR(ndc(reversed, {0, 0, -near}).z, 1, 1e-14);
     EXPECT_NEAR(ndc(reversed, {0, 0, -far}).z, 0, 1e-14);
     EXPECT_NEAR(ndc(plain, {0, 0, -near}).z, -1, 1e-11);
@@ -359,8 +360,8 @@ TEST(Projection, OfTilesIsThatOfTheWhole) {
            {glm::dvec3(0.1, -0.2, -1), glm::dvec3(-0.5, 0.3, -0.7), glm::dvec3(0.2, 0.2, -1.4)}) {
         const glm::dvec3 a = ndc(whole, point), b = ndc(tile, point);
         for (int i = 0; i < 2; ++i) {
-          // Where the whole's coordinate lies between the tile's edges, from -1 to 1; rounding is
-          // magnified by the width of the picture over that of the tile.
+          // Maps the whole picture's coordinate to the tile's, from -1 to 1; rounding is magnified
+          // by the width of the picture over that of the tile.
           const double size = upper[i] - lower[i];
           EXPECT_NEAR(b[i], ((a[i] + 1) / 2 - lower[i]) / size * 2 - 1, 1e-14 / size);
         }
@@ -386,7 +387,7 @@ TEST(Camera, PowersOfTwoChangeNothingButTheUnit) {
   }
 }
 
-// Eye and axes turn rigidly about the axis +Y through the centre, whatever the camera was made of.
+// Eye and axes turn rigidly about the axis +Y through the centre, however the camera was specified.
 TEST(TurnedLook, GoesRoundTheCentre) {
   const Bounds bounds{{0.3, -0.2, 0.5}, 1.7};
   Scene scene;

@@ -1,10 +1,11 @@
-"""A list drawn by a Slurm array and by GNU parallel, as docs/batch.md has it, is drawn once and whole.
+"""Draws a list with a Slurm array and with GNU parallel, as in docs/batch.md: all of it, each model
+once.
 
 cluster_test.py GLINT PROJECT_FOLDER; needs Debian's slurm-wlm, munge and parallel.
 
-A controller and two nodes on this machine, in a folder of their own, by the caller's own rights: a list
-of 500 over 8 tasks, one of which is killed and queued again and one of whose nodes is drained. Then the
-same by parallel, one of whose jobs is killed.
+Runs a controller and two nodes on this machine, in a folder of their own and without root. Draws a
+list of 500 in 8 tasks, one of which is killed and requeued; one node is drained. Then the same with
+parallel, one of whose jobs is killed.
 """
 
 import json
@@ -46,7 +47,7 @@ def free_ports(count):
 
 
 def documented(language, word):
-    """The block of docs/batch.md in that language which holds the word."""
+    """The code block in docs/batch.md with this language that contains the word."""
     text = (root / "docs/batch.md").read_text()
     blocks = re.findall(r"^```%s\n(.*?)^```" % language, text, re.S | re.M)
     found = [block for block in blocks if word in block]
@@ -97,7 +98,7 @@ NodeName=one NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=2
 NodeName=two NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=2
 PartitionName=all Nodes=one,two Default=YES MaxTime=10 State=UP
 """)
-        # A slurmd wants a way to control groups even where nothing is controlled and none is mounted.
+        # slurmd requires a cgroup plugin even if nothing is controlled and no cgroup is mounted.
         version = subprocess.run(["/usr/sbin/slurmd", "-V"], text=True, stdout=subprocess.PIPE, check=True)
         newer = int(re.search(r"(\d+)\.", version.stdout).group(1)) >= 24
         (folder / "cgroup.conf").write_text("CgroupPlugin=%s\n" % ("disabled" if newer else "cgroup/v1"))
@@ -138,7 +139,7 @@ PartitionName=all Nodes=one,two Default=YES MaxTime=10 State=UP
 def make_list(folder):
     (folder / "models").mkdir(parents=True)
     for i in range(COUNT):
-        # Of two sizes, so that shards are not simply every eighth.
+        # Two sizes, so that shards are not simply every eighth.
         name = "torus.glb" if i % 7 == 0 else "sphere.glb"
         shutil.copy(root / "models" / name, folder / ("models/m%03d.glb" % i))
     (folder / "models.txt").write_text("".join("models/m%03d.glb\n" % i for i in range(COUNT)))

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures of 8-bit codes, made in code.
+// Pictures of 8-bit codes, generated in code.
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace glint::test {
 
-/// `colour` gives a pixel's channels.
+/// `colour` returns a pixel's channels.
 inline StoredImage codes(int width, int height, int channels,
                          const std::function<std::vector<int>(int x, int y)>& colour) {
   StoredImage image{width, height, channels, std::vector<std::uint8_t>{}};

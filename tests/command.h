@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs the glint binary as a user would: arguments, environment, what it wrote and how it ended.
+// Runs the glint binary as a user would: arguments, environment, output and exit status.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -24,9 +24,9 @@ namespace glint::test {
 
 struct Ran {
   int status = -1;  ///< exit status; -1 if it did not exit by itself
-  int signal = 0;   ///< that ended it
+  int signal = 0;   ///< that terminated it
   bool timedOut = false;
-  long peakKib = 0;  ///< the most memory that it held
+  long peakKib = 0;  ///< its peak memory
   std::string out, err;
 
   std::vector<std::string> errorLines() const { return linesOf(err); }
@@ -35,11 +35,11 @@ struct Ran {
 struct CommandOptions {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< an empty value unsets
   int timeoutSeconds = 60;
-  std::string folder{};    ///< to run in
-  std::string input{};     ///< a file that its stdin is; else there is nothing to be read
+  std::string folder{};    ///< working directory
+  std::string input{};     ///< a file for its stdin; empty: an empty stdin
   bool closedOut = false;  ///< stdout is a pipe that nobody reads
   bool fullOut = false;    ///< stdout is a full disk
-  long fileLimit = 0;      ///< bytes that it may write into one file; 0: no limit
+  long fileLimit = 0;      ///< limit for the size of a file that it writes, in bytes; 0: none
 };
 
 /// Runs the binary and waits for it.
@@ -105,7 +105,7 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
 
 inline const std::string shipped = GLINT_SOURCE_DIR "/models/";
 
-/// A small picture drawn fast.
+/// Arguments for a small picture that is drawn quickly.
 inline std::vector<std::string> quick(std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--rendering-backend", "osmesa", "--anti-aliasing", "none"});
   if (std::find(arguments.begin(), arguments.end(), "--resolution") == arguments.end())
@@ -113,13 +113,13 @@ inline std::vector<std::string> quick(std::vector<std::string> arguments) {
   return arguments;
 }
 
-/// It ended well and without a word.
+/// It succeeded and printed nothing on stderr.
 inline void expectDone(const Ran& ran) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
 }
 
-/// It ended with one line that says what is wrong, and gave nothing.
+/// It failed with one line that says what is wrong, and produced no output.
 inline void expectRefusal(const Ran& ran, const std::string& part, int status = 2) {
   EXPECT_EQ(ran.status, status) << ran.err;
   EXPECT_EQ(ran.signal, 0);

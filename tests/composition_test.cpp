@@ -1,4 +1,4 @@
-// The GLSL that variants are composed to; needs no GL.
+// The GLSL composed for variants; needs no GL.
 
 #include <gmock/gmock.h>
 
@@ -19,9 +19,9 @@ namespace glint::test::composition_test {
 using testing::HasSubstr;
 using testing::Not;
 
-// Runs the conditions of a text: what is left is what the driver compiles. Fails on an #if that
-// reads a name nobody defines (it would be 0 in silence), on unbalanced #ifs and on a name defined
-// twice. The conditions here are made of names, numbers, !, &&, ||, ==, !=, > and brackets.
+// Evaluates the conditional directives of a text and keeps what the driver compiles. Fails on an
+// #if that uses an undefined name (which would silently be 0), on unbalanced #ifs and on a name
+// defined twice. Conditions consist of names, numbers, !, &&, ||, ==, !=, > and brackets.
 class Preprocessor {
  public:
   std::string run(const std::string& text) {
@@ -38,7 +38,7 @@ class Preprocessor {
         if (isOn()) {
           EXPECT_EQ(defined_.erase(line.substr(7)), 1u) << line;
         }
-      } else if (line.starts_with("#ifdef ")) {  // of the driver's extensions, of which it has none
+      } else if (line.starts_with("#ifdef ")) {  // for driver extensions; there are none here
         stack_.push_back({isOn(), false});
         on_ = false;
       } else if (line.starts_with("#if ")) {
@@ -129,7 +129,7 @@ class Preprocessor {
   }
 
   std::map<std::string, std::string> defined_;
-  std::vector<std::pair<bool, bool>> stack_;  // whether around it is on; whether a branch was taken
+  std::vector<std::pair<bool, bool>> stack_;  // is the outer block on; was a branch taken
   bool on_ = true;
   std::string text_;
   std::size_t at_ = 0;
@@ -186,7 +186,7 @@ TEST(Composition, HoldsOnlyWhatTheVariantNeeds) {
                                      "return lobeLyon(",    "return lobeLyonCross(",
                                      "return lobePade(",    "return lobeGaussian(",
                                      "return lobeTable(",   "none"};
-    std::set<std::string_view> forms;  // a form without lights of its own is not there
+    std::set<std::string_view> forms;  // a form that no light uses is absent
     if (v.specular) forms.insert(lobes[int(v.highlight.form)]);
     for (const Variant::Dimmer& each : v.dimmer) forms.insert(lobes[int(each.form.form)]);
     for (const char* lobe : lobes)
@@ -258,7 +258,7 @@ TEST(GlslSources, TakesFilesFromAFolder) {
   std::filesystem::remove_all(folder);
   EXPECT_THROW(GlslSources{folder}, glint::InputError);  // missing
   std::filesystem::create_directories(folder);
-  EXPECT_THROW(GlslSources{folder}, glint::InputError);  // none of the files
+  EXPECT_THROW(GlslSources{folder}, glint::InputError);  // none of the files exists
   std::ofstream(folder / "phong.glsl") << "// mine\n";
   const GlslSources sources(folder);
   EXPECT_EQ(sources.text("phong.glsl"), "// mine\n");

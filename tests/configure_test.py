@@ -1,4 +1,4 @@
-"""Configures the project as people who build it do: configure_test.py SOURCE SCRATCH"""
+"""Configures the project as its users do: configure_test.py SOURCE SCRATCH"""
 
 import pathlib
 import shutil
@@ -20,7 +20,7 @@ def check(holds, what):
         sys.exit("not so: " + what)
 
 
-# Part of a project that has targets of the names that come to mind: it adds no tests and no window.
+# As part of a project whose targets have common names, it adds neither tests nor a window.
 parent = scratch / "sources/parent"
 parent.mkdir(parents=True)
 (parent / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.25)
@@ -39,7 +39,7 @@ endif()
 status, said = configure(parent)
 check(status == 0, "a part of another project\n" + said)
 
-# What is missing is told by the names of Debian's packages, all at once.
+# Missing dependencies are reported by their Debian package names, all at once.
 status, said = configure(source, "-DCMAKE_DISABLE_FIND_PACKAGE_glm=ON",
                          "-DCMAKE_DISABLE_FIND_PACKAGE_draco=ON", "-DGLINT_TESTS=OFF")
 check(status != 0 and "apt-get install --no-install-recommends libglm-dev libdraco-dev" in said and

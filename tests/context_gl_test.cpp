@@ -1,4 +1,4 @@
-// Contexts, programs and render targets over each software backend.
+// Contexts, programs and render targets on each software backend.
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ namespace glint::context_gl_test {
 TEST(NoContext, IsAnErrorInWords) {
   const auto open = [] { return glint::RenderTarget(8, 8, 1); };
   const auto link = [] { return glint::Program("none", {}); };
-  // Before any context, after one has died, and while one is released.
+  // Before any context exists, after one has died, and while one is released.
   for (int round = 0; round < 2; ++round) {
     EXPECT_THAT(open, testing::ThrowsMessage<glint::Error>(HasSubstr("no OpenGL context")));
     EXPECT_THAT(link, testing::ThrowsMessage<glint::Error>(HasSubstr("no OpenGL context")));
@@ -51,7 +51,7 @@ layout(location = 0) out vec4 result;
 void main() { result = scale * vec4(color * color, texture(map, vec2(0.5)).r); }
 )";
 
-/// A triangle with interpolated colours on NaN-free dark ground; rows from the bottom.
+/// A triangle with interpolated colours on a dark background; rows from the bottom.
 std::vector<float> drawTriangle(int samples) {
   const glint::ShaderSource sources[] = {{GL_VERTEX_SHADER, vertexText},
                                          {GL_FRAGMENT_SHADER, fragmentText}};
@@ -132,13 +132,13 @@ TEST_P(OnBackend, DrawsWhatTheFormulaSays) {
   for (int samples : {1, 4}) {
     const std::vector<float> pixels = drawTriangle(samples);
     const auto at = [&](int x, int y) { return &pixels[4 * ((height - 1 - y) * width + x)]; };
-    // Row 0 is the bottom one: the triangle's base is there, its tip is at the top.
+    // Row 0 is the bottom one, where the triangle's base is; its tip is at the top.
     EXPECT_FLOAT_EQ(at(0, height - 1)[0], 0.01f);
     const int x = 18, y = 9;
     const double u = (x + 0.5) / width, v = (y + 0.5) / height;
-    // A colour of magnitude 7 squared and scaled keeps a few ulps of float (6e-8 each); the
-    // interpolation's plane equation adds as many. With 4 samples inside the triangle the colour
-    // is still that of the centre.
+    // A colour of magnitude 7 squared and scaled keeps a few ulps of float (6e-8 each), and the
+    // interpolation's plane equation adds as many. With all 4 samples inside the triangle the
+    // colour is still that of the centre.
     const double tolerance = 32 * 6e-8;
     EXPECT_NEAR(at(x, y)[0], u * u, tolerance * u * u);
     EXPECT_NEAR(at(x, y)[1], 0.1 * v * v, tolerance * 0.1 * v * v);
@@ -163,10 +163,10 @@ TEST_P(OnBackend, ReadsAPartFromTheTop) {
   }
   glDisable(GL_SCISSOR_TEST);
   const int drivers = GLINT_GLAD_GL_MESA_pack_invert;
-  for (const int turns : {drivers, 0}) {  // 0: as on drivers that cannot turn rows around
+  for (const int turns : {drivers, 0}) {  // 0: as on drivers that cannot flip rows
     GLINT_GLAD_GL_MESA_pack_invert = turns;
     std::vector<float> rows(4 * 7 * 3, -1.0f);
-    target.read(rows.data(), 4, 3, 7);  // rows 2, 1, 0, each before three pixels of something else
+    target.read(rows.data(), 4, 3, 7);  // rows 2, 1, 0; three pixels after each stay unchanged
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 7; ++x)
         EXPECT_EQ(rows[std::size_t(4 * (7 * y + x))], x < 4 ? float(2 - y) : -1.0f)
@@ -183,7 +183,7 @@ TEST_P(OnBackend, QueueIsLeftForWholeTriangles) {
     EXPECT_GT(queue.room(), 0u);
     EXPECT_EQ(queue.room() % 3, 0u) << indices;
   }
-  EXPECT_EQ(queue.room(), most);  // the portion was full, and another began
+  EXPECT_EQ(queue.room(), most);  // the batch was full, and another one began
   glint::checkGl("waiting");
 }
 

@@ -1,5 +1,5 @@
-// A driver that runs out of memory or loses its context in the middle of a picture: an error in
-// words, never a picture.
+// A driver that runs out of memory or loses its context in the middle of a picture: there must be
+// an error message and no picture.
 
 #include <glad/gl.h>
 
@@ -15,10 +15,11 @@ PFNGLGETERRORPROC realGetError = nullptr;
 int goodCalls = 0;
 GLenum failure = GL_NO_ERROR;
 
-/// The driver's own answer a number of times, then the failure for ever, as a lost context has it.
+/// Returns the driver's own result a number of times, then the failure for ever, as for a lost
+/// context.
 GLenum failingGetError() { return goodCalls-- > 0 ? realGetError() : failure; }
 
-/// Puts itself in the place of glGetError while it lives.
+/// Replaces glGetError while it lives.
 class FailingDriver {
  public:
   FailingDriver(GLenum code, int callsBefore) {
@@ -46,7 +47,7 @@ TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
       {
         const FailingDriver driver(code, calls);
         try {
-          // A renderer of its own: making the target is among what fails.
+          // A new renderer each time: creating the target is among what fails.
           stage().draw(sources, scene, look);
         } catch (const Error& error) {
           message = error.what();
@@ -55,7 +56,7 @@ TEST_P(ContextLost, GivesAnErrorInWordsAndNoPicture) {
       }
       while (glGetError() != GL_NO_ERROR) {
       }
-      if (!reached) {  // the whole picture asks fewer times than that
+      if (!reached) {  // the whole picture makes fewer calls than that
         EXPECT_EQ(message, "");
         EXPECT_GE(calls, 4) << "making, uploading, drawing and reading are to be checked";
         break;

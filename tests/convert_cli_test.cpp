@@ -1,4 +1,4 @@
-// `glint convert`: what it writes is what `--material` draws, and all else stays.
+// `glint convert`: the file written looks as `--material` draws it, and all else is unchanged.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ void expectRefusalBesideWarnings(const Ran& ran, const std::string& part) {
   EXPECT_THAT(lines[0], HasSubstr(part));
 }
 
-// The picture's values, which do not tell of the look.
+// The picture's values only, because its metadata contains the look.
 std::string drawn(const Folder& folder, const std::string& model,
                   std::vector<std::string> arguments = {}) {
   arguments.insert(arguments.begin(),
@@ -44,7 +44,7 @@ void replace(std::string& text, const std::string& from, const std::string& to) 
   text.replace(at, from.size(), to);
 }
 
-// A model of two files with things in it that a careless writer would lose.
+// A two-file model with content that a careless writer would lose.
 std::string peculiar(const Folder& folder, const std::string& name = "model") {
   const std::string path =
       glint::test::writeGltf(name, glint::test::sphere(12, 8), nullptr, folder.path());
@@ -66,7 +66,7 @@ TEST(Convert, WhatIsWrittenIsWhatTheEditDraws) {
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(drawn(folder, out), drawn(folder, in, {"--material", edit})) << in;
     EXPECT_NE(drawn(folder, out), drawn(folder, in)) << in;
-    // Once more with nothing to edit: the same bytes.
+    // Converting again without edits: the same bytes.
     EXPECT_EQ(runGlint({"convert", out, folder / ("again" + ending)}).status, 0);
     EXPECT_EQ(contents(out), contents(folder / ("again" + ending)));
   }
@@ -77,7 +77,7 @@ TEST(Convert, EverythingElseStays) {
   const std::string in = peculiar(folder);
   runGlint({"convert", in, folder / "out.gltf", "--material", edit});
   std::string before = contents(in), after = contents(folder / "out.gltf");
-  // The text differs in the material and the list of extensions alone.
+  // The text differs only in the material and the list of extensions.
   for (std::string* text : {&before, &after}) {
     const auto begin = text->find("\"materials\":["), end = text->find("],\"meshes\"");
     ASSERT_LT(begin, end);
@@ -95,7 +95,7 @@ TEST(Convert, EverythingElseStays) {
               std::pow(2 / (4 * 33.3 + 2), 0.25), 1e-12);
   EXPECT_EQ(material["extensions"]["KHR_materials_ior"]["ior"], 1.7);
 
-  // Of a GLB all behind the JSON.
+  // In a GLB, everything after the JSON is unchanged.
   runGlint({"convert", shipped + "teapot.glb", folder / "out.glb", "--material", edit});
   const std::string glb = contents(shipped + "teapot.glb"), edited = contents(folder / "out.glb");
   const auto jsonLength = [](const std::string& file) {
@@ -116,7 +116,7 @@ TEST(Convert, TakesTheMaterialsOfALookAndOfAPicture) {
     expectDone(runGlint({"convert", in, folder / "out.glb", "--look", folder / look}));
     EXPECT_EQ(drawn(folder, folder / "out.glb"), drawn(folder, in, {"--material", edit}));
   }
-  // Options go before the look.
+  // Options take precedence over the look.
   expectDone(runGlint({"convert", in, folder / "out.glb", "--look", folder / "a.json", "--material",
                        "exponent=5"}));
   EXPECT_EQ(drawn(folder, folder / "out.glb"),
@@ -130,7 +130,7 @@ TEST(Convert, FilesBesideTheModelGoWithIt) {
   EXPECT_THAT(other.names(), ElementsAre("model.bin", "out.gltf"));
   EXPECT_EQ(contents(folder / "model.bin"), contents(other / "model.bin"));
   EXPECT_EQ(drawn(folder, out), drawn(folder, in, {"--material", edit}));
-  // Again: they are there already. Another file of that name stays as it is.
+  // Again: the copies exist already. A different file of that name is not overwritten.
   EXPECT_EQ(runGlint({"convert", in, out, "--material", edit}).status, 0);
   std::ofstream(other / "model.bin") << "something else";
   std::filesystem::remove(out);

@@ -1,4 +1,4 @@
-// Tables of costs: the shipped one, files of measured ones, and the wrong ones.
+// Cost tables: the shipped one, files with measured ones, and invalid ones.
 
 #include <gmock/gmock.h>
 
@@ -21,7 +21,7 @@ std::string written(const std::string& text) {
 }
 
 TEST(CostTable, CountsTheProductsOfAPower) {
-  // x, x^2, x^2 x, (x^2)^2, ... : squarings and one product for each further bit.
+  // x, x^2, x^2 x, (x^2)^2, ... : squarings, and one product for each further bit.
   const int products[] = {0, 1, 2, 2, 3, 3, 4, 3};
   for (int power = 1; power <= 8; ++power) EXPECT_EQ(productsOf(power), products[power - 1]);
   EXPECT_EQ(productsOf(127), 12);
@@ -39,7 +39,7 @@ TEST(CostFile, HoldsEveryCost) {
   CostFile file;
   file.gl = {"v", "llvm\"pipe", "4.5"};
   file.noise = 1.25;
-  // Every cost another, so that none can stand in another's place.
+  // Every cost is different, so that none can be mistaken for another.
   double next = 1.0 / 3;
   CostTable& t = file.costs;
   for (auto& [form, costs] : t.lobes)

@@ -1,4 +1,4 @@
-// Costs measured on this driver: a whole table, whatever the figures are.
+// Costs measured on this driver: a complete table, whatever the figures are.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(CostMeasurementOnGl, FillsATable) {
   EXPECT_GT(measured.exactNanoseconds, 0);
   const CostTable& t = measured.file.costs;
   EXPECT_EQ(t.lobe(Highlight::exact, 1), 100);
-  // Each is what was measured, and not what ships.
+  // Each value is measured, not taken from the shipped table.
   EXPECT_EQ(measured.lobes.size(), 2 + 5 + 3 * 7 + 1 + 7u);
   EXPECT_EQ(measured.reflectances.size(), 2 * 6u);
   for (const MeasuredCost& c : measured.lobes) EXPECT_GE(c.inTable, 1) << c.form;
@@ -31,7 +31,7 @@ TEST(CostMeasurementOnGl, FillsATable) {
   EXPECT_EQ(t.lobe(Highlight::lyon, 4), lyon->inTable);
   EXPECT_EQ(lyon->shipped, CostTable().lobe(Highlight::lyon, 4));
   EXPECT_EQ(t.fresnelDenser.rational, measured.reflectances.back().inTable);
-  // Those that are not measured lie between.
+  // Values that are not measured are interpolated.
   const std::vector<double>& integer = t.lobes.at(Highlight::integer);
   EXPECT_NEAR(integer[1], (integer[0] + integer[2]) / 2, 1e-9);
   EXPECT_FALSE(measured.file.gl.renderer.empty());
@@ -44,7 +44,7 @@ TEST(CostMeasurementOnGl, StopsWithoutATable) {
   EXPECT_FALSE(measureCosts({}, [&] { return ++asked > 3; }, {}).complete);
 }
 
-// What cannot be told apart is equal.
+// Costs that cannot be distinguished become equal.
 TEST(CostMeasurement, RoundsToMultiplesOfTheNoiseAwayFromTheExactForm) {
   EXPECT_EQ(roundedCost(101.4, 3), 100);
   EXPECT_EQ(roundedCost(98.6, 3), 100);

@@ -1,4 +1,4 @@
-// --cost-table, as a user gives it.
+// --cost-table as a user gives it.
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 const std::string teapot = GLINT_SOURCE_DIR "/models/teapot.glb";
 
-/// A table in which a form of the lobe is nearly free.
+/// A table in which one form of the lobe is nearly free.
 Json tableFor(const std::string& cheap) {
   Json table{{"glint-costs", 1},
              {"highlight",
@@ -45,7 +45,7 @@ class CostTableCommand : public testing::Test {
     std::ofstream(folder_ / "costs.json") << text;
     return folder_ / "costs.json";
   }
-  /// The choice of a command with --json -.
+  /// The choice that a command reports with --json -.
   Json choice(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--max-error", "0.05", "--material",
                                        "specular=0.5,exponent=300", "--json", "-"});
@@ -103,7 +103,7 @@ TEST_F(CostTableCommand, RefusesWhatIsNoTable) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"costs.json"});
 }
 
-// What is drawn already was chosen by the file as it was.
+// Existing pictures were chosen with the file's earlier content.
 TEST_F(CostTableCommand, AnotherTableIsAnotherPictureForResume) {
   const std::string file = written(tableFor("gaussian").dump());
   const auto skipped = [&] {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures damaged at random: a few every day, many under the label "long".
+// Randomly damaged pictures: a few in everyday runs, many under the label "long".
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@
 
 namespace glint::test {
 
-/// Cut and damaged copies give a picture or an error of one line. Nothing before the byte `first`
-/// is damaged.
+/// Truncated and damaged copies give a picture or a one-line error. Bytes before `first` are not
+/// damaged.
 inline void expectSurvived(const std::vector<std::byte>& bytes, unsigned seed, int rounds,
                            std::size_t first = 0) {
   std::mt19937 random(seed);
@@ -45,8 +45,8 @@ inline void expectSurvived(const std::vector<std::byte>& bytes, unsigned seed, i
   EXPECT_GT(refused, rounds / 10);
 }
 
-/// An OpenEXR file of two layers. Where the header is damaged, too, many copies say that they are
-/// large, which takes time.
+/// An OpenEXR file with two layers. If the header is damaged too, many copies claim to be large,
+/// which takes time.
 inline void expectExrSurvived(int rounds, bool headerToo) {
   Image image{20, 20, std::vector<float>(std::size_t(4) * 20 * 20)};
   for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i) * 0.123f;

@@ -1,4 +1,4 @@
-// `glint diff` as a script sees it: exit statuses, lines, reports, folders, baselines.
+// `glint diff` as used in scripts: exit statuses, lines, reports, folders, baselines.
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::Not;
 using Json = nlohmann::json;
 
-/// Writes a ramp of grey whose pixels (0, 0) to (differing - 1, 0) are brighter by `more`.
+/// Writes a grey ramp whose pixels (0, 0) to (differing - 1, 0) are brighter by `more`.
 void write(const std::string& path, int differing = 0, float more = 0.25f, int width = 24,
            const std::string& driver = "") {
   Image image{width, 16, {}};
@@ -33,7 +33,7 @@ void write(const std::string& path, int differing = 0, float more = 0.25f, int w
   writer->finish();
 }
 
-/// Pictures that the tests compare, in a folder of their own to run in.
+/// The pictures that the tests compare, in a working folder of their own.
 class Pictures : public Folder {
  public:
   explicit Pictures(const std::string& name) : Folder(name) {
@@ -65,7 +65,7 @@ TEST(DiffStatus, Table) {
     std::string says;  // on stdout, or on stderr for 2 and more
   };
   const Case cases[] = {
-      // Same, or within what is allowed.
+      // The same, or within the limits.
       {{"a.png", "a.png"}, 0, "a.png: same, equal in every pixel"},
       {{"a.png", "same.png"}, 0, "same.png: same"},
       {{"a.png", "b.png", "--metric", "max", "--threshold", "0.6"}, 0, "same, max 0.5"},
@@ -99,7 +99,7 @@ TEST(DiffStatus, Table) {
       {{"nan.pfm", "nan.pfm", "--metric", "max", "--threshold", "1"}, 1, "is not a number"},
       {{"a.exr", "infinite.pfm", "--metric", "hdr-flip", "--threshold", "1"}, 1, "1 pixel is inf"},
       {{"a.exr", "nan.pfm"}, 1, "worst at 0,0"},
-      // Wrong usage and what cannot be read.
+      // Wrong usage and unreadable files.
       {{}, 2, "glint diff A B"},
       {{"a.png"}, 2, "glint diff A B"},
       {{"a.png", "b.png", "slight.png"}, 2, "slight.png"},
@@ -200,7 +200,7 @@ TEST(DiffReports, JUnit) {
   EXPECT_EQ(pictures.diff({"x", "y", "--junit", "r.xml"}).status, 2);
   const std::string xml = contents(pictures / "r.xml");
   EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"4\" failures=\"1\" errors=\"2\""));
-  EXPECT_THAT(xml, HasSubstr("name=\"caf\xef\xbf\xbd.png\""));  // no UTF-8: replaced
+  EXPECT_THAT(xml, HasSubstr("name=\"caf\xef\xbf\xbd.png\""));  // invalid UTF-8: replaced
   EXPECT_THAT(xml, HasSubstr("name=\"one.png\""));
   EXPECT_THAT(xml, HasSubstr("name=\"two &amp; &lt;three&gt;.png\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"3 pixels differ\">"));
@@ -221,11 +221,11 @@ TEST(DiffPicture, Kinds) {
       1);
   const Image flip = glint::readImage(pictures / "flip.png");
   EXPECT_EQ(flip.width, 24);
-  EXPECT_GT(flip.row(0)[0], 0.1f);          // Magma's red of a visible difference
-  EXPECT_LT(flip.row(15)[4 * 23], 0.001f);  // and black of none
+  EXPECT_GT(flip.row(0)[0], 0.1f);          // Magma's red for a visible difference
+  EXPECT_LT(flip.row(15)[4 * 23], 0.001f);  // and black for none
   const Image absolute = glint::readImage(pictures / "absolute.png");
   const Image a = glint::readImage(pictures / "a.png"), b = glint::readImage(pictures / "b.png");
-  // (0, 0): 0 against the code of 0.25, 137; 1.5 times that is 206 (of half a code more or less).
+  // (0, 0): 0 against the code of 0.25, 137; 1.5 times that is 206 (to half a code).
   EXPECT_NEAR(absolute.row(0)[0], 0.6172, 0.01);
   EXPECT_EQ(absolute.row(15)[0], 0);
   const Image beside = glint::readImage(pictures / "beside.png");
@@ -253,7 +253,7 @@ TEST(DiffFolders, MissingExtraAndSummary) {
   EXPECT_EQ(json["summary"]["missing"], 1);
   EXPECT_EQ(json["pairs"][3]["name"], "sub/two.png");
   EXPECT_NEAR(json["pairs"][3]["metrics"]["max"]["value"], 0.54, 0.01);
-  // In order of what they tell most: missing, differing, without baseline.
+  // The most severe status wins: missing, differing, without baseline.
   std::filesystem::remove(pictures / "x/gone.png");
   EXPECT_EQ(pictures.diff({"x", "y"}).status, 1);
   EXPECT_EQ(pictures.diff({"x", "y", "--max-pixels", "3"}).status, 4);
@@ -283,7 +283,7 @@ TEST(DiffUpdate, NeverSilent) {
   EXPECT_EQ(ran.err, "glint: replaced the baseline x/one.png\n");
   EXPECT_EQ(contents(pictures / "x/one.png"), contents(pictures / "y/one.png"));
   EXPECT_NE(contents(pictures / "x/two.png"), contents(pictures / "y/two.png"));
-  // Names before the folders, all of them, and nothing to be said of what was the same.
+  // Names before the folders, all names, and no message for pairs that were the same.
   ran = pictures.diff({"--update", "x", "y"});
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err,
@@ -300,7 +300,7 @@ TEST(DiffUpdate, NeverSilent) {
   EXPECT_EQ(contents(pictures / "damaged.png"), contents(pictures / "a.png"));
   EXPECT_EQ(pictures.diff({"z", "y", "--update"}).status, 0);
   EXPECT_EQ(pictures.diff({"z", "y"}).status, 0);
-  // What cannot be read becomes no baseline, nor does a file of another format.
+  // Neither an unreadable file nor one of another format becomes a baseline.
   EXPECT_EQ(pictures.diff({"new/t.png", "text.png", "--update"}).status, 2);
   EXPECT_THAT(pictures.diff({"new/t.png", "a.exr", "--update"}).err,
               HasSubstr("is not of the format of"));
@@ -315,14 +315,14 @@ TEST(DiffDrivers, AreTold) {
   EXPECT_THAT(ran.out, HasSubstr("compared across drivers: softpipe and llvmpipe (LLVM 15)"));
   ran = pictures.diff({"x", "y"});
   EXPECT_THAT(ran.out, HasSubstr("1 compared across drivers"));
-  // A baseline for this driver is made beside, and preferred.
+  // A baseline for this driver is made in its own folder, and preferred.
   ran = pictures.diff({"x", "y", "--baselines-per-driver", "--update"});
   EXPECT_EQ(ran.err, "glint: made the baseline x/driver-llvmpipe-llvm-15/one.png\n");
   ran = pictures.diff({"x", "y", "--baselines-per-driver"});
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, Not(HasSubstr("across")));
   EXPECT_EQ(pictures.diff({"x", "y"}).status, 1);
-  // Of single pictures likewise.
+  // Likewise for single pictures.
   EXPECT_EQ(pictures.diff({"x/one.png", "y/one.png", "--baselines-per-driver"}).status, 0);
   ran = pictures.diff({"a.png", "y/one.png", "--baselines-per-driver", "--update"});
   EXPECT_EQ(ran.err, "glint: made the baseline ./driver-llvmpipe-llvm-15/a.png\n");
@@ -344,7 +344,7 @@ TEST(DiffJobs, DoNotChangeTheResult) {
     Json json = jsonOf(pictures / "r.json");
     for (Json& pair : json["pairs"]) pair.erase("ms");
     results.push_back(json);
-    // All but the times.
+    // Everything except the times.
     std::string page = contents(pictures / "r.html");
     for (std::size_t at = 0; (at = page.find("\"ms\":", at)) != std::string::npos; ++at)
       page.erase(at + 5, page.find_first_of(",}", at) - at - 5);

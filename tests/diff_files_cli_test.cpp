@@ -1,4 +1,4 @@
-// What `glint diff` compares of what files hold, and how folders are judged pair by pair.
+// Which contents of files `glint diff` compares, and how pairs in folders are judged.
 
 #include <gmock/gmock.h>
 
@@ -66,11 +66,11 @@ TEST(DiffLayers, EveryChannelCounts) {
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("depth.Z"));
   EXPECT_EQ(files.diff({"xyz.exr", "xyz2.exr"}).status, 1);
-  // A layer that one of them lacks is a difference.
+  // A layer that only one of them has is a difference.
   ran = files.diff({"a.exr", "less.exr"});
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("layer depth.Z is missing in the picture"));
-  // One by its name; what the condition does not judge is told.
+  // One layer by its name; differences that the condition does not judge are reported.
   EXPECT_EQ(files.diff({"a.exr", "moved.exr", "--layer", "depth"}).status, 0);
   EXPECT_EQ(files.diff({"a.exr", "moved.exr", "--layer", "normal"}).status, 1);
   ran = files.diff({"a.exr", "moved.exr", "--layer", "main"});
@@ -80,7 +80,7 @@ TEST(DiffLayers, EveryChannelCounts) {
   ran = files.diff({"a.exr", "moved.exr", "--metric", "flip", "--threshold", "0.1"});
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, HasSubstr("which no condition judges"));
-  // Where nothing is judged, nothing is the same.
+  // If nothing is judged, nothing counts as the same.
   for (const std::vector<std::string>& condition :
        {std::vector<std::string>{"--max-pixels", "100%"},
         {"--metric", "flip", "--threshold", "1"}}) {
@@ -133,14 +133,14 @@ TEST(DiffConditions, AllMustHold) {
   EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "4", "--max-pixels", "5%"}).status, 1);
   EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "5%", "--max-pixels", "4"}).status, 1);
   EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "4", "--max-pixels", "9%"}).status, 0);
-  // In the worst window of 2 x 2 there are two.
+  // The worst window of 2 x 2 has two.
   EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "2"}).status, 0);
   EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "1"}).status, 1);
-  // A share is one of the window: two of four.
+  // A percentage refers to the window: two of four.
   EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "50%"}).status, 0);
   EXPECT_THAT(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "49%"}).out,
               HasSubstr("2 pixels are over the tolerance of 0.1, allowed are 1.96"));
-  // What is of no use without a count is not passed over.
+  // Options that need a count are not silently ignored.
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--window", "2"}, {"--shift", "1"}, {"--ignore-anti-aliasing"}}) {
     std::vector<std::string> arguments{"a.png", "b.png"};
@@ -175,7 +175,7 @@ TEST(DiffConditions, OfPairsByAFile) {
   }
   writeText(files / "x/glint-diff.txt", "# pattern and options\nloose --max-pixels 1\n*.png\n");
   Ran ran = files.diff({"x", "y"});
-  EXPECT_THAT(ran.out, HasSubstr("3 pairs: 0 same, 3 differ"));  // the last line counts
+  EXPECT_THAT(ran.out, HasSubstr("3 pairs: 0 same, 3 differ"));  // the last matching line counts
   writeText(files / "x/glint-diff.txt", "*.png\n\nloose --max-pixels 1\r\n");
   ran = files.diff({"x", "y"});
   EXPECT_THAT(ran.out, HasSubstr("3 pairs: 1 same, 2 differ"));
@@ -187,7 +187,7 @@ TEST(DiffConditions, OfPairsByAFile) {
   EXPECT_EQ(ran.status, 2);
   writeText(files / "other.txt", "\n*o.png --threshold 1\n");
   EXPECT_THAT(files.diff({"x", "y", "--conditions", "other.txt"}).err, HasSubstr("other.txt:2: "));
-  // What is updated, by a folder and by a pattern; what is pruned.
+  // Updating by a folder and by a pattern; pruning.
   EXPECT_THAT(files.diff({"x", "y", "--update", "strict"}).err,
               HasSubstr("replaced the baseline x/strict/one.png"));
   EXPECT_THAT(files.diff({"x", "y", "--update", "t*.png"}).err,
@@ -208,7 +208,7 @@ TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
     write(files / ("y/" + std::string(name)), b);
   }
   write(files / "x/masks/clock.png", mask);
-  // The mask in A is neither missing nor pruned; a name stands for itself before it is a pattern.
+  // The mask in A is neither missing nor pruned; an exact name takes precedence over a pattern.
   writeText(files / "x/glint-diff.txt",
             "[o]ne.png --mask masks/clock.png\none.png --max-pixels 1\nnone.png --max-pixels 3\n");
   Ran ran = files.diff({"x", "y", "--prune"});
@@ -219,7 +219,7 @@ TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
   writeText(files / "none.txt", "");
   EXPECT_EQ(
       files.diff({"x", "y", "--mask", "x/masks/clock.png", "--conditions", "none.txt"}).status, 0);
-  // So it is with --update.
+  // The same with --update.
   std::filesystem::remove(files / "x/glint-diff.txt");
   std::filesystem::remove_all(files / "x/masks");
   EXPECT_EQ(files.diff({"x", "y", "--update", "[o]ne.png"}).err,
@@ -232,7 +232,7 @@ TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
             "glint: replaced the baseline x/one.png\n");
   write(files / "x/gone.png", grey);
   EXPECT_THAT(files.diff({"x", "y", "--prune"}).out, HasSubstr("; 1 baseline removed\n"));
-  // Of single pictures there is nothing that these could mean.
+  // For single pictures these options have no meaning.
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--prune"}, {"--conditions", "none.txt"}}) {
     std::vector<std::string> arguments{"x/one.png", "y/one.png"};
@@ -252,7 +252,7 @@ TEST(DiffBaselines, TheNearestCounts) {
   EXPECT_EQ(ran.status, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("1 pair: 1 same"));
   EXPECT_EQ(files.diff({"x/one.png", "y/one.png"}).status, 0);
-  // With a picture of its own it is a pair.
+  // If it has a picture of its own, it is a pair.
   write(files / "y/one_1.png", b);
   EXPECT_THAT(files.diff({"x", "y"}).out, HasSubstr("2 pairs: 1 same, 1 differ"));
 }
@@ -265,7 +265,7 @@ TEST(DiffSizes, LongSidesAndOtherSizes) {
   write(files / "b.png", b);
   EXPECT_EQ(files.diff({"a.png", "a.png"}).status, 0);
   EXPECT_THAT(files.diff({"a.png", "b.png"}).out, HasSubstr("worst at 0,20000"));
-  // Of other sizes the rest counts as transparent, in the picture of the difference, too.
+  // With different sizes the rest counts as transparent, also in the difference picture.
   write(files / "small.png", grey);
   write(files / "wide.png", filled(10, 6, {0.25f, 0.5f, 0.75f, 1}));
   const Ran ran =
@@ -277,7 +277,7 @@ TEST(DiffSizes, LongSidesAndOtherSizes) {
   EXPECT_GT(difference.row(3)[4 * 9], 0.05f);
 }
 
-// Pages larger than 64 MiB are read by rows: less is held than one of the two would take (83 MB).
+// Pages larger than 64 MiB are read by rows: memory stays below that of one page (83 MB).
 TEST(DiffSizes, LargePagesAreNotHeld) {
   const Files files("pages");
   constexpr int width = 1200, height = 23046;
@@ -305,7 +305,7 @@ TEST(DiffSizes, LargePagesAreNotHeld) {
   ran = files.diff({"a.png", "longer.png"});
   EXPECT_THAT(ran.out, HasSubstr("4800 of 27660000 pixels differ"));
   expectSmall(ran);
-  // What is damaged becomes no baseline, wherever the damage is met.
+  // A damaged picture does not become a baseline, wherever the damage is.
   const std::string whole = contents(files / "b.png");
   writeText(files / "cut.png", whole.substr(0, whole.size() - 20));
   EXPECT_EQ(files.diff({"a.png", "cut.png", "--update"}).status, 2);
@@ -336,7 +336,7 @@ TEST(DiffInput, FromStdin) {
   EXPECT_EQ(Json::parse(ran.out)["differing"], 1);
   EXPECT_THAT(contents(files / "r.html"), HasSubstr("id=\"b0\""));
   EXPECT_EQ(piped("b.png", {"-", "a.png", "-o", "d.png", "--max-pixels", "1"}).status, 0);
-  // Each of several baselines is tried.
+  // All baselines are tried.
   write(files / "a_1.png", b);
   EXPECT_THAT(piped("b.png", {"a.png", "-"}).out, HasSubstr("compared with a_1.png"));
   EXPECT_THAT(piped("b.png", {"-", "-"}).err, HasSubstr("one of the two may come from stdin"));
@@ -366,14 +366,14 @@ TEST(DiffPicture, OnStdoutAndBesideThePage) {
   b.values[0] = 1;
   write(files / "a.png", grey);
   write(files / "b.png", b);
-  // Nothing but the picture is written there.
+  // Nothing except the picture is written to stdout.
   for (const char* kind : {"flip", "absolute"}) {
     ASSERT_EQ(files.diff({"a.png", "b.png", "-o", "d.png", "--difference", kind}).status, 1);
     const Ran ran = files.diff({"a.png", "b.png", "-o", "-", "--difference", kind});
     EXPECT_EQ(ran.status, 1) << ran.err;
     EXPECT_EQ(ran.out, contents(files / "d.png"));
   }
-  // The page has its own map, since JPEG would change its colours, and |a - b| is another picture.
+  // The page has its own map, because JPEG would change its colours and |a - b| is another picture.
   const auto mapOf = [&](const std::string& output) {
     const std::string kind = output == "a.jpg" ? "absolute" : "flip";
     EXPECT_EQ(files.diff({"a.png", "b.png", "-o", output, "--html", "r.html", "--difference", kind})

@@ -1,4 +1,4 @@
-"""The report of `glint diff` on folders with planted differences, driven in Chromium."""
+"""The report of `glint diff` for folders with planted differences, driven in Chromium."""
 
 import json
 import os
@@ -46,8 +46,8 @@ def report(name, status, *options):
 
 
 def planted():
-    """Ten pairs: six the same, one each of a small and a large difference, one without baseline,
-    one missing."""
+    """Ten pairs: six equal, one with a small and one with a large difference, one without a
+    baseline, one missing."""
     page = scratch / "planted.html"
     if page.exists():
         return page
@@ -93,17 +93,17 @@ def test_list(browser):
     opened(browser, planted())
     summary = browser.evaluate("summary.textContent")
     assert summary == ("10 pairs: 2 differs, 1 missing, 1 no baseline, 6 same; 10 shown"), summary
-    # The worst come first, and the first is shown.
+    # The worst come first, and the first one is shown.
     assert names(browser)[:4] == ["large.png", "small.png", "gone.png", "extra.png"]
     assert title(browser) == "large.png: differs"
-    # Sorting by a click, and the other way.
+    # Sorts by a click, and in reverse by another.
     browser.click("#head th:nth-child(1)")
     assert names(browser) == sorted(names(browser))
     browser.click("#head th:nth-child(1)")
     assert names(browser) == sorted(names(browser), reverse=True)
     browser.click("#head th:nth-child(3)")
     assert names(browser)[:2] == ["large.png", "small.png"]
-    # Filtering by name, from the keyboard, and by status.
+    # Filters by name, from the keyboard, and by status.
     browser.key("/")
     browser.type("ME-4")
     assert names(browser) == ["same-4.png"]
@@ -113,7 +113,7 @@ def test_list(browser):
     assert len(names(browser)) == 10
     browser.evaluate("only.value = 'not the same'; only.onchange()")
     assert len(names(browser)) == 4
-    # Keys go through what is shown.
+    # Keys move through the listed pairs.
     show(browser, "large.png")
     browser.key("j")
     browser.wait_for("document.querySelector('#detail h2').textContent === 'small.png: differs'")
@@ -128,7 +128,7 @@ def test_slider(browser):
     width = browser.evaluate("parseFloat(stage.a.style.width)")
     browser.drag("#divider", -width / 4, 0)
     assert abs(browser.evaluate(split) - 0.25) < 0.01, browser.evaluate(split)
-    # B is cut off left of the slider: its own clip says so.
+    # B is clipped left of the slider, as its clip path shows.
     assert browser.evaluate("stage.b.style.clipPath").startswith("inset(0px 0px 0px 25"), \
         browser.evaluate("stage.b.style.clipPath")
     browser.key("ArrowRight")
@@ -167,12 +167,12 @@ def test_pixels(browser):
     browser.key("+")
     browser.hover("#stage", 4 * 35.5, 4 * 20.5)
     assert browser.evaluate("pixel.textContent") == text
-    # The wheel keeps the pixel under the mouse.
+    # Zooming with the wheel keeps the pixel under the mouse in place.
     browser.wheel("#stage", -100, 4 * 35.5, 4 * 20.5, ctrl=True)
     browser.wait_for("zoom === 5")
     browser.key("f")
     assert browser.evaluate("fitted")
-    # The worst pixel, large and with its values in it.
+    # The worst pixel, enlarged, with its values in it.
     browser.click("#worst tr")
     assert browser.evaluate("zoom") >= 40 and browser.evaluate("values.width") > 0
     drawn = browser.evaluate("codes(values, 0, 0, values.width, values.height)"
@@ -202,7 +202,7 @@ def test_regions(browser):
     page = planted()
     browser.open(page.as_uri() + "?once#small.png")
     browser.wait_for("document.querySelector('#view canvas')")
-    # The address names the pair; that of another one follows it.
+    # The address names the pair and follows the selection.
     assert title(browser) == "small.png: differs"
     show(browser, "large.png")
     assert browser.evaluate("location.hash") == "#large.png"
@@ -214,7 +214,7 @@ def test_regions(browser):
     browser.key("b")
     assert browser.evaluate("document.querySelector('.region')") is None
     browser.key("b")
-    # The line that accepts it, and its error as a number.
+    # The command that accepts the picture, and its error as a number.
     commands = browser.evaluate("[...document.querySelectorAll('code')].map(c => c.textContent)")
     assert commands[-1].endswith("planted/b --update large.png"), commands
     browser.key("4")
@@ -231,7 +231,7 @@ def test_regions(browser):
 
 
 def write_pfm(path, value):
-    """8 x 6 pixels of `value`, but of 20 in the upper left corner."""
+    """8 x 6 pixels of `value`, except for 20 in the upper left corner."""
     path.parent.mkdir(parents=True, exist_ok=True)
     rows = [[value] * 24 for _ in range(6)]
     rows[5][:3] = [20.0] * 3
@@ -267,7 +267,7 @@ def test_beside_and_unreadable(browser):
     opened(browser, report("beside", 2, "--pictures-beside"))
     assert title(browser) == "<one> & 'two'.png: differs"
     assert browser.evaluate("[stage.a.width, codes(stage.b, 3, 3, 1, 1)[0]]") == [60, 9]
-    # Of what cannot be read, the other is there.
+    # If one picture cannot be read, the other is shown.
     show(browser, "cut.png")
     assert title(browser) == "cut.png: error"
     assert browser.evaluate("[stage.a.width, stage.b]") == [60, None]
@@ -282,7 +282,7 @@ def test_thousand_pairs(browser):
     for n in range(1, 1000):
         os.link(first, first.with_name("%04d.png" % n))
         os.link(other if n % 10 == 0 else first, other.with_name("%04d.png" % n))
-    # The worst is not the first.
+    # The worst pair is not the first.
     other.with_name("0730.png").unlink()
     write_png(other.with_name("0730.png"), 24, 16, lambda x, y: (255 - 4 * x, 0, 0))
     page = report("thousand", 1)
@@ -291,11 +291,11 @@ def test_thousand_pairs(browser):
     print("1000 pairs open in %.1f s" % (time.monotonic() - begin))
     browser.wait_for("rows.children.length === 1000")
     assert sorted(names(browser)) == ["%04d.png" % n for n in range(1000)]
-    # The pictures that are seen first are the first in the file.
+    # The pictures that are shown first are first in the file.
     text = page.read_text()
     assert text.index('id="a730"') < text.index('id="a0"') < text.index('id="a999"')
     assert text.count('id="a730"') == 1 and text.count('id="b730"') == 1
-    # Only what is looked at is decoded.
+    # Only visible pictures are decoded.
     assert browser.evaluate("document.querySelectorAll('canvas').length") <= 4
     for n in range(5):
         browser.key("j")

@@ -1,9 +1,9 @@
-"""Runs the shell blocks of a page of the documentation, in order, in a copy of the clone: what stands
-there can be pasted. docs_commands.py SOURCE BUILD PAGE
+"""Runs the shell blocks of a documentation page, in order, in a copy of the clone, so that they can
+be pasted as they are. docs_commands.py SOURCE BUILD PAGE
 
-The commands that the README starts with are run by .ci/fresh, in a bare Debian. Here windows are
-closed after some seconds, studies stop early, builds and runs of all tests are looked up and not
-made; all else is done as it stands.
+The README's first section is covered by .ci/fresh, in a bare Debian. Here, windows are closed after
+some seconds, studies stop early, and builds and full test runs are only looked up. All else is run
+unchanged.
 """
 
 import os
@@ -44,13 +44,13 @@ set -eo pipefail
 
 
 def blocks(text):
-    """The shell blocks, without those of the README's first section."""
+    """The shell blocks, except those of the README's first section."""
     text = re.sub(r"^## Start$.*?(?=^## )", "", text, flags=re.M | re.S)
     return re.findall(r"^```sh\n(.*?)^```$", text, flags=re.M | re.S)
 
 
 def strays(text):
-    """Commands that stand outside of shell blocks, where nothing would run them."""
+    """Commands outside of shell blocks, where nothing would run them."""
     text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     return re.findall(r"^    (?:glint|cmake|ctest|build/\S+) .*$", text, flags=re.M)
 

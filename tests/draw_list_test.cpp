@@ -1,4 +1,4 @@
-// What is drawn, in which order, with which matrices and lights: decided without GL.
+// What is drawn, in which order, with which matrices and lights; decided without GL.
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@
 
 namespace glint::test::draw_list_test {
 
-constexpr double half = 1.0 / (1 << 24);  // rounding to float: half an ulp, relative
+constexpr double half = 1.0 / (1 << 24);  // relative rounding error of float: half an ulp
 
 using Real = long double;
 using Vector = std::array<Real, 3>;
@@ -39,7 +39,7 @@ Matrix fromGlm(const glm::dmat3& m) {
   return r;
 }
 
-// Columns of the adjugate over the determinant, transposed; range of long double throughout.
+// The adjugate's columns divided by the determinant, transposed; in long double for its range.
 Matrix inverseTranspose(const Matrix& m) {
   Matrix c;
   for (std::size_t i = 0; i < 3; ++i)
@@ -56,7 +56,7 @@ Matrix inverseTranspose(const Matrix& m) {
 const glm::dvec3 normals[] = {{0, 0, 1},  {1, 0, 0},        {0, 1, 1},
                               {1, 2, -3}, {-0.3, 0.1, 0.2}, {1, 1, 1}};
 
-// The direction of normalMatrix n against the inverse transpose's, for a world transform.
+// Compares the direction of the normal matrix times n with that of the inverse transpose.
 void expectNormalMatrix(const glm::dmat4& world) {
   const Look look = glint::test::parallelLook({1, 2, 3});
   const Scene scene = glint::test::sceneOf(glint::test::quad(), {}, world);
@@ -81,7 +81,7 @@ void expectNormalMatrix(const glm::dmat4& world) {
     actualLength = std::sqrt(actualLength);
     ASSERT_GT(actualLength, 0);
     for (std::size_t i = 0; i < 3; ++i) {
-      // Each entry is rounded once to float; the rest is double (2^-53 of some ten operations).
+      // Each entry is rounded once to float; the rest is in double (about ten operations of 2^-53).
       const Real tolerance = (size[0] + size[1] + size[2]) * (half + 1e-14) / actualLength;
       EXPECT_NEAR(double(actual[i] / actualLength), double(expected[i] / expectedLength),
                   double(tolerance))
@@ -126,7 +126,7 @@ TEST(NormalMatrix, OfSingularTransformsIsFinite) {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) EXPECT_TRUE(std::isfinite(item.draw.normalMatrix[i][j]));
   }
-  // B6: what is flattened onto the plane z = 0 has that plane's normal.
+  // B6: geometry flattened onto the plane z = 0 has that plane's normal.
   const DrawList list =
       listOf(glint::test::sceneOf(glint::test::quad(), {}, glint::test::scaling({1, 1, 0})),
              glint::test::parallelLook());
@@ -135,7 +135,7 @@ TEST(NormalMatrix, OfSingularTransformsIsFinite) {
   EXPECT_EQ(glm::vec3(m[0]), glm::vec3(0));
 }
 
-// Under one scale the matrix is a rotation: normals stay unit without a division.
+// With a uniform scale the matrix is a rotation: normals keep unit length without a division.
 TEST(NormalMatrix, KeepsUnitLengthUnderOneScale) {
   for (double scale : {1e-20, 0.3, 1.0, 1e20}) {
     const DrawList list = listOf(
@@ -151,7 +151,7 @@ TEST(NormalMatrix, KeepsUnitLengthUnderOneScale) {
 }
 
 TEST(DrawList, PlacesInDoubleUpToTheEye) {
-  // At 1e7 floats are 1 apart: only differences formed in double can place a vertex to 1e-7.
+  // At 1e7 floats are 1 apart: only differences formed in double place a vertex to 1e-7.
   const glm::dvec3 far(1e7 + 0.123456789, -1e7, 3e6);
   Look look = glint::test::parallelLook();
   look.cameraPosition = far + glm::dvec3(0, 0, 4);
@@ -161,10 +161,10 @@ TEST(DrawList, PlacesInDoubleUpToTheEye) {
     const DrawList list = listOf(scene, look);
     return glm::dvec3(list.items.at(0).draw.eyeFromModel[3]) * list.camera.unit;
   };
-  // 1e7 has an ulp of 1.9e-9 in double, which the sum eye = far + 4 is rounded to.
+  // 1e7 has an ulp of 1.9e-9 in double, to which the sum eye = far + 4 is rounded.
   EXPECT_NEAR(eye().x, 0, 2e-9);
   EXPECT_NEAR(eye().z, -4, 4 * half + 2e-9);
-  // The same with the distance inside the mesh's origin.
+  // The same with the distance in the mesh's origin.
   scene.instances[0].world = glm::dmat4(1);
   scene.meshes[0].origin = far;
   EXPECT_NEAR(eye().x, 0, 2e-9);
@@ -204,7 +204,7 @@ TEST(DrawList, MirroredTransformsAreMarked) {
   EXPECT_FALSE(mirrored(scaling(glm::dvec3(1e-20))));
   EXPECT_TRUE(mirrored(scaling({1e-20, -1e-20, 1e-20})));
   EXPECT_TRUE(mirrored(scaling({1e20, 1e20, -1e20})));
-  EXPECT_TRUE(mirrored(scaling({1e-120, 1e-120, -1e-120})));  // whose product underflows
+  EXPECT_TRUE(mirrored(scaling({1e-120, 1e-120, -1e-120})));  // the product underflows
 }
 
 TEST(DrawList, FacesOfBothSidesForTheirReasons) {
@@ -243,7 +243,7 @@ TEST(DrawList, BlendedThingsComeLastFromBackToFrontStably) {
 
 TEST(DrawList, BlendedDepthIsThatOfTheBoxsCentre) {
   Scene scene = glint::test::sceneOf(glint::test::quad(), blended("b"));
-  scene.meshes[0].positions.emplace_back(0, 0, 50);  // no triangle has it
+  scene.meshes[0].positions.emplace_back(0, 0, 50);  // unused by any triangle
   Look look = glint::test::parallelLook();
   const DrawList list = glint::makeDrawList(scene, {{0, 0, 0}, 3}, look);
   EXPECT_NEAR(list.items.at(0).depth * list.camera.unit, 4, 1e-6);
@@ -257,7 +257,7 @@ TEST(DrawList, BothSidesOfBlendedThingsAreDrawnAtOnce) {
   EXPECT_EQ(list.items[0].faces, FaceSide::both);
 }
 
-// Alpha is coverage, whatever the program.
+// Alpha is coverage in every program.
 TEST(DrawList, EveryProgramBlends) {
   const Scene scene = glint::test::sceneOf(glint::test::quad(), blended("b"));
   for (const glint::Shading shading :
@@ -331,7 +331,7 @@ TEST(MaterialBlocks, IndicesKeepTheirDifference) {
   EXPECT_EQ(block.entering.w, 0);
   const double back = (1.5 - (1.5 + 1e-9)) / (1.5 + 1e-9);
   EXPECT_NEAR(block.leaving.x, back * (2 + back), 2 * half * d * 2);
-  // The critical cosine sqrt(1 - 1/n^2) in two floats: together good to 2^-48 of itself.
+  // The critical cosine sqrt(1 - 1/n^2) as two floats: together accurate to a relative 2^-48.
   const double critical = std::sqrt(-back * (2 + back));
   EXPECT_NEAR(double(block.leaving.z) + double(block.leaving.w), critical,
               critical * half * half * 4);
@@ -339,7 +339,7 @@ TEST(MaterialBlocks, IndicesKeepTheirDifference) {
 }
 
 TEST(LightEntries, AreInEyeSpaceInTheOrderOfTheShaders) {
-  Look look = glint::test::parallelLook({1, 0, 0});  // looks along -X: eye +X is -Z of the world
+  Look look = glint::test::parallelLook({1, 0, 0});  // looks along -X: eye +X is world -Z
   Light spot = glint::test::directional({0, -2, 0}, {1, 2, 3});
   spot.type = Light::Type::spot;
   spot.position = {4, 3, 0};
@@ -362,7 +362,7 @@ TEST(LightEntries, AreInEyeSpaceInTheOrderOfTheShaders) {
   expectVector(list.lights[0].halfway, {0, 1, 1});  // L + V
   expectVector(list.lights[1].position, {0, 0, 1});
   expectVector(list.lights[1].halfway, {0, 0, 2});
-  // The eye stands at (4, 0, 0), its right is -Z, its back +X.
+  // The eye is at (4, 0, 0), its right is -Z, its back +X.
   expectVector(list.lights[2].position, glm::dvec3(8, 0, -4) / unit);
   expectVector(list.lights[3].position, glm::dvec3(0, 3, 0) / unit);
   expectVector(list.lights[3].axis, {0, -1, 0});
@@ -410,7 +410,7 @@ TEST(LightEntries, AreAsManyAsTheVariantsCount) {
   EXPECT_EQ(std::size_t(v.directionalLights + v.pointLights + v.spotLights), list.lights.size());
 }
 
-// Turning the environment by 90 degrees about +Y brings what was at +Z to +X.
+// Turning the environment by 90 degrees about +Y moves what was at +Z to +X.
 TEST(Frame, EnvironmentTurnsAboutY) {
   Look look = glint::test::parallelLook();
   look.environmentRotation = 90;

@@ -1,4 +1,4 @@
-// Pictures of the environment: where a direction is looked up, and the smaller levels.
+// Environment pictures: the lookup of a direction, and the mip levels.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ EnvironmentImage imageOf(int width, int height, auto value) {
   return makeEnvironmentImage(width, height, makeLevel(width, height, value).rgb);
 }
 
-// The columns of an 8 x 4 picture, by the directions of their middles: -Z lies between 3 and 4, +X
+// The columns of an 8 x 4 picture, by the directions of their centres: -Z is between 3 and 4, +X
 // between 5 and 6, +Z at the seam.
 TEST(EnvironmentImage, DirectionsAreFoundWhereTheyBelong) {
   const EnvironmentImage image = imageOf(8, 4, [](int x, int y, int) { return 10 * y + x; });
@@ -64,7 +64,8 @@ TEST(EnvironmentImage, LevelsKeepTheLightAndAUniformPicture) {
     };
     EXPECT_EQ(image.levels.back().width * image.levels.back().height, 1);
     for (std::size_t k = 1; k < image.levels.size(); ++k) {
-      // Weights are those of rows' middles; a level of few rows knows the sine only roughly.
+      // The weights are those of row centres; a level with few rows approximates the sine only
+      // roughly.
       const double rows = image.levels[k].height;
       EXPECT_NEAR(mean(image.levels[k]), mean(image.levels[0]), 3 / (rows * rows) + 1e-6);
       for (const float v : even.levels[k].rgb) EXPECT_NEAR(v, 0.7, 1e-6);
@@ -76,12 +77,13 @@ TEST(EnvironmentImage, LevelsKeepTheLightAndAUniformPicture) {
 double linearIn(const glm::dvec3& d) { return 0.5 + 0.3 * d.x + 0.35 * d.y - 0.2 * d.z; }
 double quadraticIn(const glm::dvec3& d) { return 0.5 + 0.4 * (d.x * d.y + d.z * d.z - d.x * d.z); }
 
-// A mean over a footprint with the variance v along each axis is E + v (E_xx + E_yy) / 2. The
-// square of s has v = s^2 / 12; what the levels give has at most 1.27 s^2 / 9 (h^2 / 3 between
-// texels of the height h = s / sqrt(3), which the blend of two levels makes 1.27 times that): so
-// far is it from the value in the middle. E_xx is at most 0.5 of the linear radiance and 4 times
-// 0.7 of the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8 of both
-// second derivatives; towards a pole, the widening of a row, of what is quadratic, 0.35 h^2.
+// The mean over a footprint with the variance v along each axis is E + v (E_xx + E_yy) / 2. The
+// square of side s has v = s^2 / 12. The mip levels have at most 1.27 s^2 / 9 (h^2 / 3 between
+// texels of the height h = s / sqrt(3), which blending two levels makes 1.27 times that), which
+// gives the distance from the value at the centre. E_xx is at most 0.5 for the linear radiance and
+// 4 times 0.7 for the quadratic one. Bilinear interpolation of texels of the height h adds h^2 / 8
+// times both second derivatives; near a pole, the widening of a row adds 0.35 h^2 for the quadratic
+// radiance.
 TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
   constexpr int height = 128;
   constexpr double h = pi / height;
@@ -97,7 +99,7 @@ TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
     for (const double spread : {0.0, 0.01, 0.05, 0.07, 0.1, 0.2, 0.4})
       for (int i = 0; i <= 400; ++i)
         for (const double turn : {0.0, 0.3, 1.0, 1.6, 2.9, pi, -3.1, -2.0, -0.7}) {
-          // Through both poles and closely around them; at `turn` pi runs the seam.
+          // Through both poles and close around them; at `turn` = pi along the seam.
           const double down = i < 200 ? pi * i / 199 : (i % 2 ? 0.0 : pi) + 0.002 * (i - 300);
           const glm::dvec3 d(std::sin(down) * std::sin(turn), std::cos(down),
                              -std::sin(down) * std::cos(turn));
@@ -112,9 +114,9 @@ TEST(EnvironmentImage, IsTrueOfWhatIsLinearOrQuadraticInDirection) {
   }
 }
 
-// The level rule: over all directions the mean of a square is met to a quarter of what it differs
-// from the value in its middle. 1 - s^2 / 12 of a linear radiance about its mean, 1 - s^2 / 4 of
-// the quadratic part.
+// The level rule: averaged over all directions, the mean over a square is met to a quarter of its
+// difference from the value at the centre. The factors are 1 - s^2 / 12 for a linear radiance about
+// its mean, and 1 - s^2 / 4 for the quadratic part.
 TEST(EnvironmentImage, LevelsHaveTheVarianceOfThePixel) {
   constexpr int height = 256;
   const EnvironmentImage image = imageOf(2 * height, height, [&](int x, int y, int) {
@@ -122,7 +124,7 @@ TEST(EnvironmentImage, LevelsHaveTheVarianceOfThePixel) {
     return linearIn(
         {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
   });
-  for (const double level : {2.0, 3.0, 4.0}) {  // whole, where one level is looked up
+  for (const double level : {2.0, 3.0, 4.0}) {  // whole levels, where only one is looked up
     const double s = std::sqrt(3) * pi / height * std::exp2(level);
     double got = 0, wanted = 0;
     std::mt19937 random(5);

@@ -17,7 +17,7 @@ constexpr BuiltinEnvironment all[] = {BuiltinEnvironment::white, BuiltinEnvironm
 
 double luminance(const dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-/// Calls f(direction) for points spread evenly over the sphere (a Fibonacci lattice).
+/// Calls f(direction) for evenly spread points on the sphere (a Fibonacci lattice).
 template <class F>
 void overSphere(int count, F f) {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -49,7 +49,7 @@ TEST(EnvironmentMap, BrightnessIsAsDocumented) {
       least = std::min({least, e.x, e.y, e.z});
       most = std::max({most, e.x, e.y, e.z});
     });
-    // the mean is that of the formulas as they were chosen, to 0.001: a changed constant shows
+    // The mean is that of the formulas as chosen, to 0.001, so that a changed constant is noticed.
     EXPECT_NEAR(mean, row.mean, 0.001) << int(row.environment);
     EXPECT_NEAR(least, row.least, 0.001);
     EXPECT_LE(most, row.most);
@@ -57,7 +57,7 @@ TEST(EnvironmentMap, BrightnessIsAsDocumented) {
   }
 }
 
-// Values worked out by hand from the formulas of the header.
+// Values computed by hand from the formulas of the header.
 TEST(EnvironmentMap, IsTheFormulaOfTheHeader) {
   const auto sky = glint::skyConstants;
   const dvec3 nadir = environmentRadiance(BuiltinEnvironment::sky, {0, -1, 0});
@@ -111,9 +111,9 @@ TEST(EnvironmentMap, ConstantsAreUnitAndOrthogonal) {
   }
 }
 
-// The steepest edge is the horizon of the sky and the sun's disc: nothing rises by more than 60 a
-// radian (1.1 a degree), so that a picture of a few hundred pixels across does not alias; and a
-// direction rounded to float, 6e-8 off, errs by 4e-6.
+// The steepest edges are the sky's horizon and the sun's disc: nothing changes by more than 60 per
+// radian (1.1 per degree), so that a picture a few hundred pixels wide does not alias, and a
+// direction rounded to float, 6e-8 off, causes an error of 4e-6.
 TEST(EnvironmentMap, IsSmooth) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;

@@ -1,8 +1,8 @@
-// --max-error through the whole chain: pictures of the driver, in the forms chosen, against the
-// exact reference, which has positions of its own and of the driver the interpolated normals alone,
-// of which the bound does not speak (docs/approximations.md). Lamps from 1e-4 to 1e4 of the scene's
-// size away, of intensities up to 1e5, cameras near and far, balls of slivers. A search for
-// counterexamples: the bound holds at every pixel inside a surface.
+// --max-error through the whole chain: pictures drawn by the driver in the chosen forms, compared
+// with the exact reference. The reference has positions of its own and uses only the driver's
+// interpolated normals, which the bound does not cover (docs/approximations.md). Lamps at distances
+// from 1e-4 to 1e4 of the scene's size, intensities up to 1e5, cameras near and far, spheres of
+// slivers. A search for counterexamples: the bound must hold at every pixel inside a surface.
 //
 //     GLINT_BUDGET_DRAWS=2000 gl_tests --gtest_filter='*BudgetOfTheWholeChain*'
 
@@ -25,7 +25,7 @@ class BudgetOfTheWholeChain : public OnStage {};
 
 constexpr int size = 48;
 
-// A plane, a box's side or a ball, of some size, somewhere.
+// A plane, a box's side or a sphere, of any size and position.
 struct Body {
   Mesh mesh;
   double scale;
@@ -40,7 +40,7 @@ Body bodyFor(Random& r) {
   return body;
 }
 
-// On the surface, with its normal: model space.
+// A point on the surface with its normal, in model space.
 std::pair<glm::dvec3, glm::dvec3> spotOn(const Body& body, Random& r) {
   if (body.mesh.positions.size() == 4)
     return {{3 * r.unit() - 1.5, 3 * r.unit() - 1.5, 0}, {0, 0, 1}};
@@ -146,7 +146,7 @@ TEST_P(BudgetOfTheWholeChain, KeepsItsBound) {
         reference::Attributes a = seen[std::size_t(size * y + x)];
         turned = std::max(turned, largest(color(normals, x, y) - a.normal));
         a.normal = color(normals, x, y);
-        // Where rounding turns N.L to the other side of 0 the model itself jumps.
+        // Where rounding moves N.L across 0 the model itself jumps.
         const glm::dvec3 n = glm::normalize(a.normal);
         const double reach = glm::length(a.position) + 6 * body.scale;
         bool jumps = false;

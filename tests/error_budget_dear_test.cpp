@@ -1,16 +1,16 @@
-// --max-error is not needlessly dear: what it chooses, against a search over all forms for those
-// that keep within the budget when they are measured, on a sphere seen from several sides, by the
+// --max-error is not needlessly expensive: its choice is compared with a search over all forms for
+// those that keep within the budget when measured, on a sphere seen from several sides, by the
 // reference.
 //
-// Measured are the forms for all lights together; several forms, the cheaper ones for dimmer
-// lights, which may be chosen too, can only cost less.
+// The search uses the same forms for all lights. The choice may also use several forms, with
+// cheaper ones for dimmer lights, which can only cost less.
 //
-// How much dearer the choice may be is derived. The bound of a pair of forms is a sum of parts, one
-// for the highlight of each light and one for the reflectance, and rounding. Each part is at most
-// `form` times the largest error that the form has, that error times what it multiplies is seen on
-// a sphere up to `seen` (below), and the errors measured are at least the largest part. So with P
-// parts a pair that is measured within (E - rounding) / (P form seen) has a bound within E, and the
-// choice, the cheapest of all with such a bound, cannot cost more.
+// How much more expensive the choice may be is derived. The bound of a pair of forms is a sum of
+// parts, one for the highlight of each light and one for the reflectance, and rounding. Each part
+// is at most `form` times the largest error of the form; on a sphere that error times its factor
+// shows up to a factor `seen` (below), and the measured error is at least the largest part. So with
+// P parts, a pair whose measured error is within (E - rounding) / (P form seen) has a bound within
+// E, and the choice, the cheapest of all pairs with such a bound, cannot cost more.
 
 #include <gtest/gtest.h>
 
@@ -34,9 +34,11 @@
 
 namespace glint::test::error_budget_dear_test {
 
-// Of the bounds of forms; tests/bounds_test.cpp: 1.002 for lobes, 1.25 for reflectances.
+// Looseness of the forms' bounds, from tests/bounds_test.cpp: 1.002 for lobes, 1.25 for
+// reflectances.
 constexpr double form = 1.25;
-// Points of a sphere are not everywhere: of the worst angle 5 % of the error may be missed.
+// Points on a sphere do not cover it fully: up to 5 % of the error at the worst angle may be
+// missed.
 constexpr double seen = 1.05;
 
 int draws(int usual) { return test::drawsOf("GLINT_BUDGET_DRAWS", usual); }
@@ -46,7 +48,7 @@ using test::Random;
 struct Draw {
   Scene scene;
   Look look;
-  std::vector<glm::dvec3> sides;  // where it is seen from
+  std::vector<glm::dvec3> sides;  // viewing directions
 };
 
 Draw randomDraw(Random& r, Shading program, bool white) {
@@ -67,8 +69,8 @@ Draw randomDraw(Random& r, Shading program, bool white) {
   d.look.light.emplace();
   for (int i = r.below(3); i >= 0; --i)
     d.look.light->push_back(test::directional(r.direction(), r.coin() ? glm::dvec3(1) : r.color()));
-  // From where each light shines all angles between R and V are seen; against the brightest lights
-  // of the environments the reflectance of the rim is multiplied by them.
+  // Seen from each light's direction, all angles between R and V occur. In the environments,
+  // reflectance at the rim is multiplied by the radiance of their brightest lights.
   for (const Light& light : *d.look.light) d.sides.push_back(glm::normalize(light.direction));
   d.sides.push_back(r.direction());
   if (d.look.shading == Shading::environment && d.look.environment != Environment::white) {
@@ -88,8 +90,8 @@ Look withForms(const Look& look, const HighlightForm& highlight, Fresnel fresnel
   return formed;
 }
 
-// Points of the sphere for each side that it is seen from: everywhere, and ever nearer to the
-// highlights, in eye space.
+// Points on the sphere for each viewing direction: everywhere, and ever nearer to the highlights;
+// in eye space.
 using Points = std::vector<std::vector<reference::Attributes>>;
 
 Look lookFrom(const Draw& d, std::size_t side) {
@@ -119,7 +121,7 @@ Points pointsOf(const Draw& d, Random& r) {
       points.push_back(a);
     };
     // Rings around the view, ever finer towards the rim, where reflectances differ most; from the
-    // denser side (an index below 1), towards where the refracted ray is grazing.
+    // denser side (an index below 1), towards grazing refracted rays.
     const double n = std::min(d.scene.materials[0].shading.ior, 1.0);
     for (int ring = 0; ring < 40; ++ring)
       for (int around = 0; around < 12; ++around) {
@@ -154,7 +156,7 @@ Radiances shaded(const Draw& d, const Points& points, const HighlightForm& highl
   return radiances;
 }
 
-// In the forms of the look itself.
+// In the look's own forms.
 Radiances shadedAsItIs(const Draw& d, const Points& points) {
   Radiances radiances;
   for (std::size_t side = 0; side < points.size(); ++side) {
@@ -167,7 +169,7 @@ Radiances shadedAsItIs(const Draw& d, const Points& points) {
 
 struct Candidate {
   std::string name;
-  Radiances off;  // beside the exact form, by magnitude
+  Radiances off;  // difference from the exact form, by magnitude
   double cost = 0, rounding = 0;
 };
 
@@ -226,7 +228,7 @@ std::vector<Candidate> reflectancesOf(const Draw& d, const Points& points, const
   return candidates;
 }
 
-// The largest of the sum of both: not less where they happen to cancel.
+// The largest sum of both; errors that happen to cancel do not reduce it.
 double measured(const Candidate& lobe, const Candidate& reflectance) {
   double worst = 0;
   for (std::size_t i = 0; i < lobe.off.size(); ++i) {
@@ -236,8 +238,8 @@ double measured(const Candidate& lobe, const Candidate& reflectance) {
   return worst;
 }
 
-// `margin` is what the reflectance's part of the bound, which counts with the environment's
-// brightest radiance everywhere, is larger by than what is there where reflectances differ most.
+// `margin` is the ratio by which the bound's part for reflectance, which uses the environment's
+// brightest radiance everywhere, exceeds the radiance where reflectances differ most.
 void compare(Shading program, unsigned seed, int usual, double margin) {
   Random r(seed);
   std::vector<double> ratios;
@@ -296,10 +298,10 @@ void compare(Shading program, unsigned seed, int usual, double margin) {
               ratios.size(), at(0.5), at(0.9), at(1), dearest);
 }
 
-// From which budget on --shading auto takes gouraud, beside what gouraud is measured to be off in a
-// picture of 128 x 128: about twice that. The bound adds diffuse light and highlight of all lights,
-// which are worst at different places and may be hidden or between the pixels, and counts how much
-// normal, light and view turn without regard to where to: seldom more than 4 parts of up to 2 here.
+// The budget from which --shading auto chooses gouraud, relative to gouraud's measured error in a
+// picture of 128 x 128: about twice. The bound adds diffuse light and highlight of all lights,
+// which are worst at different places and may be hidden or between pixels, and counts by how much
+// normal, light and view turn regardless of direction: seldom more than 4 parts of up to 2 here.
 TEST(ErrorBudgetIsNotDear, WithAutomaticShading) {
   Random r(65);
   std::vector<double> ratios;

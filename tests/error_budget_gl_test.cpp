@@ -1,4 +1,4 @@
-// --max-error on the driver: the shading of pictures in the forms chosen, against the exact
+// --max-error on the driver: the shading of pictures in the chosen forms, compared with the exact
 // reference given the driver's own interpolated positions and normals.
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ glm::dvec3 at(const Image& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-// Directional, or a lamp, or a spot whose ramp crosses the sphere.
+// A directional light, a lamp, or a spot whose ramp crosses the sphere.
 Light lightAround(Random& r, bool fallsOff) {
   Light light = test::directional(r.direction(), r.color());
   const int kind = r.below(4);
@@ -58,7 +58,7 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
                                   r.coin() ? 0 : r.unit(), r.color());
     if (r.coin()) m.shading.exponent = std::round(m.shading.exponent);
     m.shading.ior = 1.1 + 2 * r.unit();
-    // Some are glass, seen from within.
+    // Some are glass, seen from inside.
     const bool within = i % 4 == 2 && r.coin();
     m.doubleSided = within;
     if (r.below(3) == 0) m.shading.transmission = r.unit();
@@ -69,12 +69,12 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
     look.shading = programs[i % 4];
     const Shading truth = i % 4 == 3 ? Shading::phong : look.shading;
     look.maxError = r.log(2e-5, 0.3);
-    if (i % 6 == 5) {  // rounding alone, also without a highlight
+    if (i % 6 == 5) {  // rounding only, also without a highlight
       look.maxError = 0;
       if (r.coin()) scene.materials[0].shading.specular = 0;
     }
     look.light.emplace();
-    const bool many = i % 4 != 3 && r.coin();  // of which some are dim
+    const bool many = i % 4 != 3 && r.coin();  // some of which are dim
     const bool fallsOff = r.below(3) == 0;     // all of a file's lights do, none of --light
     for (int k = r.below(many ? 24 : 3); k >= 0; --k) {
       look.light->push_back(lightAround(r, fallsOff));
@@ -115,7 +115,8 @@ TEST_P(BudgetOnDriver, ShadingKeepsWithinIt) {
         if (a.item < 0 || drawn.row(y)[4 * x + 3] == 0) continue;
         a.position = at(positions, x, y);
         a.normal = at(normals, x, y);
-        // Filtered by the normals of the triangle, which next to an edge may be the next one's.
+        // Filtered by the triangle's normals; near an edge the driver may use the adjacent
+        // triangle's.
         if (look.specularAntialiasing == SpecularAntialiasing::kaplanyan &&
             a.edgeDistance < 1.0 / 128)
           continue;

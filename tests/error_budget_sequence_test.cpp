@@ -1,4 +1,4 @@
-// --max-error in codes of the picture, over several pictures, and near lamps.
+// --max-error in picture codes, over several pictures, and near lamps.
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ TEST(ErrorBudgetInCodes, IsTheLinearOneWithoutThem) {
   EXPECT_EQ(*errorBudget(look), 0.02);
 }
 
-// A ball that comes near a lamp and leaves it again: what is chosen is what the nearest place
-// needs.
+// A sphere that approaches a lamp and leaves it again: the choice is the one needed at the nearest
+// position.
 TEST(ErrorBudgetOfASequence, IsOneChoiceWithinItInEveryPicture) {
   std::vector<Scene> scenes;
   for (const double z : {-20.0, -1.0, 2.5, 0.0})
@@ -65,7 +65,7 @@ TEST(ErrorBudgetOfASequence, IsOneChoiceWithinItInEveryPicture) {
   EXPECT_FALSE(shown.maxError);
 }
 
-// Against the nearest of many points of the triangles.
+// Compared with the nearest of many points on the triangles.
 TEST(SceneDistance, IsThatOfTheNearestPlace) {
   Random r(5);
   for (int i = 0; i < 200; ++i) {
@@ -94,8 +94,8 @@ TEST(SceneDistance, IsThatOfTheNearestPlace) {
   EXPECT_TRUE(std::isinf(SceneDistance(Scene{}).to({0, 0, 0})));
 }
 
-// A lamp a thousandth of the view's distance above a plane: the bound says how far floats turn the
-// light, an order of magnitude above the 4.6e-4 measured.
+// A lamp above a plane, at a thousandth of the viewing distance: the bound includes how far floats
+// turn the light, an order of magnitude above the 4.6e-4 measured.
 TEST(ErrorBudgetNearLamps, CountsWhatPositionsAreOffBy) {
   const Scene scene = sceneOf(quad(), materialOf(0, 1, 0.5, 30));
   for (const double height : {1e-2, 1e-3}) {
@@ -115,7 +115,7 @@ TEST(ErrorBudgetNearLamps, CountsWhatPositionsAreOffBy) {
   }
 }
 
-// The exact lobe of a difference vector that is off by a turn.
+// The exact lobe with its difference vector turned by an error.
 TEST(LobeTurnBound, HoldsForEveryTurn) {
   Random r(8);
   for (int i = 0; i < 200000; ++i) {

@@ -1,5 +1,5 @@
-// --max-error: the choice keeps within its budget, and is not needlessly dear. Without GL: the
-// formulas in double, with what single precision does to the inputs of a lobe.
+// --max-error: the choice keeps within its budget and is not needlessly expensive. Without GL: the
+// formulas in double, with single precision's effect on the inputs of a lobe.
 
 #include "glint/budget/error_budget.h"
 
@@ -49,7 +49,7 @@ Draw randomDraw(Random& r, bool automatic) {
   d.look.shading = automatic ? Shading::automatic : programs[r.below(3)];
   d.look.maxError = r.log(1e-5, 0.5);
   d.look.light.emplace();
-  const bool many = !automatic && r.below(4) == 0;  // of which some are dim
+  const bool many = !automatic && r.below(4) == 0;  // some of which are dim
   for (int i = r.below(automatic ? 3 : many ? 24 : 5); i >= 0; --i) {
     const double brightness = many ? r.log(1e-4, 1) : 1.0;
     Light light = test::directional(r.direction(), brightness * r.color());
@@ -104,12 +104,12 @@ TEST(ErrorBudget, PicturesKeepWithinIt) {
     const Shading truth = d.look.shading == Shading::automatic ? Shading::phong : d.look.shading;
     const double error =
         largestDifference(drawn(d, resolved.look), drawn(d, exactly(d.look, truth)));
-    // The formulas' part alone: the reference has no rounding to speak of but that of its floats.
+    // Only the formulas' part: the reference has no significant rounding except that of its floats.
     ASSERT_LE(error, std::max(resolved.bound, 0.0) + 1e-6) << describe(d, resolved);
     if (resolved.bound <= *d.look.maxError) {
       ASSERT_LE(error, *d.look.maxError + 1e-6) << describe(d, resolved);
     }
-    // What costs less than exact is taken only within the budget.
+    // Forms cheaper than exact are chosen only within the budget.
     for (const FormChoice& choice : resolved.choices) {
       if (choice.cost < choice.exactCost) {
         ASSERT_LE(choice.bound, *d.look.maxError) << describe(d, resolved);
@@ -122,8 +122,9 @@ TEST(ErrorBudget, PicturesKeepWithinIt) {
   EXPECT_GT(chosen, draws(1500) / 4);
 }
 
-// Against the search over all forms for those whose measured error over lambda, not whose bound, is
-// within: the chosen one costs no more than the cheapest of those for half of the budget.
+// Compared with a search over all forms for those whose measured error over lambda, not their
+// bound, is within the budget: the chosen one costs no more than the cheapest for half of the
+// budget.
 TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
   Random random(22);
   for (int i = 0; i < draws(150); ++i) {
@@ -155,8 +156,8 @@ TEST(ErrorBudget, TheChoiceIsNotNeedlesslyDear) {
   }
 }
 
-// Under a table in which another form is the cheapest, that one is taken; the table goes with the
-// budget.
+// With a table in which another form is the cheapest, that one is chosen; the table applies only
+// with a budget.
 TEST(ErrorBudget, GoesByTheTableOfCostsThatTheLookNames) {
   Random random(26);
   Draw d = randomDraw(random, false);
@@ -240,7 +241,7 @@ TEST(ErrorBudget, MaterialsThatDifferGetFormsOfTheirOwn) {
   EXPECT_EQ(resolved.look.material.at("sharp").highlight, resolved.choices[1].highlight);
 }
 
-// The worst of all materials of a name counts, whichever comes last.
+// The worst of all materials with the same name counts, in either order.
 TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
   for (const bool swapped : {false, true}) {
     Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, swapped ? 0.1 : 0.7, 20));
@@ -258,7 +259,7 @@ TEST(ErrorBudget, MaterialsOfOneNameShareTheWorst) {
   }
 }
 
-// Likewise of exponents, indices and meshes.
+// Likewise for exponents, indices and meshes.
 TEST(ErrorBudget, SurfacesOfOneNameShareTheWorst) {
   const auto bound = [](double first, double second, double firstIor, double secondIor) {
     Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.7, first));
@@ -278,7 +279,7 @@ TEST(ErrorBudget, SurfacesOfOneNameShareTheWorst) {
   EXPECT_DOUBLE_EQ(bound(30, 30, 1.5, 1.1).reflectance, bound(30, 30, 1.1, 1.5).reflectance);
 }
 
-// Lights that no normal sees together count one at a time; glass seen from within rounds more.
+// Lights that no normal faces together count one at a time; glass seen from inside rounds more.
 TEST(ErrorBudget, LightsFromBothSidesCountOnce) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.7, 20));
   Look look;
@@ -292,7 +293,7 @@ TEST(ErrorBudget, LightsFromBothSidesCountOnce) {
   EXPECT_GT(resolveLook(scene, boundsOf(scene), look).bound, 5 * front);
 }
 
-// Of a highlight on glass only the share is seen that the glass does not let through.
+// A highlight on glass counts only by the share that the glass does not transmit.
 TEST(ErrorBudget, HighlightsOnGlassCountByTheirShare) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 1, 0.8, 20));
   scene.materials[0].shading.transmission = 0.75;
@@ -303,7 +304,7 @@ TEST(ErrorBudget, HighlightsOnGlassCountByTheirShare) {
   EXPECT_NEAR(resolveLook(scene, boundsOf(scene), look).choices.at(0).lobe, 0.2, 1e-12);
 }
 
-// Once a vertex pays only while there are fewer vertices than pixels.
+// Shading per vertex pays only while there are fewer vertices than pixels.
 TEST(ErrorBudget, FineModelsInSmallPicturesAreShadedPerPixel) {
   const Scene scene = test::sceneOf(test::sphere(64, 32), test::materialOf(1, 1, 0, 20));
   Look look;
@@ -314,7 +315,7 @@ TEST(ErrorBudget, FineModelsInSmallPicturesAreShadedPerPixel) {
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
 }
 
-// A key light and many dim ones: the dim ones' highlights may be wrong by more.
+// A key light and many dim ones: the highlights of the dim ones may have larger errors.
 TEST(ErrorBudget, DimLightsGetCheaperForms) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0.5, 60.5));
   Look look;
@@ -338,7 +339,7 @@ TEST(ErrorBudget, DimLightsGetCheaperForms) {
   EXPECT_NEAR(resolved.choices.at(0).lobe, error, 1e-12);
 }
 
-// Of meshes that share a material the coarsest counts, wherever it stands.
+// Among meshes that share a material the coarsest counts, wherever it is.
 TEST(ErrorBudget, TheCoarsestMeshOfAMaterialCounts) {
   const auto interpolation = [](std::vector<Mesh> meshes) {
     Scene scene = test::sceneOf(meshes[0], test::materialOf(1, 0.8, 0.5, 20));
@@ -375,8 +376,7 @@ TEST(ErrorBudget, FlatIsChosenWhereItIsExact) {
   EXPECT_EQ(resolveLook(scene, boundsOf(scene), look).look.shading, Shading::phong);
 }
 
-// A lamp that weakens counts with what it brings to the point nearest to it: all of the highlight's
-// error where there is none.
+// A lamp with fall-off counts by the intensity that it has at the nearest point of the scene.
 TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0, 0.5, 20));
   Look look;
@@ -384,7 +384,7 @@ TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
   Light lamp;
   lamp.type = Light::Type::point;
   lamp.fallsOff = true;
-  // Over the middle of the square of half size 2, beside an edge, and beyond a corner.
+  // Above the middle of the square of half size 2, beside an edge, and beyond a corner.
   for (const auto& [place, nearest] :
        {std::pair{glm::dvec3(0, 0, 3), 3.0}, std::pair{glm::dvec3(0.5, 1, -0.25), 0.25},
         std::pair{glm::dvec3(5, 1, 4), 5.0}, std::pair{glm::dvec3(-4, -3, 2), 3.0}}) {
@@ -395,7 +395,7 @@ TEST(ErrorBudget, LampsThatWeakenCountWhereTheyAreNearest) {
   }
 }
 
-// Faces under a lamp that is far away: nearly constant.
+// Faces under a distant lamp: nearly constant.
 TEST(ErrorBudget, LampsAreNoHindrance) {
   Scene scene = test::sceneOf(test::quad(), test::materialOf(1, 0.8, 0, 20));
   Look look;
@@ -422,7 +422,7 @@ TEST(ActiveIntensity, CountsOnlyLightsThatOneNormalSees) {
   EXPECT_EQ(activeIntensity({x, y, z}, {one, one, one}), glm::dvec3(3.0));
   EXPECT_EQ(activeIntensity({x, -x, y, -y, z, -z}, V(6, one)), glm::dvec3(3.0));
   EXPECT_EQ(activeIntensity({x, x, -x}, V(3, one)), glm::dvec3(2.0));
-  // Against normals at random: never below, and reached.
+  // Compared with random normals: never below, and reached.
   Random random(26);
   for (int i = 0; i < 20; ++i) {
     V directions, intensities;

@@ -1,5 +1,5 @@
-// How glint refuses: the status, one line on stderr that says what, where and what to do, and
-// nothing left behind.
+// How glint refuses input: the status, one line on stderr that says what, where and what to do, and
+// no files left behind.
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -53,7 +53,7 @@ TEST(Usage, MissingModelAndOutput) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-// Every option of the table with a bad value: named, with what is expected.
+// Every option of the table with a bad value: the message names it and says what is expected.
 TEST(Usage, BadValuesOfOptions) {
   const std::vector<std::vector<std::string>> options = {{"--shading", "toon"},
                                                          {"--highlight", "lyon:7"},
@@ -90,7 +90,7 @@ TEST(Usage, BadValuesOfOptions) {
     std::vector<std::string> arguments{"render", sphere, "-o", folder / "a.png"};
     arguments.insert(arguments.end(), option.begin(), option.end());
     SCOPED_TRACE(testing::PrintToString(option));
-    // Two messages speak of the value instead.
+    // Two messages name the value instead.
     const std::string name = option[0] == "--bit-depth" && option[1] == "12" ? "bits per channel"
                              : option[0] == "--rendering-backend"
                                  ? "no rendering backend is called"
@@ -136,7 +136,7 @@ TEST(Usage, ModelsThatCannotBeRead) {
                 "text.glb");
   std::ofstream(folder / "empty.gltf").flush();
   expectRefusal(runGlint({"info", folder / "empty.gltf"}), "empty.gltf");
-  // A pipe that nobody writes must not hang.
+  // A pipe without a writer must not hang.
   mkfifo((folder / "pipe.glb").c_str(), 0600);
   expectRefusal(runGlint(quick({"render", folder / "pipe.glb", "-o", folder / "a.png"}),
                          {.timeoutSeconds = 20}),
@@ -233,7 +233,7 @@ TEST(Usage, WhatWasGivenWithLineBreaksIsToldInOneLine) {
   expectRefusal(runGlint({"fro\nb"}), R"('fro\nb')");
 }
 
-// A report that did not arrive is no success.
+// A report that could not be written is not a success.
 TEST(Usage, AFullDiskBehindStandardOutput) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"--version"},
@@ -260,7 +260,7 @@ TEST(Usage, ReportsOfFilesWhoseNamesAreNotUtf8) {
   EXPECT_TRUE(nlohmann::json::accept(glint::test::contents(folder / "look.json")));
 }
 
-// It measures for a minute: what cannot be written must be told before.
+// It measures for a minute, so outputs that cannot be written must be reported first.
 TEST(Usage, AStudyRefusesItsFilesAtOnce) {
   for (const char* option : {"--json", "--markdown"})
     expectRefusal(runGlint({"study", option, "/proc/none/a"}, {.timeoutSeconds = 5}), "/proc/none");
@@ -322,7 +322,7 @@ TEST(Usage, ShaderFoldersThatDoNotServe) {
   EXPECT_THAT(folder.names(), ElementsAre("phong.glsl"));
 }
 
-// One of three models is broken: the others are drawn, and the status tells.
+// One of three models is broken: the others are drawn, and the status reports it.
 TEST(Usage, OneBrokenModelDoesNotStopTheOthers) {
   Folder folder("three");
   std::ofstream(folder / "broken.glb") << "broken";
@@ -342,8 +342,8 @@ TEST(Usage, OneBrokenModelDoesNotStopTheOthers) {
 
 class FakeDrivers : public testing::TestWithParam<const char*> {};
 
-// No context: status 3, and for each backend the reason in a line. libOSMesa.so.6, an older name,
-// may be the real one: then `auto` draws by it, and is not asked.
+// No context: status 3, and a line with the reason for each backend. libOSMesa.so.6, an older name,
+// may be a real library: then `auto` draws with it and is not tested.
 TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
   const std::string drivers = GLINT_BINARY_DIR "/tests/fake/" + std::string(GetParam());
   const glint::test::CommandOptions options{.environment = {{"LD_LIBRARY_PATH", drivers}}};
@@ -355,7 +355,7 @@ TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
     SCOPED_TRACE(backend);
     if (backend == std::string("osmesa") && ran.status == 0) {
       std::filesystem::remove(folder / "a.png");
-      continue;  // libOSMesa.so.6 served
+      continue;  // libOSMesa.so.6 worked
     }
     expectRefusal(ran, "", 3);
   }

@@ -1,4 +1,4 @@
-// Meshes whose triangles each own their last vertex.
+// Meshes in which each triangle owns its last vertex.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace glint::test::face_mesh_test {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// The first in order of the triangle's three writings with the same winding.
+// The lexicographically first of the triangle's three rotations, which have the same winding.
 Triangle turned(const Triangle& t) {
   return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
 }
@@ -33,7 +33,7 @@ void expectFaces(const Mesh& mesh) {
       was[k] = mesh.indices[i + k];
       ASSERT_LT(is[k], mesh.positions.size());
     }
-    // The same corners in the same order round: geometry and winding are unchanged.
+    // The same corners in the same cyclic order: geometry and winding are unchanged.
     EXPECT_EQ(turned(is), turned(was)) << "triangle " << i / 3;
     const std::uint32_t last = faces.indices[i + 2];
     EXPECT_TRUE(owned.insert(last).second) << "triangle " << i / 3 << " shares its last vertex";
@@ -77,7 +77,7 @@ TEST(FaceMesh, EveryTriangleOwnsItsLastVertexAndKeepsItsShape) {
 TEST(FaceMesh, NeedsAboutAsManyVerticesAsTriangles) {
   const Mesh mesh = glint::test::sphere(64, 32);
   const std::size_t triangles = mesh.indices.size() / 3;
-  // Each triangle owns one vertex; vertices that own nothing are at most those of the mesh.
+  // Each triangle owns one vertex; at most the mesh's vertices are unowned.
   EXPECT_LE(makeFaceMesh(mesh).source.size(), triangles + mesh.positions.size() / 8);
 }
 

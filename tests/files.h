@@ -1,6 +1,6 @@
 #pragma once
 
-// Files and folders of tests, and what is said of broken ones.
+// Files and folders for tests, and messages about broken ones.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@
 
 namespace glint::test {
 
-/// A folder of this process alone; made when first asked for, left to the system.
+/// A folder for this process only; created on first use, never removed.
 inline std::string temporaryFolder() {
   static const std::string folder = [] {
     std::string name = testing::TempDir() + "glint_tests_" + std::to_string(getpid());
@@ -28,7 +28,7 @@ inline std::string temporaryFolder() {
   return folder;
 }
 
-/// An empty folder of its own for one test.
+/// An empty folder for one test.
 class Folder {
  public:
   explicit Folder(const std::string& name) : path_(temporaryFolder() + "/" + name) {
@@ -42,7 +42,7 @@ class Folder {
   }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   const std::string& path() const { return path_; }
-  /// Names in it, hidden ones too, in order.
+  /// The names in it, including hidden ones, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_))

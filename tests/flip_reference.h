@@ -1,7 +1,7 @@
 #pragma once
 
-// FLIP as the paper writes it: filters in two dimensions, in double. Slow; written apart from
-// src/image.
+// FLIP as defined in the paper: two-dimensional filters, in double. Slow, and written independently
+// of src/image.
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ inline double hyab(const Rgb& a, const Rgb& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/// Pixels of linear RGB, rows from the top; the error of every pixel.
+/// From pixels of linear RGB, rows from the top, the error of every pixel.
 inline std::vector<double> flipByThePaper(int width, int height, const std::vector<Rgb>& reference,
                                           const std::vector<Rgb>& test, double ppd) {
   constexpr double pi = 3.14159265358979323846;

@@ -1,4 +1,4 @@
-// FLIP against a slow version of the paper's formulas and against closed cases.
+// FLIP compared with a slow version of the paper's formulas and with closed cases.
 
 #include "glint/image/flip.h"
 
@@ -49,10 +49,10 @@ TEST(Flip, AgreesWithThePaper) {
   const std::array<int, 2> sizes[] = {{1, 1}, {1, 40}, {40, 1}, {3, 2}, {17, 33}, {70, 51}};
   for (const std::array<int, 2>& size : sizes) {
     const int w = size[0],
-              h = size[1];  // a structured binding is captured by no lambda in Clang 14
+              h = size[1];  // Clang 14 cannot capture structured bindings in lambdas
     for (const double ppd : {67.0206432765823, 20.0, 5.0, 110.0}) {
       const Picture a(w, h, noise);
-      // Small differences, large ones, edges, and nothing at all.
+      // Small differences, large ones, edges, and no difference.
       const Picture tests[] = {Picture(w, h, noise),
                                Picture(w, h,
                                        [&](int x, int y) {
@@ -77,8 +77,8 @@ TEST(Flip, AgreesWithThePaper) {
         double mean = 0;
         for (std::size_t i = 0; i < expected.size(); ++i) {
           mean += expected[i] / double(expected.size());
-          // Where the pictures are nearly alike, the power 0.7 and the root of the features make a
-          // rounding of 1e-7 of a value into some 1e-4 of the error.
+          // Where the pictures are nearly equal, the power 0.7 and the square root of the features
+          // turn a rounding of 1e-7 of a value into about 1e-4 of the error.
           ASSERT_NEAR(map[i], expected[i], 5e-4) << w << " x " << h << ", " << ppd;
         }
         EXPECT_NEAR(result.mean, mean, w * h > 1000 ? 2e-6 : 2e-5)
@@ -89,18 +89,18 @@ TEST(Flip, AgreesWithThePaper) {
 }
 
 TEST(Flip, ClosedCases) {
-  // Equal pictures: 0. Green and blue have the largest colour difference there is, by definition.
+  // Equal pictures: 0. Green and blue have the largest possible colour difference, by definition.
   const Picture green = plain(30, 20, {0, 1, 0}), blue = plain(30, 20, {0, 0, 1});
   EXPECT_EQ(glint::flip(green.rows(), green.rows()).mean, 0);
   EXPECT_NEAR(glint::flip(green.rows(), blue.rows()).mean, 1, 1e-6);
-  // Even black and white, without features: lightness 100 apart.
+  // Uniform black and white, without features: lightness 100 apart.
   const double largest = std::pow(
       glint::test::hyab(glint::test::huntLab({0, 1, 0}), glint::test::huntLab({0, 0, 1})), 0.7);
   const double power = std::pow(100.0, 0.7), corner = 0.4 * largest;
   const double expected = 0.95 + 0.05 * (power - corner) / (largest - corner);
   const Picture black = plain(9, 9, {0, 0, 0}), white = plain(9, 9, {1, 1, 1});
   EXPECT_NEAR(glint::flip(black.rows(), white.rows()).mean, expected, 1e-6);
-  // Values beyond [0, 1] are clamped, what is not a number is black.
+  // Values outside [0, 1] are clamped; NaN becomes black.
   EXPECT_EQ(glint::flip(white.rows(), plain(9, 9, {7, 2, 1e30}).rows()).mean, 0);
   EXPECT_EQ(glint::flip(black.rows(), plain(9, 9, {NAN, -1, 0}).rows()).mean, 0);
 }
@@ -157,7 +157,7 @@ std::vector<double> hdrByThePaper(const Picture& a, const Picture& b, double sta
   return largest;
 }
 
-/// The value below which errors of that share of the sum of all lie.
+/// The value below which errors add up to this share of their sum.
 double weightedQuantile(std::vector<double> errors, double share) {
   std::sort(errors.begin(), errors.end());
   double all = 0, below = 0;
@@ -167,7 +167,7 @@ double weightedQuantile(std::vector<double> errors, double share) {
   return 0;
 }
 
-// The tone mappers as their authors write them, and exposures that are given.
+// The tone mappers as published by their authors, with given exposures.
 TEST(HdrFlip, ExposuresAndToneMappersAsGiven) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(-5, 3);
@@ -184,7 +184,7 @@ TEST(HdrFlip, ExposuresAndToneMappersAsGiven) {
     for (double& v : p) v = curve(2 * v) / curve(11.2);
     return p;
   };
-  // Reinhard, Stark, Shirley, Ferwerda (2002), of the luminance.
+  // Reinhard, Stark, Shirley, Ferwerda (2002), applied to the luminance.
   const auto reinhard = [](Rgb p) {
     const double luminance = 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
     for (double& v : p) v /= 1 + luminance;
@@ -227,7 +227,7 @@ TEST(HdrFlip, ExposuresAndToneMappersAsGiven) {
     EXPECT_NEAR(result.firstQuartile, weightedQuantile(errors, 0.25), 5e-4);
     EXPECT_NEAR(result.thirdQuartile, weightedQuantile(errors, 0.75), 5e-4);
   }
-  // One a stop between what is given.
+  // One per stop within the given range.
   FlipOptions options;
   options.startExposure = -1;
   options.stopExposure = 3.5;
@@ -266,7 +266,7 @@ TEST(HdrFlip, IsTheLargestOverExposures) {
   double mean = 0;
   for (const double error : largest) mean += error / double(largest.size());
   EXPECT_NEAR(result.mean, mean, 2e-6);
-  // Black references have no exposures of their own.
+  // Black references give no exposure range of their own.
   const Picture black = plain(4, 4, {0, 0, 0}), grey = plain(4, 4, {0.1, 0.1, 0.1});
   EXPECT_GT(glint::hdrFlip(black.rows(), grey.rows()).mean, 0.1);
   EXPECT_EQ(glint::hdrFlip(black.rows(), black.rows()).mean, 0);

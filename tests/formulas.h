@@ -1,7 +1,7 @@
 #pragma once
 
-// The formulas in double, written for the tests from docs/science.md and the literature, apart from
-// src/shading: what pictures are compared with.
+// The formulas in double, which pictures are compared with. Written for the tests from
+// docs/science.md and the literature, independently of src/shading.
 
 #include <algorithm>
 #include <cmath>
@@ -54,12 +54,12 @@ inline double reflectance(double cosTheta, double n1, double n2) {
   return (s * s + p * p) / 2;
 }
 
-/// Half an ulp of float near 1: what one rounding to float costs, relative.
+/// Half an ulp of float near 1: the relative error of one rounding to float.
 inline constexpr double rounding = 1.0 / (1 << 24);
 
-/// How far a lobe drawn in float may lie from the exact one. Directions carry e = 8 roundings each
-/// (a rotation of three products, a normalisation), so D = L + V - 2 (N.L) N is off by at most
-/// about 6 e; lambda = |D|^2 / 2 then moves by |D| 6 e, and the lobe (1 - lambda)^a by at most
+/// The error bound of a lobe drawn in float. Directions carry e = 8 roundings each (a rotation of
+/// three products, a normalisation), so D = L + V - 2 (N.L) N is off by at most about 6 e.
+/// lambda = |D|^2 / 2 then changes by |D| 6 e, and the lobe (1 - lambda)^a by at most
 /// max over D of a |D| exp(-a D^2 / 2) 6 e = sqrt(a / e) 6 e = 0.61 sqrt(a) 6 e. The power itself,
 /// exp2 of a logarithm with a relative error of some 4 roundings, adds 4 roundings / e.
 inline double lobeTolerance(double exponent) {

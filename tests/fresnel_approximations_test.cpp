@@ -15,8 +15,8 @@ struct Errors {
   double max = 0.0, at = 0.0, mean = 0.0, rms = 0.0, weighted = 0.0;
 };
 
-/// |approximation - exact| over [from, to] degrees, by the midpoint rule: with 40000 angles the
-/// maximum is missed by less than 1e-7 of a curvature of at most 1e3 per radian squared.
+/// |approximation - exact| over [from, to] degrees, by the midpoint rule. With 40000 angles the
+/// maximum is missed by less than 1e-7, for a curvature of at most 1e3 per radian squared.
 Errors errorsOf(const std::function<double(double)>& form, double n1, double n2, double from = 0.0,
                 double to = 90.0) {
   const int count = 40000;
@@ -41,9 +41,9 @@ Errors errorsOf(const std::function<double(double)>& form, double n1, double n2,
   return e;
 }
 
-// The tables are those of docs/science.md; three of their last digits, where the value lies next to
-// a tie, are those of a finer sampling: 0.22855, 0.021048 and 0.037645.
-constexpr double half = 0.5001;  // of a unit of the last digit printed
+// The tables of docs/science.md. Three last digits, where the value is next to a tie, come from a
+// finer sampling: 0.22855, 0.021048 and 0.037645.
+constexpr double half = 0.5001;  // of a unit of the last printed digit
 
 TEST(FresnelApproximations, SchlickErrsAsTabulated) {  // docs/science.md 4.4, from the thinner side
   const double table[][6] = {
@@ -78,7 +78,7 @@ TEST(FresnelApproximations, SchlickFromTheDenserSideNeedsTheRefractedAngle) {
     EXPECT_NEAR(e.max, row[2], half * 1e-4) << n;
     EXPECT_NEAR(e.at, row[3], half * 1e-1) << n;
     EXPECT_NEAR(e.mean, row[4], half * 1e-4) << n;
-    // E2, K15: with cos(theta_i), R near the critical angle, where it is 1, stays near R0.
+    // E2, K15: with cos(theta_i), R stays near R0 close to the critical angle, where it is 1.
     const Errors wrong =
         errorsOf([n](double c) { return glint::schlick(c, 1.0, n); }, n, 1.0, 0.0, critical);
     EXPECT_GT(wrong.max, 0.55) << n;
@@ -105,10 +105,10 @@ TEST(FresnelApproximations, TheOthersErrAsTabulated) {  // docs/science.md 4.5
           .max;
     };
     EXPECT_NEAR(rational(minimax), row[2], half * 1e-4) << n;
-    EXPECT_NEAR(minimax, row[3], 2e-3) << n;  // the table's own search stopped within that
+    EXPECT_NEAR(minimax, row[3], 2e-3) << n;  // accuracy of the search that made the table
     EXPECT_NEAR(rational(slope), row[4], half * 1e-4) << n;
     EXPECT_NEAR(slope, row[5], half * 1e-3) << n;
-    // Best: no other k does better, beyond what 512 angles miss of the maximum.
+    // Optimal: no other k is better, up to the error of 512 angles in the maximum.
     EXPECT_LT(rational(minimax), rational(minimax * 1.01));
     EXPECT_LT(rational(minimax), rational(minimax * 0.99));
     EXPECT_EQ(glint::rationalMinimax(n, 1.0), minimax);

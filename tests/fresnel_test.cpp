@@ -26,8 +26,8 @@ struct Truth {
 };
 
 /// Fresnel's textbook equations in 100 digits for exactly these doubles; g = n cos(theta_t), 0 in
-/// total reflection. Another form than the one under test, and its cancellation costs 34 digits at
-/// most for the inputs used here.
+/// total reflection. A form different from the one under test; its cancellation loses at most 34
+/// digits for the inputs used here.
 Truth truth(double cosTheta, double n1, double n2) {
   const Real c = cosTheta, a = n1, b = n2;
   if (n1 == n2) return {0, 0, 0, c};
@@ -77,7 +77,7 @@ void expectTrue(double c, double n1, double n2) {
             2.0 * bound(c, n1, n2, double(t.g)));
 }
 
-// docs/science.md 4.1, 40 digits rounded to 8: half a unit of the last digit printed.
+// docs/science.md 4.1, 40 digits rounded to 8: half a unit of the last printed digit.
 TEST(Fresnel, ReproducesTheTableOfReferenceValues) {
   const double pairs[10][2] = {{1, 1.0003}, {1, 1.1}, {1, 1.33}, {1, 1.5},  {1, 1.8},
                                {1, 2.4},    {1, 4},   {1.5, 1},  {1.33, 1}, {2.4, 1}};
@@ -141,7 +141,7 @@ TEST(Fresnel, AgreesWithAHundredDigitsAtRandom) {
   for (int i = 0; i < 3000; ++i) {
     const double ratio = std::exp2(20.0 * unit(random) - 10.0);
     const double n1 = 1.0 + unit(random);
-    // cosines crowded towards grazing and towards normal incidence as well as even
+    // cosines concentrated towards grazing and normal incidence as well as uniform ones
     const double t = unit(random);
     const double c = i % 3 == 0   ? t
                      : i % 3 == 1 ? std::exp2(-40.0 * t)
@@ -151,8 +151,8 @@ TEST(Fresnel, AgreesWithAHundredDigitsAtRandom) {
   }
 }
 
-// K3, K4: indices that differ by 1e-15 to 1e-3 of themselves, both ways, at cosines about sqrt(2d),
-// where the reflectance rises and, from the denser side, the critical angle lies.
+// K3, K4: indices that differ by a relative 1e-15 to 1e-3, both ways, at cosines around sqrt(2d),
+// where the reflectance rises and, from the denser side, the critical angle is.
 TEST(Fresnel, AgreesWithAHundredDigitsAsTheIndicesMeet) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -168,7 +168,7 @@ TEST(Fresnel, AgreesWithAHundredDigitsAsTheIndicesMeet) {
   }
 }
 
-// K9, K10: the critical cosine itself, and outwards by one ulp, two, four...
+// K9, K10: the critical cosine itself, and one ulp, two, four... to either side.
 TEST(Fresnel, AgreesWithAHundredDigitsAroundTheCriticalAngle) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -214,7 +214,7 @@ TEST(Fresnel, NamedCases) {
   EXPECT_EQ(glint::schlick(std::cos(42 * degree), 1.5, 1.0), 1.0);
 }
 
-// K13, K14 and every other number a caller may let through.
+// K13, K14 and any other number that a caller may pass.
 TEST(Fresnel, IsTotal) {
   const double odd[] = {0.0, -0.0, -1.0, 1e-320, 1e-9, 1e-4,     1.0,      1.5,
                         1e4, 1e9,  1e30, 1e308,  nan,  infinity, -infinity};

@@ -1,4 +1,4 @@
-// A disk that is full at every output: one line, a status that says so, nothing half-written.
+// A full disk at every output: one line, a status that reports it, no half-written file.
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ using testing::Not;
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-/// The commands with all that they can write, into the folder out/ of the one they run in.
+/// The commands with all their outputs, written to the folder out/ of their working folder.
 std::vector<Arguments> commands() {
   const std::string torus = shipped + "torus.glb";
   const Arguments small{"--resolution", "64,48", "--rendering-backend", "osmesa"};
@@ -59,7 +59,7 @@ std::vector<Arguments> commands() {
   };
 }
 
-/// What the commands read.
+/// The inputs of the commands.
 void prepare(const Folder& folder) {
   fs::create_symlink("/dev/null", folder / "null.png");
   for (const char* name : {"a.png", "b.png"}) {
@@ -101,7 +101,7 @@ TEST(FullDisk, OfEachOutputLeavesNothing) {
   }
 }
 
-// A disk of its own with 8 KiB, where the system lets one be made.
+// A real disk of 8 KiB, if the system allows one to be made.
 TEST(FullDisk, ThatIsOneIsTold) {
   const Folder folder("disk");
   prepare(folder);
@@ -109,8 +109,8 @@ TEST(FullDisk, ThatIsOneIsTold) {
   const auto inside = [&](const std::string& what) {
     std::ofstream(folder / "run.sh") << "mount -t tmpfs -o size=8k none out || exit 99\n" << what;
     const int status = std::system(
-        // Root needs no user namespace; a changed root lets it have none, and is no mount of its
-        // own.
+        // Root needs no user namespace. In a chroot it cannot have one, and the new root is not a
+        // mount point of its own.
         ("cd '" + folder.path() +
          "' && unshare $(unshare -m true && echo -m || "
          "{ unshare -rm true && echo -rm || echo -m --propagation unchanged; }) " +
@@ -123,7 +123,7 @@ TEST(FullDisk, ThatIsOneIsTold) {
     std::string text = "'" GLINT_EXECUTABLE "'";
     for (const std::string& word : command) text += " '" + word + "'";
     SCOPED_TRACE(text);
-    // Filled but for one page, which the folder's own entries need.
+    // Filled except for one page, which the folder's own entries need.
     const int status = inside("head -c 8192 /dev/zero > out/full 2> /dev/null; " + text +
                               "; status=$?; rm -f out/full; find out -type f >&2; exit $status");
     const std::string said = contents(folder / "err.txt");

@@ -1,5 +1,5 @@
-// All that reads bytes or text from outside, on small inputs damaged at random: the targets of
-// tests/fuzz without a fuzzer. GLINT_FUZZ_DRAWS makes more of them.
+// All functions that read bytes or text from outside, on small randomly damaged inputs: the targets
+// of tests/fuzz without a fuzzer. GLINT_FUZZ_DRAWS increases their number.
 
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ std::map<std::string, std::vector<Bytes>> seedsIn(Sample& sample) {
       {"gltf", {bytesOfFile(sample.writeGlb()), bytesOfFile(sample.writeGltf())}},
       {"png", {png, written(file("a.png"))}},
       {"jpeg", {jpeg(false), jpeg(true)}},
-      // The smallest without losses: one pixel.
+      // The smallest lossless one: one pixel.
       {"webp",
        {bytesOf(std::string("RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0/\0\0\0\x10\x07\x10\x11\x11\x88"
                             "\x88\xfe\x07\0",

@@ -1,4 +1,4 @@
-// What a user reads where there is no OpenGL: fake drivers, no context.
+// The error messages if there is no OpenGL: fake drivers, no context.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ std::unique_ptr<glint::Context> openOsmesa(const char* folder) {
   return glint::backends::openOsmesa(names);
 }
 
-/// The message of the ContextError, or a text no test wants.
+/// The message of the ContextError, or a text that no test expects.
 template <class Open>
 std::string failure(Open open) {
   try {
@@ -80,7 +80,7 @@ TEST(GlFailure, NoContext) {
 TEST(GlFailure, NoDevice) {
   EXPECT_THAT(failure([] { openEgl("no-context"); }),
               AllOf(HasSubstr("no device"), HasSubstr("libegl-mesa0")));
-  // A GPU is no software device.
+  // A GPU is not a software device.
   EXPECT_THAT(failure([] { openEgl("no-start", true); }), HasSubstr("no software device"));
 }
 
@@ -119,7 +119,7 @@ TEST(GlFailure, FirstThatWorksRemarksOnTheOthers) {
                                              {"gpu", [] { return openEgl("gpu"); }}};
   const auto context = glint::backends::openFirst(openers, true);
   EXPECT_THAT(context->remark(), StartsWith("missing: libNoEGL.so.1 or libNoEGL.so.0 not found"));
-  // A library that is not installed is no loss where there is no GPU; one that fails is told.
+  // Without a GPU, a missing library is not reported; one that fails is.
   EXPECT_EQ(glint::backends::openFirst(openers, false)->remark(), "");
   const glint::backends::Opener failing[] = {{"broken", [] { return openOsmesa("no-context"); }},
                                              {"gpu", [] { return openEgl("gpu"); }}};

@@ -1,4 +1,4 @@
-// glsl/environment_map.glsl against the built-in environments in double (src/shading).
+// glsl/environment_map.glsl compared with the built-in environments in double (src/shading).
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ void push(Column& column, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) column.push_back(float(v[i]));
 }
 
-/// Directions all around, near the horizon, the sun, the lights' centres and edges, with lengths
-/// over [10^low, 10^high].
+/// Directions all around, near the horizon, the sun, and the lights' centres and edges, with
+/// lengths from 10^low to 10^high.
 Column directions(double low, double high, std::size_t rows) {
   std::mt19937 random(17);
   std::normal_distribution<double> normal;
@@ -68,8 +68,8 @@ Column directions(double low, double high, std::size_t rows) {
   return column;
 }
 
-/// How fast the radiance changes with the direction, the largest of its components: differences of
-/// it over 2e-4 in two directions across.
+/// How fast the radiance changes with direction, as its largest component: differences over 2e-4 in
+/// two perpendicular directions.
 double slope(const Map& map, const glm::dvec3& direction) {
   const double length = glm::length(direction);
   if (!(length > 0)) return 0;
@@ -86,10 +86,11 @@ double slope(const Map& map, const glm::dvec3& direction) {
   return largest;
 }
 
-/// The radiance is a polynomial of direction cosines, each off by about 3e-7 across: unit(), a dot
-/// product and rounded constants; constants and sums add some roundings of the value, at most 2.9.
-/// Along the direction, which unit() leaves 2e-7 too long or short, the sky's glow changes by
-/// 0.55 * 64 g^64 + 0.3 * 8 g^8. Largest in all: 2e-5 where two edges of a light meet.
+/// The radiance is a polynomial of direction cosines, each off by about 3e-7 perpendicularly:
+/// unit(), a dot product and rounded constants. Constants and sums add some roundings of the value,
+/// at most 2.9. Along the direction, which unit() leaves 2e-7 too long or short, the sky's glow
+/// changes by 0.55 * 64 g^64 + 0.3 * 8 g^8. The largest total is 2e-5, where two edges of a light
+/// meet.
 double bound(const Map& map, const glm::dvec3& direction) {
   if (map.environment == BuiltinEnvironment::white) return 0;
   double glow = 0;
@@ -156,7 +157,7 @@ TEST_P(GlslEnvironmentMap, HuntedWorstInput) {
           const Column got = probe.run(radiance, {d});
           std::vector<double> errors(c[0].size());
           for (std::size_t row = 0; row < errors.size(); ++row) {
-            if (!(glm::length(at(d, row)) > 1e-30)) continue;  // subnormal parts may count as 0
+            if (!(glm::length(at(d, row)) > 1e-30)) continue;  // subnormals may count as 0
             const glm::dvec3 truth = environmentRadiance(map.environment, at(d, row));
             const double allowed = std::max(bound(map, at(d, row)), 1e-9);
             for (std::size_t i = 0; i < 3; ++i)

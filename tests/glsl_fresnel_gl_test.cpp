@@ -1,4 +1,4 @@
-// glsl/fresnel.glsl against the formulas in double (src/shading), from the same indices and
+// glsl/fresnel.glsl compared with the formulas in double (src/shading), from the same indices and
 // cosines.
 
 #include <gmock/gmock.h>
@@ -32,14 +32,14 @@ std::string nameOf(const Indices& i) {
   return text;
 }
 
-/// As the renderer hands it over.
+/// The constants as the renderer passes them.
 Column boundary(const FresnelConstants& k) {
   const double critical = k.e < 0 ? std::sqrt(-k.e) : 0.0;
   return {float(k.e), float(k.nSquared), float(critical), float(critical - float(critical))};
 }
 
-/// Cosines uniform, crowded against 0, 1 and the critical cosine down to single floats, and the
-/// 4096 floats on each side of these.
+/// Uniform cosines, cosines concentrated near 0, 1 and the critical cosine down to single floats,
+/// and the 4096 floats on each side of these.
 Column cosines(const Indices& i) {
   Column column{0, -0.0f, 1};
   const double critical = criticalCosine(i.n1, i.n2);
@@ -60,15 +60,15 @@ Column cosines(const Indices& i) {
   return column;
 }
 
-/// How far g = n cos(theta_t) may be off where g^2 = `square` is off by `error`: sqrt(a) - sqrt(b)
-/// is (a - b) / (sqrt(a) + sqrt(b)) and at most sqrt(a - b).
+/// The error of g = n cos(theta_t) if g^2 = `square` is off by `error`: sqrt(a) - sqrt(b) is
+/// (a - b) / (sqrt(a) + sqrt(b)) and at most sqrt(a - b).
 double rootError(double square, double error) {
   return square > 0 ? std::min(error / std::sqrt(square), std::sqrt(error)) : std::sqrt(error);
 }
 
-/// The bound of fresnelExact everywhere, at the critical angle too: about 12 roundings of 2^-24 in
-/// amplitudes, their squares halved. g^2 is a product of accurate factors, so that g is relatively
-/// accurate, and R depends on g alone.
+/// The bound of fresnelExact everywhere, including at the critical angle: about 12 roundings of
+/// 2^-24 in amplitudes, whose squares are halved. g^2 is a product of accurate factors, so g is
+/// relatively accurate, and R depends only on g.
 constexpr double exactBound = 1e-6;
 
 class GlslFresnel : public GlslTest {
@@ -100,7 +100,7 @@ TEST_P(GlslFresnel, Exact) {
   }
 }
 
-// Where no denser side shows, the same values by shaders that know of none.
+// Where the denser side is never seen, shaders without it give the same values.
 TEST_P(GlslFresnel, TheThinnerSideAloneIsTheSame) {
   Probe thinner(glslSources(), ProbeText{{"fresnel.glsl"}, {{"DENSER_SIDE", 0}}});
   for (const Indices& i : indices()) {
@@ -120,9 +120,9 @@ TEST_P(GlslFresnel, TheThinnerSideAloneIsTheSame) {
 }
 
 TEST_P(GlslFresnel, Textbook) {
-  // What the square under the root loses, and what that does to both amplitudes: d of t^2 (products
-  // of ratio^2 (1 - c^2), each rounded) moves t by rootError; the amplitudes move by
-  // 2 n c / (c + n t)^2 and 2 n c / (n c + t)^2 of that, their squares twice as much, halved.
+  // What the square under the root loses, and its effect on both amplitudes: an error d of t^2
+  // (products of ratio^2 (1 - c^2), each rounded) moves t by rootError; the amplitudes move by
+  // 2 n c / (c + n t)^2 and 2 n c / (n c + t)^2 times that, their squares by twice as much, halved.
   for (const Indices& i : indices()) {
     const Column c = cosines(i), b = boundary(fresnelConstants(i.n1, i.n2));
     const double n = i.n2 / i.n1;
@@ -143,18 +143,19 @@ TEST_P(GlslFresnel, Textbook) {
 }
 
 TEST_P(GlslFresnel, SchlicksFamily) {
-  // From the denser side cos^2 of refraction is off by 4 roundings and the division's, its root by
-  // rootError; `slope` is how much the falling function magnifies that. Then, with u = 2^-24:
+  // From the denser side, cos^2 of the refracted angle is off by 4 roundings and the division's,
+  // its root by rootError; `slope` is how much the falling function magnifies that. Then, with
+  // u = 2^-24:
   // - x^k by pow is exp2(k log2 x), log2 off by 2^-21 near 1 (GLSL): k 3.4e-7 x^k;
   // - x^5 by products: 5 u of x and 3 u;
   // - exp2: its argument by 4 u, itself by 3 + 2 |y| in 2^-23 (GLSL): as the Gaussian lobe, 8 u;
   // - the rational square: quotient by 4 u and the division's 5 u (GLSL), twice, and u;
-  // and four more to put R0 and it together: 1e-6 for the rest, 1.5e-6 with a division.
+  // and four more for combining it with R0: 1e-6 for the rest, 1.5e-6 with a division.
   struct Form {
     const char *name, *function;
-    double parameter;  ///< the exponent of pow; below 0 the k of the indices
+    double parameter;  ///< exponent of pow; below 0: the k of the indices
     double (*truth)(double c, const Indices&, double parameter);
-    double (*slope)(double c, double parameter);  ///< largest from c on
+    double (*slope)(double c, double parameter);  ///< the largest from c on
     double rest;
   };
   const auto byPower = [](double c, const Indices& i, double power) {
@@ -230,7 +231,7 @@ TEST_P(GlslFresnel, EqualIndicesReflectNothing) {  // K1, K2
 }
 
 TEST_P(GlslFresnel, CosinesOutsideTheRange) {
-  // K5, K6, K7, K8: below 0 counts as 0, where R is 1; above 1 as 1.
+  // K5, K6, K7, K8: values below 0 count as 0, where R is 1; values above 1 as 1.
   const Column c{0, -0.0f, -0.2f, -1, stepFloat(0, -1), 1, stepFloat(1, 1), 1.5f, 1e30f};
   for (const Indices& i : indices()) {
     const double r0 = fresnelConstants(i.n1, i.n2).r0;
@@ -257,9 +258,9 @@ TEST_P(GlslFresnel, TotalReflection) {  // K9, K10, K11
   for (const Indices& i : indices()) {
     if (i.n1 < i.n2) continue;
     const double critical = criticalCosine(i.n1, i.n2);
-    // One part in 1e6 past the critical cosine squared is more than g^2's rounding.
+    // A relative 1e-6 past the critical cosine squared is more than g^2's rounding.
     const Column c{0.0f, float(critical * 0.5), float(critical * (1 - 1e-3))};
-    // From indices above 50 the rounding of c itself may be on the other side.
+    // For index ratios above 50, rounding c may already move it to the other side.
     if (i.n1 / i.n2 < 50) {
       EXPECT_EQ(exact(c, i), (Column{1, 1, 1})) << nameOf(i);
     }
@@ -270,7 +271,7 @@ TEST_P(GlslFresnel, TotalReflection) {  // K9, K10, K11
   }
 }
 
-TEST_P(GlslFresnel, Brewster) {  // K12: R is half of R_perp alone, 0.0739645 at n = 1.5
+TEST_P(GlslFresnel, Brewster) {  // K12: R is half of R_perp, 0.0739645 at n = 1.5
   const double c = std::cos(brewsterAngle(1, 1.5));
   EXPECT_NEAR(exact({float(c)}, {1, 1.5})[0], 0.5 * std::pow(1.25 / 3.25, 2), 2e-7);
 }
@@ -293,8 +294,8 @@ TEST_P(GlslFresnel, Reciprocity) {  // K17: R(1 -> n, theta_i) = R(n -> 1, theta
     }
     const Column in = exact(outside, {1, n}), out = exact(inside, {n, 1});
     for (std::size_t k = 0; k < in.size(); ++k) {
-      // cos(theta_t) is rounded by 2^-25 and R's slope in it is that in cos(theta_i) times
-      // n^2 cos(theta_t) / cos(theta_i).
+      // cos(theta_t) is rounded by 2^-25. R's slope with respect to it is the slope with respect to
+      // cos(theta_i) times n^2 cos(theta_t) / cos(theta_i).
       const double ci = outside[k], ct = inside[k], h = 1e-4;
       const double slope = (fresnelExact(ci - h, 1, n) - fresnelExact(ci + h, 1, n)) / (2 * h);
       const double rounding = std::abs(slope) * n * n * ct / ci * 0.5 * ulp1;
@@ -304,7 +305,7 @@ TEST_P(GlslFresnel, Reciprocity) {  // K17: R(1 -> n, theta_i) = R(n -> 1, theta
 }
 
 TEST_P(GlslFresnel, HuntedWorstInput) {
-  // Over the cosine and the index at once, by the error against its bound.
+  // Searches over cosine and index together, by the ratio of error to bound.
   for (bool denser : {false, true}) {
     double largest = 0;
     const SearchResult worst = huntWorst(

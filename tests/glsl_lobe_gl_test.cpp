@@ -1,4 +1,5 @@
-// glsl/lobe.glsl against double, over every float where that is possible and hunted where not.
+// glsl/lobe.glsl compared with double, for every float where that is possible and by search
+// otherwise.
 
 #include <gmock/gmock.h>
 
@@ -22,7 +23,7 @@ constexpr const char* phong =
 constexpr const char* blinn =
     "float blinn(vec3 n, vec3 l, vec3 v, float a) {\n"
     "  return lobeExact(blinnLambda(n, unit(l + v)), a);\n}";
-// From vectors of any length, as the programs have them.
+// From vectors of any length, as in the programs.
 constexpr const char* wholePhong =
     "float whole(vec3 n, vec3 l, vec3 v, float a) {\n"
     "  vec3 un = unit(n), ul = unit(l), uv = unit(v);\n"
@@ -32,17 +33,17 @@ constexpr const char* wholeBlinn =
     "  vec3 un = unit(n), ul = unit(l), uv = unit(v);\n"
     "  return lobeExact(blinnLambda(un, unit(ul + uv)), a);\n}";
 
-// The lobe is exp(-t) with t = -alpha log(1 - lambda), at least alpha lambda. Two errors:
-// - of lambda: |D| = sqrt(2 lambda) with an error d of D moves lambda by |D| d and the lobe by
+// The lobe is exp(-t) with t = -alpha log(1 - lambda), at least alpha lambda. There are two errors:
+// - of lambda: |D| = sqrt(2 lambda), so an error d of D moves lambda by |D| d and the lobe by
 //   alpha |D| d exp(-t) <= sqrt(alpha) d sqrt(2t) exp(-t) <= 0.61 sqrt(alpha) d. D's components are
 //   sums of three terms of at most 2, rounded at each step: d <= 6.5e-7, so 4e-7 sqrt(alpha).
-// - of the power: t's relative error r, of log1m (6e-7, below) and two products, moves the lobe by
-//   t exp(-t) r <= 0.37 r; exp2(x) is off by 3 + 2 |x| in 2^-23 of its value at most (GLSL), with
-//   the value 2^-|x| by 3.6e-7. Together 1e-6 at most.
+// - of the power: t's relative error r, from log1m (6e-7, below) and two products, moves the lobe
+//   by t exp(-t) r <= 0.37 r; exp2(x) is off by at most 3 + 2 |x| in 2^-23 of its value (GLSL),
+//   with the value 2^-|x| by 3.6e-7. Together at most 1e-6.
 double bound(double alpha) { return 1e-6 + 4e-7 * std::sqrt(alpha); }
 
-// Below exponent 1 the lobe ends at lambda = 1 with infinite slope, at 0 with a jump: there it is
-// as ill-conditioned as (1 - lambda)^alpha is, with lambda off by |D| d.
+// Below exponent 1 the lobe ends at lambda = 1 with infinite slope, at exponent 0 with a jump:
+// there it is as ill-conditioned as (1 - lambda)^alpha, with lambda off by |D| d.
 double edge(double lambda, double alpha, double d) {
   if (alpha >= 1 || lambda < 0.5) return 0;
   const double off = std::sqrt(2 * lambda) * d, x = 1 - lambda;
@@ -77,9 +78,9 @@ void push(Column& column, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) column.push_back(float(v[i]));
 }
 
-/// V around the peak: half of them with alpha lambda uniform in [0, 8], a quarter at lambda 0, 1
-/// and 2 and next to them, a quarter anywhere. Blinn's lobe has its peak at the same V. The vectors
-/// are rounded unit ones, scaled by up to e^spread.
+/// V around the peak: half with alpha lambda uniform in [0, 8], a quarter at or next to lambda 0, 1
+/// and 2, a quarter anywhere. Blinn's lobe has its peak at the same V. The vectors are rounded unit
+/// vectors, scaled by up to e^spread.
 Directions directions(double alpha, std::size_t rows, bool isBlinn, double spread) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(0, 1);
@@ -118,7 +119,8 @@ class GlslLobe : public GlslTest {
     probe_.emplace(glslSources(), ProbeText{{"vector.glsl", "lobe.glsl"}, {}});
   }
 
-  /// The lobe of these directions against that of the same, normalised in double first if `whole`.
+  /// Compares the lobe of these directions with its value in double; with `whole`, that normalises
+  /// first.
   void expectGeometry(const std::string& name, const char* function, const Directions& d,
                       double alpha, bool isBlinn, bool whole) {
     const Column exponent{float(alpha)};
@@ -144,9 +146,9 @@ class GlslLobe : public GlslTest {
 
 TEST_P(GlslLobe, Log1mIsRelativelyExact) {
   // Below 1/2: s is off by 2 roundings and the division's (2.5 in 2^-23, GLSL; 0.5 here), the
-  // series by 3 and what is left out (1.5e-7), two products: 5.5e-7. Above: 1 - x is exact, log2 is
-  // off by 3 in 2^-23 (GLSL), then a constant and a product: 4.8e-7. Subnormal numbers may
-  // be taken for 0, s = x / 2 among them.
+  // series by 3 and its truncation (1.5e-7), then two products: 5.5e-7. Above: 1 - x is exact, log2
+  // is off by 3 in 2^-23 (GLSL), then a constant and a product: 4.8e-7. Subnormal numbers may count
+  // as 0, including s = x / 2.
   const double relative = 6e-7;
   Column x;
   const std::int32_t one = floatOrder(1.0f), half = floatOrder(0.5f);
@@ -194,7 +196,7 @@ TEST_P(GlslLobe, FromRoundedUnitVectors) {
 }
 
 TEST_P(GlslLobe, FromVectorsOfAnyLength) {
-  // Normalised by unit() here and in double there. unit() turns a vector by 1.5e-7 at most, which
+  // Normalised by unit() here and in double there. unit() turns a vector by at most 1.5e-7, which
   // is within the same d: once for V and L, twice for N. The half vector turns by that over half
   // the length of L + V, which is the cosine of incidence at the peak.
   for (double alpha : exponents) {
@@ -210,8 +212,8 @@ TEST_P(GlslLobe, SpecialCases) {
   const Column alpha{0, 1, 1e6f, 0, 1e6f, 0, 1, 0, 1, 0, 1e6f, 0};
   EXPECT_EQ(probe_->run("float lobeExact(float, float)", {lambda, alpha}),
             (Column{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
-  // Exponent 0 gives 1 where the cosine is positive and 0 elsewhere, and nothing exceeds the peak,
-  // also where the cosine of rounded vectors does.
+  // Exponent 0 gives 1 where the cosine is positive and 0 elsewhere. Nothing exceeds the peak, even
+  // if the cosine of rounded vectors exceeds 1.
   const Column cosine{0, -0.0f, -0.5f, -1, 1, 1, 1e-30f, 1e-30f, stepFloat(1, 1), 1.001f};
   const Column power{0, 0, 2.5f, 0, 0, 1e6f, 0, 2, 1e6f, 1e6f};
   EXPECT_EQ(probe_->run("float lobePow(float, float)", {cosine, power}),
@@ -232,7 +234,7 @@ TEST_P(GlslLobe, Pow) {
     const ErrorRecord record = measureErrors(
         probe_->run("float lobePow(float, float)", columns), 1,
         [&](std::size_t row, std::size_t) { return lobePow(cosine[row], double(exponent[0])); },
-        // log2 may be off by 2^-21 near 1 (GLSL), and the lobe by alpha log(2) of that.
+        // log2 may be off by 2^-21 near 1 (GLSL), and the lobe by alpha log(2) times that.
         [&](std::size_t, std::size_t) { return std::min(1e-6 + 3.4e-7 * alpha, 1.0); });
     expectWithin(record, "lobePow alpha " + std::to_string(alpha), columns, {1, 1});
   }
@@ -268,16 +270,16 @@ TEST_P(GlslLobe, HuntedWorstInput) {
                 describeRow({log.input}, {1}, 0).c_str());
 }
 
-// The forms that come near the lobe, from the same lambda, with u = 2^-24, the rounding of one
-// operation. What they have in common is a base b in [0, 1] to a power p by squaring: b off by d
-// moves b^p by p b^(p-1) d, and the squarings by (p - 1) u b^p.
+// The approximate forms of the lobe, from the same lambda, with u = 2^-24, the rounding of one
+// operation. They share a base b in [0, 1] raised to a power p by squaring: an error d of b moves
+// b^p by p b^(p-1) d, and the squarings by (p - 1) u b^p.
 TEST_P(GlslLobe, FormsBySquaring) {
   struct Case {
     std::string name, function;
     Highlight form;
     int gamma;
     double alpha;
-    Column first, second;  ///< what the CPU gives
+    Column first, second;  ///< computed on the CPU
   };
   std::vector<Case> cases;
   const auto call = [](const char* function, const std::string& arguments, int power) {
@@ -339,11 +341,11 @@ TEST_P(GlslLobe, FormsBySquaring) {
     const auto bound = [&](std::size_t row, std::size_t) {
       const double x = lambda[row];
       double base = 1 - (each.form == Highlight::integer ? 1 : beta) * x, off = 3 * u;
-      // b = 1 - y with y <= 1: y by 2 products (with the cross product 4), the difference once.
+      // b = 1 - y with y <= 1: y has 2 products (4 with the cross product), then one difference.
       if (each.form == Highlight::lyonTuned) base = 1 - tunedSlope(each.alpha, each.gamma) * x;
       if (each.form == Highlight::lyonCross) base = 1 - 0.5 * beta * x * (2 - x), off = 5 * u;
       if (each.form == Highlight::pade) {
-        // Each side by 2 products and a sum, the division by 2.5 in 2^-23 (GLSL).
+        // Each side has 2 products and a sum, the division 2.5 in 2^-23 (GLSL).
         const double top = 2 - (1 + beta) * x, bottom = 2 + (beta - 1) * x;
         base = top / bottom;
         off = (2 * u * (1 + beta) * x + u * std::abs(top) +
@@ -371,7 +373,7 @@ TEST_P(GlslLobe, FormsBySquaring) {
 
 TEST_P(GlslLobe, Gaussian) {
   // y = rate lambda is off by 2 u, exp2(-y) by 3 + 2 y in 2^-23 of its value (GLSL): together at
-  // most max over y of 2^-y (2 u y log 2 + 2 u (3 + 2 y)) = 6.3 u.
+  // most the max over y of 2^-y (2 u y log 2 + 2 u (3 + 2 y)) = 6.3 u.
   for (double alpha : exponents) {
     if (alpha == 0) continue;
     Column lambda{0, 1, 2, stepFloat(2, 1), 0.5f};

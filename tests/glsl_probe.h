@@ -1,7 +1,7 @@
 #pragma once
 
-// What the tests of GLSL functions share: a probe on each software backend, columns of inputs, and
-// the worst input in the message of a failure.
+// Shared by the tests of GLSL functions: a probe on each software backend, columns of inputs, and
+// failure messages with the worst input.
 
 #include <gtest/gtest.h>
 
@@ -25,10 +25,10 @@ namespace glint {
 using Column = std::vector<float>;
 using Columns = std::vector<std::span<const float>>;
 
-inline constexpr double ulp1 = 1.0 / (1 << 24);  ///< the rounding of a float, relative: 2^-24
+inline constexpr double ulp1 = 1.0 / (1 << 24);  ///< the relative rounding error of a float: 2^-24
 
-/// The shaders under test: those built in, or a folder of edited ones in GLINT_GLSL, so that one
-/// can see which test a change breaks without building anything.
+/// The shaders under test: the built-in ones, or a folder of edited ones in GLINT_GLSL, to see
+/// which test a change breaks without building anything.
 inline GlslSources glslSources() {
   const char* folder = std::getenv("GLINT_GLSL");
   return folder ? GlslSources(folder) : GlslSources();
@@ -53,11 +53,11 @@ inline std::string backendTestName(const testing::TestParamInfo<Backend>& info) 
                            testing::Values(glint::Backend::osmesa, glint::Backend::eglSoftware), \
                            glint::backendTestName)
 
-/// Whether tests print the errors that they measure: with GLINT_PROBE_PRINT in the environment.
+/// Whether tests print the errors that they measure: if GLINT_PROBE_PRINT is set.
 inline bool printsErrors() { return std::getenv("GLINT_PROBE_PRINT") != nullptr; }
 
-/// Fails if a value is above its bound, with the input that is worst against it. `floats` are
-/// those of a row of each column.
+/// Fails if a value is above its bound, and reports the worst input. `floats` is the number of
+/// floats per row in each column.
 inline void expectWithin(const ErrorRecord& record, const std::string& what, const Columns& columns,
                          const std::vector<std::size_t>& floats) {
   EXPECT_GT(record.values, 0u) << what;

@@ -1,4 +1,5 @@
-// The probe itself: what goes in comes out, by every kind of argument and result, in any number.
+// The probe itself: values pass through unchanged, for every type of argument and result, in any
+// number.
 
 #include <gmock/gmock.h>
 
@@ -26,7 +27,7 @@ std::string errorOf(Probe& probe, std::string_view function, const Columns& colu
 
 TEST_P(GlslProbe, PassesFloatsBitByBit) {
   Probe probe;
-  // Every 4099th bit pattern of a finite, normal float, zeros and infinities.
+  // Every 4099th bit pattern of finite, normal floats, and zeros and infinities.
   Column in{0.0f, -0.0f, INFINITY, -INFINITY, 1e-38f * 1.18f, 3.4e38f};
   for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 4099) {
     in.push_back(std::bit_cast<float>(bits));
@@ -54,7 +55,7 @@ TEST_P(GlslProbe, TakesEveryTypeOfArgumentAndResult) {
       probe.run("vec4 f(Boundary b) { return vec4(b.criticalRest, b.critical, b.square, b.e); }",
                 {std::span(fours).first(8)}),
       (Column{4, 3, 2, 1, 8, 7, 6, 5}));
-  // By name alone: built in, and in a file. One row stands for all.
+  // By name only: built-in functions, and those in a file. A column with one row applies to all.
   EXPECT_EQ(probe.run("float max(float, float)", {ones, Column{2}}), (Column{2, 2, 3}));
   EXPECT_EQ(probe.run("float fresnelExact(float, Boundary)", {ones, Column{0, 1, 1, 0}}),
             (Column{0, 0, 0}));
@@ -64,7 +65,7 @@ TEST_P(GlslProbe, TakesEveryTypeOfArgumentAndResult) {
 
 TEST_P(GlslProbe, KeepsRowsApartInBatches) {
   Probe probe;
-  // Some batches, rows of the target, and half a row.
+  // Several batches, rows of the target, and half a row.
   Column in((std::size_t(1) << 20) + 3 * 1024 + 511);
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = float(i);
   const Column out = probe.run("float f(float x) { return x + 1.0; }", {in});

@@ -1,4 +1,4 @@
-// glsl/vector.glsl against double, for every length that a float can have.
+// glsl/vector.glsl compared with double, for every length that a float can have.
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 
 namespace glint::glsl_vector_gl_test {
 
-// The square of the length is off by 3 roundings of 2^-24, relative, its root by half as much and
-// one of its own, the quotient by one more: 3.5 roundings or 2.1e-7 where the driver rounds
-// division and root as IEEE does (GLSL allows 2.5 ulp each). Scaling by powers of two adds none.
+// The square of the length is off by 3 relative roundings of 2^-24, its root by half as much and
+// one of its own, the quotient by one more: 3.5 roundings or 2.1e-7 if the driver rounds division
+// and root as IEEE does (GLSL allows 2.5 ulp each). Scaling by powers of two adds none.
 constexpr double tolerance = 2.1e-7;
 
-/// Random directions of lengths spread over [10^low, 10^high], some along the axes and planes.
+/// Random directions with lengths from 10^low to 10^high, some along the axes and planes.
 Column vectors(double low, double high, std::size_t rows) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -50,14 +50,15 @@ class GlslVector : public GlslTest {
 };
 
 TEST_P(GlslVector, UnitOfLengthsWithUsableSquares) {
-  // Squares below 1.2e-38 are subnormal and may vanish: of 1e-30, the square of the largest
-  // component, that is less than 2^-24.
+  // Squares below 1.2e-38 are subnormal and may vanish: relative to 1e-30, the square of the
+  // largest component, that is less than 2^-24.
   const Column v = vectors(-15, 18, 300000);
   expectWithin(errors("vec3 unit(vec3)", v), "unit", {v}, {3});
 }
 
 TEST_P(GlslVector, SafeUnitOfEveryLength) {
-  // A component below 1.2e-38 is subnormal and may count as 0: of 1e-30 that is nothing.
+  // A component below 1.2e-38 is subnormal and may count as 0, which is negligible relative to
+  // 1e-30.
   const Column v = vectors(-30, 38.5, 300000);
   expectWithin(errors("vec3 safeUnit(vec3)", v), "safeUnit", {v}, {3});
 }
@@ -77,7 +78,7 @@ TEST_P(GlslVector, HardLengths) {
                     1e16f,    1e-16f, 1e-16f, 1e-16f};
   const ErrorRecord record = errors("vec3 safeUnit(vec3)", hard);
   expectWithin(record, "safeUnit", {hard}, {3});
-  // A4: subnormal components may count as 0, and then all of the vector does.
+  // A4: subnormal components may count as 0, and then the whole vector does.
   const Column tiny = safe({1e-38f, 1e-38f, 0});
   if (tiny != Column{0, 0, 0}) {
     EXPECT_NEAR(tiny[0], std::sqrt(0.5), tolerance);

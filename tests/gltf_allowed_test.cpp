@@ -1,4 +1,4 @@
-// What the standard allows and few files have; what is broken and can be read all the same.
+// Features that the standard allows but few files have, and broken files that can still be read.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -71,7 +71,7 @@ TEST(GltfAllowed, VariantsScenesAndTheWayUp) {
   EXPECT_THAT(refusalOf(sample, request),
               HasSubstr("--variant: sample has no variant 'dusk': use"));
 
-  // One file in one variant after the other.
+  // One file, in one variant after another.
   glint::SceneFile file(sample.writeGltf());
   glint::Scene scene = file.take();
   request.variant = "night";
@@ -119,7 +119,7 @@ TEST(GltfAllowed, AllAnimationsAtOnce) {
   glint::Scene scene = loadWith(sample, request);
   EXPECT_EQ(scene.instances.at(0).world[3].x, 0.5);
   EXPECT_EQ(scene.instances.at(1).world[3].x, 0.5);
-  // Times that repeat: a jump, and a warning.
+  // Repeated times: a jump, and a warning.
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("times that repeat")));
   request.time = 1;
   EXPECT_EQ(loadWith(sample, request).instances.at(0).world[3].x, 3);
@@ -137,7 +137,7 @@ TEST(GltfAllowed, IndicesWithoutABufferViewAndMatricesWithoutPadding) {
       {"values", {{"bufferView", sample.view<std::uint8_t>({1, 2})}}}};
   primitive["indices"] = sample.add("accessors", indices);
   EXPECT_THAT(sample.load().meshes.at(0).indices, testing::ElementsAre(0, 1, 2));
-  // Two columns of two bytes, the first of them filled up to four.
+  // Two columns of two bytes, the first padded to four.
   sample.add("accessors", {{"bufferView", sample.view<std::uint8_t>({1, 2, 0, 0, 3, 4})},
                            {"componentType", 5121},
                            {"type", "MAT2"},
@@ -221,7 +221,7 @@ TEST(GltfAllowed, SpecularAndGlossiness) {
       glint::convertSpecularGlossiness({{nan, 0, 0}, {nan, -1, 9}, nan}).first.specular));
 }
 
-// Red plastic beside gold: of each texel what factors of its value would give.
+// Red plastic next to gold: each texel gives what factors of its value would give.
 TEST(GltfAllowed, SpecularAndGlossinessByTexels) {
   Sample sample;
   Json& primitive = sample.triangle();
@@ -240,12 +240,12 @@ TEST(GltfAllowed, SpecularAndGlossinessByTexels) {
       {"diffuseTexture", {{"index", diffuse}}},
       {"specularGlossinessTexture", {{"index", gloss}}},
       {"glossinessFactor", 0.5}};
-  // A fallback for others, which must not be taken.
+  // A fallback for other readers, which must not be used.
   material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", diffuse}};
   sample.json["materials"] = {material, material};
   glint::Scene scene = sample.load();
   EXPECT_THAT(scene.warnings, IsEmpty());
-  EXPECT_EQ(scene.images.size(), 4u);  // those of the file, and for both materials two made of them
+  EXPECT_EQ(scene.images.size(), 4u);  // the file's, and two derived ones for both materials
   const glint::Material& m = scene.materials.at(0);
   using glint::textured::exponent, glint::textured::metalness, glint::textured::specular;
   EXPECT_EQ(m.textured,
@@ -260,14 +260,14 @@ TEST(GltfAllowed, SpecularAndGlossinessByTexels) {
     return std::vector<int>(v.begin(), v.end());
   };
   EXPECT_THAT(texels(*m.colorTexture), testing::ElementsAre(188, 64, 64, 255, 255, 226, 157, 128));
-  // Roughness 1 - 0.5 x 128 / 255 and 1 - 0.5 x 204 / 255; code 56 is 0.0395, just no metal.
+  // Roughness 1 - 0.5 x 128 / 255 and 1 - 0.5 x 204 / 255; code 56 is 0.0395, just below a metal.
   const std::vector<int> numbers = texels(*m.parameterTextures.metallicRoughness);
   EXPECT_THAT(std::vector<int>(numbers.begin() + 1, numbers.begin() + 4),
               testing::ElementsAre(191, 0, 10));
   EXPECT_THAT(std::vector<int>(numbers.begin() + 5, numbers.begin() + 8),
               testing::ElementsAre(153, 255, 255));
 
-  // An unlit one shows the file's diffuse picture as it is, and the other is not read.
+  // An unlit one shows the file's diffuse texture unchanged, and the other one is not read.
   for (Json& each : sample.json["materials"])
     each["extensions"]["KHR_materials_unlit"] = Json::object();
   const glint::Scene unlit = sample.load();
@@ -313,7 +313,7 @@ TEST(GltfAllowed, WhatIsNotSeenDoesNotCountForTheView) {
   sample.triangle()["material"] = 0;
   sample.json["nodes"].back()["translation"] = {0, 50, 0};
   EXPECT_EQ(glint::boundsOf(sample.load()).radius, radius);
-  sample.json["materials"][0]["alphaMode"] = "OPAQUE";  // then alpha says nothing
+  sample.json["materials"][0]["alphaMode"] = "OPAQUE";  // in this mode alpha is ignored
   EXPECT_GT(glint::boundsOf(sample.load()).radius, 10);
 }
 

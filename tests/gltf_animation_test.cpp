@@ -1,4 +1,4 @@
-// Animations: keys and their interpolation, what they move, and what is wrong with them.
+// Animations: keys and their interpolation, what they move, and errors in them.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = Sample::Json;
 
-/// One animation of one channel that moves node 0.
+/// One animation with one channel that moves node 0.
 void animate(Sample& sample, const std::string& path, const std::string& interpolation,
              const std::vector<float>& times, const std::string& type,
              const std::vector<float>& values) {
@@ -56,7 +56,7 @@ TEST(GltfAnimation, StepHoldsTheKeyBefore) {
 TEST(GltfAnimation, CubicSplineIsHermiteWithTangentsPerSecond) {
   Sample sample;
   sample.triangle();
-  // In-tangent, value, out-tangent. Of x = t^3 over [1, 3]: values 1 and 27, slopes 3 and 27.
+  // In-tangent, value, out-tangent. For x = t^3 over [1, 3]: values 1 and 27, slopes 3 and 27.
   animate(sample, "translation", "CUBICSPLINE", {1, 3}, "VEC3",
           {99, 0, 0, 1, 0, 0, 3, 0, 0, 27, 0, 0, 27, 0, 0, 99, 0, 0});
   for (const double t : {1.0, 1.5, 2.0, 2.9, 3.0}) EXPECT_NEAR(xAt(sample, t), t * t * t, 1e-13);
@@ -127,7 +127,7 @@ TEST(GltfAnimation, WeightsMoveManyMorphTargets) {
   }
   weights.insert(weights.end(), 12, 1);
   animate(sample, "weights", "LINEAR", {0, 1}, "SCALAR", weights);
-  sample.show({{"mesh", 0}});  // the same mesh at rest beside it
+  sample.show({{"mesh", 0}});  // the same mesh at rest next to it
   const glint::Scene scene = at(sample, 0.5);
   ASSERT_EQ(scene.instances.size(), 2u);
   const auto x = [&](std::size_t i) {
@@ -168,7 +168,7 @@ TEST(GltfAnimation, IsChosenByNameOrNumber) {
   EXPECT_EQ(x(""), 1);
   EXPECT_EQ(x("walk"), 2);
   EXPECT_EQ(x("1"), 2);
-  EXPECT_EQ(x("0"), 3);  // a name beats a number
+  EXPECT_EQ(x("0"), 3);  // a name takes precedence over a number
   for (const char* bad : {"run", "3", "-1", "1.0", "99999999999999999999"}) {
     try {
       x(bad);
@@ -196,7 +196,7 @@ TEST(GltfAnimation, PosesAgainAndAgainWithoutReadingAgain) {
   glint::Scene scene = file.take({0.5, {}});
   EXPECT_EQ(scene.instances.at(0).world[3].x, 5);
   std::filesystem::remove(sample.folder() / "sample.bin");
-  EXPECT_THAT(file.pose(scene, {1.0, {}}), IsEmpty());  // rigid: no vertex is new
+  EXPECT_THAT(file.pose(scene, {1.0, {}}), IsEmpty());  // rigid: no vertex changes
   EXPECT_EQ(scene.instances.at(0).world[3].x, 10);
   EXPECT_EQ(scene.instances.at(1).world[3].x, 0);
   EXPECT_EQ(scene.meshes.size(), 1u);
@@ -258,7 +258,7 @@ TEST(GltfAnimation, ChannelsThatCannotBePlayedAreLeftOut) {
     EXPECT_EQ(scene.instances.at(0).world[3].x, 0);
     ASSERT_FALSE(scene.warnings.empty());
     EXPECT_THAT(scene.warnings.back(), HasSubstr(c.warning));
-    EXPECT_THAT(sample.load().warnings, IsEmpty());  // at rest nobody reads it
+    EXPECT_THAT(sample.load().warnings, IsEmpty());  // not read in the rest pose
   }
 }
 

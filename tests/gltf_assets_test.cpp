@@ -1,4 +1,4 @@
-// Public sample models, sound and damaged ones, from the folder that GLINT_ASSETS names.
+// Public sample models, valid and damaged ones, from the folder in GLINT_ASSETS.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ std::vector<fs::path> modelsBelow(const fs::path& folder) {
   return models;
 }
 
-/// Triangles drawn, each instance counted.
+/// Triangles drawn, counting each instance.
 std::size_t triangles(const glint::Scene& scene) {
   std::size_t count = 0;
   for (const glint::Instance& instance : scene.instances) {
@@ -38,7 +38,7 @@ std::size_t triangles(const glint::Scene& scene) {
   return count;
 }
 
-/// What scene.h promises of every scene.
+/// The invariants that scene.h promises for every scene.
 void expectSound(const glint::Scene& scene) {
   ASSERT_FALSE(scene.materials.empty());
   for (const glint::Mesh& mesh : scene.meshes) {
@@ -50,7 +50,8 @@ void expectSound(const glint::Scene& scene) {
     }
     if (mesh.topology == glint::Topology::triangles) {
       ASSERT_EQ(mesh.normals.size(), count);
-      // Each component is rounded to float: 3 * 2^-25 on the length, three times that to spare.
+      // Each component is rounded to float: 3 * 2^-25 of the length; the tolerance is three times
+      // that.
       for (const auto& n : mesh.normals) ASSERT_NEAR(glm::length(glm::dvec3(n)), 1, 3e-7);
     }
     if (!mesh.colors.empty()) {
@@ -93,7 +94,7 @@ TEST(GltfAssets, SampleModelsLoadWhole) {
       {"Monster.glb", 884},
       {"Suzanne.gltf", 3936},
       {"Duck.glb", 4212},
-      {"2CylinderEngine.glb", 110342},  // without 11154 that name a vertex twice
+      {"2CylinderEngine.glb", 110342},  // excluding 11154 that use a vertex twice
       {"DamagedHelmet.glb", 15452},
   };
   std::size_t found = 0;

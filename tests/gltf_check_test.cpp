@@ -1,4 +1,4 @@
-// Structure: what contradicts itself is refused before anything reads it.
+// Structure: contradictory files are refused before anything reads them.
 #include <gmock/gmock.h>
 
 #include "gltf_sample.h"
@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using Json = Sample::Json;
 
-/// Expects that a sound document is refused once the JSON at a path stands as given.
+/// Expects that a valid document is refused after the JSON at a path is replaced.
 void expectRefused(const std::string& pointer, const Json& value, const std::string& message) {
   SCOPED_TRACE(pointer + " = " + value.dump());
   Sample sample;
@@ -162,7 +162,7 @@ TEST(GltfCheck, Extensions) {
   Sample sample;
   sample.triangle();
   Sample::Json& sheen = sample.json["materials"][0]["extensions"]["KHR_materials_sheen"];
-  sheen["sheenColorFactor"] = {0, 0, 0};  // shows nothing
+  sheen["sheenColorFactor"] = {0, 0, 0};  // no visible effect
   sample.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen", "KHR_x", "KHR_x"};
   EXPECT_THAT(sample.load().warnings, ElementsAre(HasSubstr("KHR_x")));
   sheen["sheenColorFactor"] = {0, 0, 1};
@@ -181,7 +181,7 @@ TEST(GltfCheck, SmallFileMayNotUnfoldToAHugeModel) {
   sample.json["accessors"][0]["count"] = 4000000000u;
   EXPECT_THAT(sample.error(), HasSubstr("unfolds to far more vertices"));
 
-  // A million vertices of zeros, drawn again and again under other weights.
+  // A million vertices of zeros, drawn repeatedly with different weights.
   sample.json["accessors"][0]["count"] = 3000000;
   for (int i = 0; i < 1000; ++i) {
     sample.json["nodes"].push_back({{"mesh", 0}, {"weights", {i}}});
@@ -193,7 +193,7 @@ TEST(GltfCheck, SmallFileMayNotUnfoldToAHugeModel) {
 TEST(GltfCheck, NothingToDraw) {
   Sample sample;
   EXPECT_THAT(sample.load().warnings, ElementsAre("nothing to draw"));
-  sample.json["scene"] = 0;  // and no scenes
+  sample.json["scene"] = 0;  // there are no scenes
   EXPECT_THAT(sample.load().warnings, ElementsAre("nothing to draw"));
   EXPECT_EQ(sample.load().materials.size(), 1u);
 }

@@ -1,4 +1,4 @@
-// Compressed geometry and pictures: files made here with the codecs' own encoders, then damaged.
+// Compressed geometry and images: files made here with the codecs' own encoders, then damaged.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gmock/gmock.h>
@@ -42,7 +42,7 @@ struct MeshoptSample : Sample {
     write();
   }
 
-  /// Puts the document together; the views' own buffer is a fallback that is not there.
+  /// Assembles the document; the views' own buffer is a fallback that does not exist.
   void write() {
     const auto packed = [&](const Bytes& bytes, Json extension, std::size_t plain) {
       while (binary.size() % 4) binary.push_back(0);
@@ -123,7 +123,7 @@ TEST(Meshopt, WhatDoesNotFitIsRefusedByPlace) {
   }
 }
 
-/// Flips bytes of the binary part; loading may refuse but not crash.
+/// Flips bytes of the binary part; loading may refuse but must not crash.
 template <typename Sample>
 void shake(int rounds) {
   std::mt19937 random(7);
@@ -187,7 +187,7 @@ TEST(Draco, GeometryIsReadAsIfPlain) {
   ASSERT_EQ(mesh.indices.size(), 6u);
   glm::dvec3 sum(0);
   for (const std::uint32_t i : mesh.indices) sum += mesh.origin + glm::dvec3(mesh.positions[i]);
-  // 14 bits over 4 units leave 1.2e-4 of a corner; the corners are taken 2, 1, 2 and 1 times.
+  // 14 bits over 4 units leave 1.2e-4 per corner; the corners are used 2, 1, 2 and 1 times.
   EXPECT_NEAR(sum.x, 12, 1e-3);
   EXPECT_NEAR(sum.y, 12, 1e-3);
   EXPECT_NEAR(sum.z, 1, 1e-3);

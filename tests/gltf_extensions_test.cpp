@@ -1,4 +1,4 @@
-// What becomes of the extensions of a file, and which skins and morph targets it has.
+// How the extensions of a file are treated, and which skins and morph targets it has.
 #include "glint/gltf/extensions.h"
 
 #include <gmock/gmock.h>
@@ -39,11 +39,12 @@ TEST(GltfExtensions, AreReadApproximatedOrIgnored) {
   EXPECT_EQ(scene.extensions[3].use, Use::ignored);
   EXPECT_EQ(scene.extensions[3].name.find('\n'), std::string::npos);
   EXPECT_EQ(scene.extensions[4].name, "KHR_mesh_quantization");
-  // One warning for each that is ignored, of the same table.
+  // One warning for each that is ignored, from the same table.
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("KHR_materials_clearcoat"), HasSubstr("ACME")));
 }
 
-// What nobody would see is told by `info` alone; who requires metadata is drawn.
+// Extensions without a visible effect are reported only by `info`; files that require metadata
+// extensions are drawn.
 TEST(GltfExtensions, WhatDoesNotShowIsNotWarnedOf) {
   Sample sample;
   sample.triangle();
@@ -69,7 +70,7 @@ TEST(GltfExtensions, OnesThatAreIgnoredAreRefusedWhereRequired) {
     EXPECT_THAT(sample.error(), HasSubstr(std::string("requires the extension ") + name +
                                           ", which is not supported by this version"));
   }
-  // What a build leaves out, it refuses as well, and says why.
+  // Extensions that a build leaves out are refused, with the reason.
   for (const char* name :
        {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp"}) {
     const FileExtension extension = glint::gltf::describeExtension(name);

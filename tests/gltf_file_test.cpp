@@ -1,4 +1,4 @@
-// Containers, URIs and files: what a model is read from.
+// Containers, URIs and files: the sources of a model.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -59,7 +59,7 @@ TEST(GltfFile, MissingBufferIsNamed) {
   sample.buffers = {{{"byteLength", 36}, {"uri", "%00"}}};
   EXPECT_THAT(sample.error(), HasSubstr("is not a file name"));
   sample.buffers = {{{"byteLength", 36}}};
-  // Valid, only that there is nothing to draw from it.
+  // Valid, but there is nothing to draw in it.
   const glint::Scene scene = sample.load();
   EXPECT_TRUE(scene.instances.empty());
   EXPECT_THAT(scene.warnings.at(0), HasSubstr("neither a uri nor a binary GLB chunk"));

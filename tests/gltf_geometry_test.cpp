@@ -16,7 +16,7 @@ using Json = Sample::Json;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Components agree to float rounding: 1 ulp of a value up to 1.
+/// Components agree up to float rounding: 1 ulp of a value up to 1.
 void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance = 6e-8f) {
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(a[k], b[k], tolerance)
@@ -24,7 +24,7 @@ void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance = 6e-8f)
   }
 }
 
-/// A pentagon's positions, and what a primitive mode makes of them.
+/// The mesh that a primitive mode makes of a pentagon's positions.
 glint::Mesh meshOfMode(int mode, int count = 5) {
   Sample sample;
   std::vector<float> positions;
@@ -225,14 +225,14 @@ TEST(GltfGeometry, NormalsOfAnyLength) {
 }
 
 TEST(GltfGeometry, MendedNormalIsTheMeanWeightedByArea) {
-  // Two triangles on one edge: area 2 facing +Z, area 1 facing +X.
+  // Two triangles that share an edge: area 2 facing +Z, area 1 facing +X.
   Sample sample;
   const int position = sample.accessor<float>("VEC3", {0, 0, 0, 0, 1, 0, -4, 0, 0, 0, 0, -2});
   const int normal = sample.accessor<float>("VEC3", {0, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0});
   sample.primitive({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
                     {"indices", sample.accessor<std::uint8_t>("SCALAR", {0, 1, 2, 0, 3, 1})}});
   expectNear(sample.load().meshes.at(0).normals.at(0), glm::vec3(1, 0, 2) / std::sqrt(5.0f));
-  // Opposite faces cancel: one of them is taken.
+  // Opposite faces cancel: the normal of one of them is used.
   sample.json["accessors"][0] = sample.json["accessors"][static_cast<std::size_t>(
       sample.accessor<float>("VEC3", {0, 0, 0, 0, 1, 0, -1, 0, 0, -1, 0, 0}))];
   expectNear(sample.load().meshes.at(0).normals.at(0), {0, 0, 1});
@@ -256,7 +256,8 @@ TEST(GltfGeometry, MissingNormalsAreFlat) {
 
 TEST(GltfGeometry, FaceNormalsOfSliversAndOfNothing) {
   Sample sample;
-  // A sliver 1 long and 1e-7 wide, tilted; then three collinear vertices; then one vertex thrice.
+  // A sliver 1 long and 1e-7 wide, tilted; then three collinear vertices; then one vertex three
+  // times.
   const int position = sample.accessor<float>(
       "VEC3",
       {1, 1, 1, 2, 2, 1, 2, 2, 1.0000001f, 0, 0, 0, 1, 1, 1, 2, 2, 2, 5, 5, 5, 5, 5, 5, 5, 5, 5});

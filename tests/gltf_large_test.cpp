@@ -1,5 +1,5 @@
-// Long buffers are read in pieces where a model stands still, and whole where it may move: the
-// scene must be the same.
+// Long buffers are read in pieces if a model is static, and whole if it may move: the scene must be
+// the same.
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(LargeGltf, IsTheSameInPiecesAndWhole) {
     EXPECT_TRUE(a.indices == b.indices);
     EXPECT_EQ(a.normalsMayCancel, b.normalsMayCancel);
   }
-  // And what was written.
+  // And it must be what was written.
   const glint::Mesh& mesh = still.meshes[0];
   ASSERT_EQ(mesh.positions.size(), vertices);
   for (const std::size_t i : {std::size_t(0), std::size_t(1234), vertices - 1}) {

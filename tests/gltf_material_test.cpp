@@ -74,8 +74,8 @@ TEST(GltfMaterial, UnknownAlphaModeIsOpaque) {
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("unknown alphaMode \"GLASS\\n\"")));
 }
 
-// The numbers are those of the factors; bits say what the textures give in their place, as long as
-// the user gives none.
+// Parameters come from the factors; bits record which ones the textures give instead, unless the
+// user sets them.
 TEST(GltfMaterial, TexturesOfNumbers) {
   MaterialSample sample;
   sample.json["images"] = {{{"uri", std::string("data:image/png;base64,iVBORw0KGgo=")}}};
@@ -97,7 +97,7 @@ TEST(GltfMaterial, TexturesOfNumbers) {
   EXPECT_EQ(all.shading.transmission, 0.5);
   EXPECT_EQ(all.parameterTextures.occlusionStrength, 0.25);
   EXPECT_NEAR(all.parameterTextures.reflectance, 0.02, 1e-12);  // half of ((1.5 - 1) / 2.5)^2
-  // What the texture is multiplied by may leave nothing of it.
+  // A factor may make a texture irrelevant.
   material["pbrMetallicRoughness"]["metallicFactor"] = 0;
   material["occlusionTexture"]["strength"] = 0;
   material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0;

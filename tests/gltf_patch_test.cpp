@@ -28,7 +28,7 @@ std::string patched(const std::string& text, const std::vector<MaterialPatch>& p
   return textOf(patchGltf(bytesOf(text), patches, "model.gltf"));
 }
 
-// Numbers as no writer would print them, unknown extensions, odd white space, keys out of order.
+// Numbers in unusual notation, unknown extensions, odd white space, unordered keys.
 const std::string oddFile = R"({
   "extensions": {"VENDOR_x": {"big": 123456789012345678901234567890, "tiny": 1E-007}},
   "asset" : {"version":"2.0","extras":{"id":18446744073709551615}},
@@ -45,7 +45,7 @@ TEST(PatchGltf, LeavesEverythingElseAsItStands) {
   values.exponent = 40;
   values.color = {0.8, 0.2, 0.1};
   const std::string out = patched(oddFile, {{0, values}});
-  // Without what was inserted, the text is the old one to the byte.
+  // Without the insertions, the text is identical to the old one.
   std::string rest = out;
   const auto cut = [&](const std::string& piece) {
     const auto at = rest.find(piece);

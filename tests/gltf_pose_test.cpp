@@ -28,7 +28,7 @@ TEST(GltfNodes, MatrixAndTrsAgreeThroughAHierarchy) {
   Sample sample;
   sample.triangle();
   const double half = std::sqrt(0.5);
-  // A quarter turn about +Z, twice as large along x, moved; as parts and as a matrix.
+  // A quarter turn about +Z, scaled by two along x, translated; as components and as a matrix.
   sample.json["nodes"] = {
       {{"translation", {10, 0, 0}},
        {"rotation", {0, 0, half, half}},
@@ -42,7 +42,7 @@ TEST(GltfNodes, MatrixAndTrsAgreeThroughAHierarchy) {
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(scene.meshes.size(), 1u);
   for (const auto& instance : scene.instances) {
-    // (1, 1, 0) is moved to (2, 1, 0), stretched to (4, 1, 0), turned to (-1, 4, 0), moved.
+    // (1, 1, 0) is moved to (2, 1, 0), scaled to (4, 1, 0), rotated to (-1, 4, 0), translated.
     // The square root of a half is off by 2^-54, its square by less than 2^-52.
     expectNear(apply(instance.world, {1, 1, 0}), {9, 4, 0}, 4e-15);
   }
@@ -95,7 +95,7 @@ TEST(GltfNodes, TheSceneShown) {
   EXPECT_THAT(places(), ElementsAre(0));
   sample.json["scene"] = 1;
   EXPECT_THAT(places(), ElementsAre(1, 2));
-  sample.json["scene"] = 2;  // not roots, and one twice: each is drawn once, where it stands
+  sample.json["scene"] = 2;  // not roots, and one twice: each is drawn once, in its own place
   EXPECT_THAT(places(), ElementsAre(2, 1));
   sample.json.erase("scene");
   sample.json.erase("scenes");
@@ -116,7 +116,7 @@ TEST(GltfMorph, WeightsOfTheNodeBeatThoseOfTheMesh) {
   sample.show({{"mesh", 0}});
   const glint::Scene scene = sample.load();
   ASSERT_EQ(scene.instances.size(), 4u);
-  ASSERT_EQ(scene.meshes.size(), 3u);  // the first and the last stand alike
+  ASSERT_EQ(scene.meshes.size(), 3u);  // the first and the last have the same pose
   EXPECT_EQ(scene.meshes[0].positions.at(1), glm::vec3(2, 0, 0));
   EXPECT_EQ(scene.meshes[0].normals.at(1), glm::vec3(0, 0, 1));
   const glint::Mesh& raised = scene.meshes[1];
@@ -126,8 +126,8 @@ TEST(GltfMorph, WeightsOfTheNodeBeatThoseOfTheMesh) {
   EXPECT_EQ(scene.instances[3].mesh, 0);
 }
 
-/// The triangle, its first vertex bound to joint 0 and the second to both, under a node that is
-/// moved far away.
+/// The triangle, with its first vertex bound to joint 0 and the second to both, under a node that
+/// is moved far away.
 struct SkinSample : Sample {
   SkinSample() {
     Json& attributes = triangle()["attributes"];
@@ -166,7 +166,7 @@ TEST(GltfSkin, NormalsFollowTheCofactors) {
   sample.json["nodes"][1]["scale"] = {1, 1, 10};
   const glint::Mesh mesh = sample.load().meshes.at(0);
   expectNear(mesh.normals.at(0), glm::dvec3(0, 10, 1) / std::sqrt(101.0), 3e-8);
-  // A mirrored skeleton: faces and normals keep to the same side.
+  // A mirrored skeleton: faces and normals stay on the same side.
   for (const int node : {1, 2}) {
     sample.json["nodes"][static_cast<std::size_t>(node)]["scale"] = {1, 1, -1};
   }
@@ -226,7 +226,7 @@ TEST(GltfCamera, PerspectiveAndOrthographic) {
   EXPECT_TRUE(cameras[1].orthographic);
   EXPECT_EQ(cameras[1].halfHeight, 3);
   EXPECT_EQ(cameras[1].far, 10);
-  // Turned a quarter about +Y; the scale, mirroring too, does not count.
+  // A quarter turn about +Y; scale, including mirroring, is ignored.
   expectNear(glm::dvec3(cameras[1].world[2]), {1, 0, 0}, 4e-16);
   expectNear(glm::dvec3(cameras[1].world[0]), {0, 0, -1}, 4e-16);
 }

@@ -14,7 +14,7 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 
-/// A small glTF document that tests put together and break.
+/// A small glTF document that tests build and break.
 class Sample {
  public:
   using Json = nlohmann::json;
@@ -22,7 +22,7 @@ class Sample {
   /// The document; `buffers` is filled in when it is written.
   Json json = {{"asset", {{"version", "2.0"}}}};
   std::vector<unsigned char> binary;
-  /// What stands in `buffers`; its own where this is null.
+  /// Replaces the content of `buffers`, unless null.
   Json buffers;
 
   Sample() {
@@ -47,7 +47,7 @@ class Sample {
     return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}});
   }
 
-  /// An accessor of a buffer view of its own; the component type follows from Value.
+  /// An accessor with a buffer view of its own; the component type follows from Value.
   template <typename Value>
   int accessor(const std::string& type, const std::vector<Value>& values) {
     const std::size_t components = type == "SCALAR" ? 1
@@ -65,7 +65,7 @@ class Sample {
     return static_cast<int>(json[list].size()) - 1;
   }
 
-  /// A mesh of one primitive and, in the scene, a node that shows it.
+  /// A mesh with one primitive, and a node in the scene that shows it.
   Json& primitive(Json value) {
     const int mesh = add("meshes", {{"name", "Part"}, {"primitives", {std::move(value)}}});
     show({{"mesh", mesh}});
@@ -109,10 +109,10 @@ class Sample {
 
   glint::Scene load() { return glint::loadGltf(writeGltf()); }
 
-  /// The message with which the document is refused; empty where it is not.
+  /// The error message with which loading is refused; empty if it succeeds.
   std::string error() { return errorOf(writeGltf()); }
 
-  /// The same for any file. Checks that it is one line that begins with the path.
+  /// The same for any file. Checks that the message is one line that begins with the path.
   static std::string errorOf(const std::filesystem::path& path) {
     try {
       glint::loadGltf(path);

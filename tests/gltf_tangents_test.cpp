@@ -1,4 +1,4 @@
-// Tangents for normal maps: of the file, and made as MikkTSpace makes them.
+// Tangents for normal maps: from the file, and computed as in MikkTSpace.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -15,7 +15,7 @@ using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A square seen from +Z whose picture lies on it upright: u to the right, v downwards.
+/// A square seen from +Z with an upright texture: u to the right, v downwards.
 Mesh square() {
   Mesh mesh = glint::test::quad();
   mesh.texcoords = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
@@ -39,7 +39,7 @@ TEST(Tangents, OfAMirroredPictureHaveTheOtherHandedness) {
 }
 
 TEST(Tangents, VerticesBetweenMirroredHalvesAreSplit) {
-  // Two squares side by side, the right one's picture the mirror image of the left one's.
+  // Two squares side by side, the right one's texture mirrored.
   Mesh mesh;
   mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}};
   mesh.normals.assign(6, {0, 0, 1});
@@ -56,8 +56,8 @@ TEST(Tangents, VerticesBetweenMirroredHalvesAreSplit) {
 }
 
 TEST(Tangents, AreMeansByAngleOfWhatMeetsAtAVertex) {
-  // An edge folded along y: the left face lies in the plane z = 0, the right one falls by 45
-  // degrees. At the vertices of the edge their tangents meet, in the plane of the mean normal.
+  // A fold along y: the left face lies in the plane z = 0, the right one falls by 45 degrees. At
+  // the fold's vertices their tangents are combined in the plane of the mean normal.
   const float h = std::sqrt(0.5f);
   Mesh mesh;
   mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {h, 0, -h}, {-1, 1, 0}, {0, 1, 0}, {h, 1, -h}};
@@ -92,7 +92,7 @@ TEST(Tangents, EqualVerticesOfDifferentIndicesAreOne) {
 
 TEST(Tangents, FacesWithoutAreaInThePictureFollowTheirNeighbours) {
   Mesh mesh = square();
-  mesh.texcoords[0][3] = mesh.texcoords[0][2];  // the second triangle is a line in the picture
+  mesh.texcoords[0][3] = mesh.texcoords[0][2];  // the second triangle is degenerate in the texture
   makeTangents(mesh);
   for (const glm::vec4& t : mesh.tangents) EXPECT_NEAR(glm::length(glm::vec3(t)), 1, 1e-6);
   Mesh none = square();
@@ -166,7 +166,7 @@ TEST(TextureTransform, MovesTurnsAndScalesCoordinates) {
   const glint::Texture texture = sample.load().materials.at(0).normalTexture.value();
   EXPECT_EQ(texture.texcoord, 0);
   const glm::dvec2 to = texture.transform * glm::dvec3(0.5, 0.25, 1);
-  // Counter-clockwise in a picture whose v runs down: (1, 0) turns towards (0, -1).
+  // Counter-clockwise in an image with v down: (1, 0) turns towards (0, -1).
   EXPECT_NEAR(to.x, 0.25 + 1 * std::cos(angle) + 0.75 * std::sin(angle), 1e-15);
   EXPECT_NEAR(to.y, 0.5 - 1 * std::sin(angle) + 0.75 * std::cos(angle), 1e-15);
   info["extensions"]["KHR_texture_transform"]["scale"] = {1, 2, 3};

@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF files that tests write into the folder for temporary files.
+// glTF files that tests write to the temporary folder.
 
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -14,8 +14,8 @@
 namespace glint {
 namespace half_test {
 
-// Against OpenEXR's own half: every value, and what lies half way between neighbours and next to
-// that.
+// Compared with OpenEXR's half: every value, and the midpoints between neighbours and the floats
+// next to them.
 TEST(Half, AllValuesAndTheirMiddlesAreThoseOfOpenExr) {
   for (int bits = 0; bits <= 0xffff; ++bits) {
     const auto each = std::uint16_t(bits);
@@ -28,7 +28,7 @@ TEST(Half, AllValuesAndTheirMiddlesAreThoseOfOpenExr) {
     }
     EXPECT_EQ(value, double(float(other))) << bits;
     EXPECT_EQ(halfBits(value), each) << bits;
-    if ((each & 0x7fff) >= 0x7bff) continue;  // what follows is infinite
+    if ((each & 0x7fff) >= 0x7bff) continue;  // the next value is infinite
     const double next = halfValue(std::uint16_t(bits + 1)), middle = 0.5 * (value + next);
     for (const double x : {middle, std::nextafter(float(middle), 0.0f) * 1.0,
                            std::nextafter(float(middle), float(2 * next)) * 1.0})
@@ -36,7 +36,7 @@ TEST(Half, AllValuesAndTheirMiddlesAreThoseOfOpenExr) {
   }
 }
 
-// A tie goes to the even one: checked without another program, too.
+// Ties go to even: checked independently of another program, too.
 TEST(Half, TiesGoToEvenAndOverflowToInfinity) {
   for (int bits = 0; bits < 0x7bff; ++bits) {
     const double middle =
@@ -63,9 +63,9 @@ TEST(HalfForms, PowLosesTheCosineNextToThePeak) {
   EXPECT_GT(halfErrorOf(Highlight::pow, 0, 10000).half, 0.5);
 }
 
-// Of lambda, whose halves are as fine as need be next to 0: rounding it moves a lobe by at most
-// 2^-11 alpha lambda exp(-alpha lambda) <= 2^-11 / e; three operations and g squarings follow, each
-// of 2^-11 at most, whose sum g + 2 squarings multiply.
+// Lambda's halves are fine enough near 0: rounding it moves a lobe by at most
+// 2^-11 alpha lambda exp(-alpha lambda) <= 2^-11 / e. Three operations and g squarings follow, each
+// with an error of at most 2^-11, whose sum g + 2 squarings multiply.
 TEST(HalfForms, SquaringFromLambdaHoldsForEveryExponent) {
   for (const int gamma : {1, 4, 16})
     for (const double alpha : {20.0, 100.0, 1000.0, 10000.0}) {
@@ -74,7 +74,7 @@ TEST(HalfForms, SquaringFromLambdaHoldsForEveryExponent) {
     }
 }
 
-// The form's own error is what its bound says, at the halves that are tried.
+// The form's own error is within its bound at the halves tested.
 TEST(HalfForms, FormulasAreWithinTheirBounds) {
   for (const HighlightRow& form : highlightRows()) {
     const int gamma = form.hasGamma() ? 8 * form.leastGamma : 1;

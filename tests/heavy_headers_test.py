@@ -1,7 +1,8 @@
-"""Headers that take seconds to compile, and which files may see them, by whatever way.
+"""Headers that take seconds to compile, and which files may include them, directly or not.
 
-Run as `heavy_headers_test.py FOLDER` on the project's folder: prints each source file that sees a
-heavy header and is not listed here, with the includes on the way, and fails if there is one.
+Run as `heavy_headers_test.py FOLDER` with the project's folder: prints each source file that
+includes a heavy header and is not listed here, with the chain of includes, and fails if there is
+one.
 """
 
 import fnmatch
@@ -9,16 +10,16 @@ import pathlib
 import re
 import sys
 
-# By the seconds that GCC 12 takes for an empty file that includes them; patterns of source files.
+# The seconds that GCC 12 takes for an otherwise empty file; patterns of the allowed source files.
 HEAVY = {
-    # 8.8; `namespace CLI { class App; }` does for the others
+    # 8.8; elsewhere `namespace CLI { class App; }` is enough
     r"CLI/.*": ["src/cli/*_command.cpp", "src/cli/main.cpp", "src/cli/diff_options.cpp",
                 "src/cli/render_options.cpp", "src/cli/shorthand.cpp", "src/glint/options/help.cpp",
                 "src/glint/options/help_json.cpp",
                 "src/glint/options/exit_status.cpp", "src/glint/options/look_options.cpp",
                 "src/glint/options/read_options.cpp",
                 "viewer/main.cpp"],
-    # 3.3, and 5 more where it reads and writes; nlohmann/json_fwd.hpp (0.9) does for headers
+    # 3.3, and 5 more for reading and writing; nlohmann/json_fwd.hpp (0.9) is enough for headers
     r"nlohmann/json\.hpp": [
         "src/glint/image/json_*.cpp", "src/glint/gltf/*", "src/glint/options/*",
         "src/glint/api/arrays.cpp",
@@ -65,7 +66,7 @@ def main():
         return None
 
     def ways(path, seen):
-        """Each heavy header that a file sees, with the first way to it."""
+        """Each heavy header that a file includes, with the first chain of includes found."""
         for name in files[path]:
             for heavy in HEAVY:
                 if re.fullmatch(heavy, name):

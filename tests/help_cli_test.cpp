@@ -1,5 +1,5 @@
-// Help and usage: what the help of every command looks like, that its examples run as they are
-// printed, and the short ways to say things.
+// Help and usage: the layout of every command's help, that its examples run as printed, and the
+// shorthands.
 
 #include <gmock/gmock.h>
 
@@ -25,7 +25,7 @@ std::string helpOf(const std::string& command) {
   return ran.out;
 }
 
-/// The words of a command line as a shell makes them; single quotes alone, and *.glb, are known.
+/// Splits a command line into words as a shell does; supports only single quotes and *.glb.
 std::vector<std::string> shellWords(const std::string& line) {
   std::vector<std::string> words;
   std::string word;
@@ -50,15 +50,15 @@ TEST(Help, IsWithin80ColumnsAndHasExamples) {
     EXPECT_THAT(text, AllOf(HasSubstr("Usage: glint " + command), HasSubstr("\nExamples:\n"),
                             testing::Not(HasSubstr("\n\n\n"))));
     for (const std::string& line : linesOf(text)) EXPECT_LE(line.size(), 80u) << line;
-    // A range belongs into the sentence, not into the value's name, where the parser puts it.
+    // A range belongs in the sentence, not in the value's name, where the parser puts it.
     for (const char* range : {" in [", ":NONNEGATIVE", ":POSITIVE"})
       EXPECT_THAT(text, testing::Not(HasSubstr(range)));
   }
   for (const std::string& line : linesOf(runGlint({"--help"}).out)) EXPECT_LE(line.size(), 80u);
 }
 
-// Examples that the help prints are what people copy first: each of them runs. A study and a
-// window are cut short: no display, a time budget.
+// People first copy the examples that the help prints, so each must run. Studies and windows are
+// cut short: by a time budget, and by the lack of a display.
 TEST(Help, ExamplesRunAsPrinted) {
   Folder folder("examples");
   std::filesystem::copy_file(shipped + "sphere.glb", folder / "helmet.glb");
@@ -69,7 +69,7 @@ TEST(Help, ExamplesRunAsPrinted) {
   const std::vector<std::string> small{"--resolution", "40,30"};
   for (const char* made : {"baselines", "pictures", "thumbs", "turn"})
     std::filesystem::create_directory(folder / made);
-  // Anew for each command, since examples write some of them.
+  // Made again for each command, because examples overwrite some of them.
   const auto makePictures = [&] {
     for (const char* picture :
          {"a.png", "b.png", "baseline.png", "baselines/a.png", "pictures/a.png"})
@@ -91,7 +91,7 @@ TEST(Help, ExamplesRunAsPrinted) {
       ++count;
       SCOPED_TRACE(line);
       std::vector<std::string> words = shellWords(line.substr(8));
-      // It takes a minute, and no budget; the tests of cost tables run it.
+      // It takes a minute and has no time budget; the tests of cost tables run it.
       if (testing::Value(words, testing::Contains("--measure-costs"))) continue;
       const std::string first = words.front();
       const bool window = first == "view" || first == "helmet.glb";
@@ -125,7 +125,7 @@ TEST(Help, VersionByALetter) {
   EXPECT_EQ(letter.out, runGlint({"--version"}).out);
 }
 
-// As f3d users type it. Without a display the one line says what works without.
+// As f3d users type it. Without a display the one line says what works without it.
 TEST(Help, AModelAloneIsShown) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{shipped + "sphere.glb"},
                                                 {shipped + "sphere.glb", "--shading", "gouraud"},

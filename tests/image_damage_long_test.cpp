@@ -1,4 +1,4 @@
-// Many pictures damaged at random.
+// Many randomly damaged pictures.
 
 #include "damaged_pictures.h"
 

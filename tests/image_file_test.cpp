@@ -21,7 +21,7 @@ std::string textOf(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// A folder of its own for each test and each way of staging.
+/// A folder for each test and each way of staging.
 class File : public ::testing::TestWithParam<OutputFile::Staging> {
  protected:
   std::string in(const std::string& name) const { return folder_ / name; }
@@ -125,7 +125,7 @@ TEST_P(File, FoldersAreMadeAndStayWithWhatIsInThem) {
   EXPECT_EQ(textOf(glint::readFile(in("new/deep/a"))), "x");
   EXPECT_FALSE(fs::exists(in("new/other")));
   OutputFile first(in("shared/a"), GetParam());
-  fs::remove_all(in("shared"));  // as another that made it and has failed does
+  fs::remove_all(in("shared"));  // as by another process that made it and failed
   if (GetParam() == OutputFile::Staging::unnamed) {
     first.commit();
     EXPECT_TRUE(fs::exists(in("shared/a")));
@@ -141,8 +141,8 @@ TEST_P(File, FilesInPlaceOfFoldersAndFoldersAreRefused) {
   EXPECT_THAT(messageOf([&] { OutputFile file("", GetParam()); }), HasSubstr("No such file"));
 }
 
-// Root may write everywhere: as long as this lives, root acts as the user nobody, who owns the
-// given files. Anybody else stays who they are.
+// Root may write everywhere: while this lives, root acts as the user nobody, who owns the given
+// files. Other users are unaffected.
 class AsNobody {
  public:
   explicit AsNobody(const std::vector<std::string>& files) : user_(::geteuid()) {

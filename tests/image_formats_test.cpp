@@ -1,4 +1,4 @@
-// OpenEXR, Radiance HDR, JPEG and what pictures say of themselves.
+// OpenEXR, Radiance HDR, JPEG and the metadata of pictures.
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -31,7 +31,7 @@ using Bytes = std::vector<std::byte>;
 
 std::string in(const std::string& name) { return glint::test::temporaryFolder() + "/" + name; }
 
-/// Values that name their pixel, channel and layer.
+/// Values that identify their pixel, channel and layer.
 glint::Image numbered(int width, int height, float offset) {
   glint::Image image{width, height, std::vector<float>(std::size_t(4) * width * height)};
   for (std::size_t i = 0; i < image.values.size(); ++i)
@@ -86,7 +86,7 @@ TEST(Exr, AbandonedPicturesLeaveNothing) {
   EXPECT_THAT(messageOf([] { glint::readFile(in("abandoned.exr")); }), HasSubstr("No such file"));
 }
 
-/// The file of a library's writer.
+/// The file that OpenEXR's writer makes.
 Bytes exrOf(const Imf::Header& header, const Imf::FrameBuffer& frame, int rows) {
   {
     Imf::OutputFile file(in("made.exr").c_str(), header);
@@ -118,7 +118,7 @@ TEST(Exr, EveryCompressionAndPixelType) {
                          compression == Imf::B44_COMPRESSION ||
                          compression == Imf::B44A_COMPRESSION;
       for (std::size_t i = 0; i < words.size(); ++i) {
-        // B44 and DWA keep about six bits, or bits of a perceptual scale.
+        // B44 and DWA keep about six bits, linear or on a perceptual scale.
         EXPECT_NEAR(image.values[4 * i + 1], float(i / 200), lossy ? 0.2 : 0) << compression;
       }
     }
@@ -184,7 +184,7 @@ TEST(Exr, PartsTilesAndChroma) {
     file.writePixels(4);
   }
   const glint::Image chroma = glint::readImage(in("chroma.exr"));
-  // Luminance keeps 9 bits or so of a half's 11, chroma as well.
+  // Luminance keeps about 9 of a half's 11 bits, and so does chroma.
   EXPECT_NEAR(chroma.values[4 * 5], 0.5, 0.004);
   EXPECT_NEAR(chroma.values[4 * 5 + 1], 0.25, 0.004);
   EXPECT_NEAR(chroma.values[4 * 5 + 2], 0.125, 0.004);
@@ -202,11 +202,11 @@ TEST(Hdr, ThreeWaysToStoreRows) {
   EXPECT_EQ(plain.text.at("SOFTWARE"), "test");
   EXPECT_EQ(glint::decodeImage(hdr("+Y 2 +X 1", two + one), "a").values, plain.values);
   EXPECT_EQ(glint::decodeImage(hdr("-Y 1 -X 2", two + one), "a").values, plain.values);
-  // Old runs: 3 + 256 repeats of the first pixel.
+  // Old run-length encoding: 3 + 256 repeats of the first pixel.
   const glint::Image old =
       glint::decodeImage(hdr("-Y 1 +X 261", one + "\1\1\1\3" + "\1\1\1\1" + two), "a");
   for (std::size_t i = 0; i < 261; ++i) EXPECT_EQ(old.values[4 * i + 2], i < 260 ? 1 : 0.25) << i;
-  // New runs: a channel of ten, as a run of 8 and two by themselves.
+  // New run-length encoding: a channel of ten values, as a run of 8 and two literals.
   std::string row("\2\2\0\12", 4);
   for (const char* value : {"\x80", "\x40", "\x20", "\x81"})
     row += std::string("\x88") + value + "\2" + value + value;
@@ -215,7 +215,7 @@ TEST(Hdr, ThreeWaysToStoreRows) {
     EXPECT_EQ(fresh.values[4 * i], 1);
     EXPECT_EQ(fresh.values[4 * i + 2], 0.25);
   }
-  // An exponent of 0 is black whatever the mantissas are.
+  // An exponent of 0 is black for any mantissas.
   EXPECT_EQ(glint::decodeImage(hdr("-Y 1 +X 1", std::string("\x80\x80\x80\0", 4)), "a").values[0],
             0);
 }
@@ -244,7 +244,7 @@ TEST(PngText, SurvivesWithItsLetters) {
   EXPECT_EQ(image.text.at("look"), "caf\u00e9");
 }
 
-/// Two pixels a row, the upper row 1 2 3, 4 5 6, the lower one 7 8 9, 10 11 12.
+/// Two pixels per row: the upper row 1 2 3, 4 5 6, the lower one 7 8 9, 10 11 12.
 std::vector<std::uint8_t> twoByTwo() { return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}; }
 
 struct SimpleFile {
@@ -287,7 +287,7 @@ TEST(Formats, SmallOnesHoldWhatTheirBytesSay) {
   }
 }
 
-// Refused, at whatever byte they end; none is read beyond it (a sanitizer sees that).
+// Refused wherever they end; no byte beyond that is read (a sanitizer would report it).
 TEST(Formats, SmallOnesThatEndEarlyAreRefused) {
   for (const SimpleFile& file : simpleFiles())
     for (std::size_t size = 0; size < file.bytes.size(); ++size) {
@@ -295,7 +295,7 @@ TEST(Formats, SmallOnesThatEndEarlyAreRefused) {
       const Bytes part(file.bytes.begin(), file.bytes.begin() + std::ptrdiff_t(size));
       try {
         (void)glint::decodeStoredImage(part, "x");
-        // What pads the last row may lack.
+        // The padding of the last row may be missing.
         EXPECT_GE(size + 2, file.bytes.size());
       } catch (const glint::InputError&) {
       }

@@ -43,7 +43,7 @@ std::string chunk(const std::string& type, const std::string& data) {
   return out;
 }
 
-/// A PNG made by hand from the filtered rows as the file has them (at most 65535 bytes).
+/// A PNG built from the filtered rows of the file (at most 65535 bytes).
 Bytes makePng(std::uint32_t width, std::uint32_t height, int depth, int type,
               const std::string& rows, const std::string& ancillary = "", bool interlaced = false) {
   std::string header;
@@ -139,7 +139,7 @@ TEST(Texture, JpegOfEveryKind) {
       ASSERT_EQ(image.width, 20);
       ASSERT_EQ(image.height, 12);
       const std::uint8_t* pixel = &image.values[4 * (20 * 3 + 10)];  // x 10, y 3
-      // Chroma at half resolution and quality 95 move a smooth colour by a few codes.
+      // Chroma at half resolution and quality 95 change a smooth colour by a few codes.
       const int red = 40 + 8 * 10, green = 200 - 9 * 3, blue = 90;
       const int scale = components == 4 ? 200 : 255;  // Adobe's CMYK: complements times black
       EXPECT_NEAR(pixel[0], red * scale / 255, 6);
@@ -150,8 +150,8 @@ TEST(Texture, JpegOfEveryKind) {
   }
 }
 
-/// Every prefix is refused with one line, or gives the whole picture where only the last `tail`
-/// bytes are missing: a JPEG's end mark, the checksum of a PNG's empty last chunk.
+/// Every prefix is refused with one line, or gives the whole picture if only the last `tail` bytes
+/// are missing: a JPEG's end marker, the checksum of a PNG's empty last chunk.
 void expectPrefixesRefused(const Bytes& bytes, std::size_t tail) {
   const auto whole = glint::decodeTexture(bytes, "whole").values;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -180,7 +180,7 @@ TEST(Texture, CutFilesAreRefusedAtEveryLength) {
   }
 }
 
-/// Whatever is wrong with it, a file gives a picture or an InputError, soon and quietly.
+/// Whatever its faults, a file gives a picture or an InputError, quickly and quietly.
 void expectFlipsSurvived(const Bytes& bytes, unsigned seed) {
   std::mt19937 random(seed);
   ::testing::internal::CaptureStderr();
@@ -221,7 +221,7 @@ TEST(Texture, GiantsAreRefusedAtOnce) {
       HasSubstr("PNG is damaged (arithmetic overflow)"));
   EXPECT_THAT(messageOf([&] { glint::decodeTexture(makePng(16384, 16384, 16, 6, row), "a"); }),
               HasSubstr("cut short"));
-  // The JPEG's size stands behind its SOF0 marker: length, precision, height, width.
+  // The JPEG's size follows its SOF0 marker: length, precision, height, width.
   Bytes jpeg = makeJpeg(3, false);
   for (std::size_t i = 0; i + 8 < jpeg.size(); ++i) {
     if (jpeg[i] != std::byte(0xff) || jpeg[i + 1] != std::byte(0xc0)) continue;

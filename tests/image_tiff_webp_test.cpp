@@ -1,5 +1,4 @@
-// TIFF and WebP: files made byte by byte as their specifications say, and the values that they
-// hold.
+// TIFF and WebP: files built byte by byte from their specifications, and the values in them.
 
 #include <gmock/gmock.h>
 
@@ -38,12 +37,12 @@ class Tiff {
   };
 
   string file(const string& pixels, std::vector<Tag> tags, std::uint32_t next = 0) const {
-    // The directory stands behind the header and the pixels, long values behind the directory.
+    // The directory follows the header and the pixels, long values follow the directory.
     const bool tiled =
         std::any_of(tags.begin(), tags.end(), [](const Tag& tag) { return tag.tag == 322; });
     tags.push_back({256, {2}});                                 // width
     tags.push_back({257, {2}});                                 // height
-    tags.push_back({tiled ? 324 : 273, {8}});                   // where the strip or tile is
+    tags.push_back({tiled ? 324 : 273, {8}});                   // position of the strip or tile
     tags.push_back({tiled ? 325 : 279, {int(pixels.size())}});  // its length
     if (!tiled) tags.push_back({278, {2}});                     // its rows
     std::sort(tags.begin(), tags.end(), [](auto& a, auto& b) { return a.tag < b.tag; });
@@ -128,7 +127,7 @@ TEST(TiffFile, AlphaPalettesPlanesAndPackedBits) {
   found = codes(four, straight);
   EXPECT_EQ(std::vector<std::uint8_t>(found.begin(), found.begin() + 4),
             (std::vector<std::uint8_t>{64, 32, 0, 128}));
-  // A palette of 16 bits a colour: reds, greens, blues of 256 entries.
+  // A palette with 16 bits per colour: 256 reds, greens and blues.
   std::vector<int> map(768);
   for (int i = 0; i < 256; ++i) {
     map[std::size_t(i)] = 257 * i;
@@ -148,7 +147,7 @@ TEST(TiffFile, AlphaPalettesPlanesAndPackedBits) {
       ElementsAre(1, 2, 3, 7, 7, 7, 9, 9, 9, 9, 9, 9));
 }
 
-// Tiles have 16 x 16 pixels at least; what lies beyond the picture does not count.
+// Tiles have at least 16 x 16 pixels; those beyond the picture are ignored.
 TEST(TiffFile, Tiles) {
   const Tiff tiff;
   string tile(16 * 16 * 2, '\x7f');
@@ -171,9 +170,9 @@ TEST(TiffFile, WhatIsNotFollowedAndOtherPagesAreTold) {
   auto turned = rgb;
   turned.push_back({orientation, {6}});
   EXPECT_EQ(read(tiff.file(twelve, turned)).layers[0].image.unfollowed.at("EXIF orientation"), "6");
-  // A second directory: the same once more.
+  // A second directory, with the same page again.
   EXPECT_THAT(read(tiff.file(twelve, rgb, 20)).skipped, ElementsAre("the pages after the first"));
-  // Cut anywhere, it is refused, or all that counts was there.
+  // Truncated anywhere, it is refused unless all that matters was there.
   const string whole = tiff.file(twelve, rgb);
   for (std::size_t size = 8; size < whole.size(); ++size) {
     try {
@@ -185,7 +184,7 @@ TEST(TiffFile, WhatIsNotFollowedAndOtherPagesAreTold) {
   }
 }
 
-/// Bits as WebP's lossless format packs them: the lowest first.
+/// Bits as WebP's lossless format packs them: lowest first.
 class Bits {
  public:
   Bits& add(unsigned value, int count) {
@@ -207,11 +206,11 @@ class Bits {
   int at_ = 0;
 };
 
-// "WebP lossless bitstream specification": 2 x 2 pixels, no transforms; red, blue and alpha have
-// one value, green has two, of which a bit chooses for each pixel.
+// "WebP lossless bitstream specification": 2 x 2 pixels, no transforms. Red, blue and alpha have
+// one value, green has two, chosen by one bit per pixel.
 TEST(WebpFile, LosslessCodesAndAlpha) {
   Bits stream;
-  stream.add(0x2f, 8).add(1, 14).add(1, 14).add(1, 1).add(0, 3);  // size less one, alpha, version
+  stream.add(0x2f, 8).add(1, 14).add(1, 14).add(1, 1).add(0, 3);  // size minus one, alpha, version
   stream.add(0, 1).add(0, 1).add(0, 1);                           // no transform, cache, groups
   stream.code({20, 210}).code({77}).code({5}).code({128}).code({0});
   stream.add(0, 1).add(1, 1).add(1, 1).add(0, 1);

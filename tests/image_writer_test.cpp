@@ -25,7 +25,7 @@ class Writer : public ::testing::Test {
  protected:
   std::string in(const std::string& name) const { return folder_ / name; }
 
-  /// Writes in bands of `band` rows; the number of NaN pixels.
+  /// Writes in bands of `band` rows; returns the number of NaN pixels.
   std::size_t save(const std::string& name, const glint::Image& image,
                    const glint::PictureOptions& options = {}, int band = 7) const {
     const auto writer = glint::openPictureWriter(in(name), image.width, image.height, options);
@@ -40,7 +40,7 @@ class Writer : public ::testing::Test {
   const Folder folder_{"writer"};
 };
 
-/// No two rows, columns or channels alike; premultiplied, values from 0 to 1, 10 % of them above.
+/// No two rows, columns or channels equal; premultiplied, values from 0 to 1, 10 % of them above.
 glint::Image example(int width, int height, bool alpha = false) {
   glint::Image image{width, height, std::vector<float>(std::size_t(4) * width * height)};
   for (int y = 0; y < height; ++y) {
@@ -122,7 +122,7 @@ TEST_F(Writer, PngSaysSrgbAndHasTheTexts) {
 
 TEST_F(Writer, PfmIsLinearLittleEndianAndBottomUp) {
   glint::PictureOptions options;
-  options.exposureScale = 8;  // not for PFM
+  options.exposureScale = 8;  // ignored for PFM
   save("a.pfm", {1, 2, {0.5f, -1, 2, 1, 3, 4, 5, 0.5f}}, options, 1);
   const auto bytes = glint::readFile(in("a.pfm"));
   const std::string header = "PF\n1 2\n-1.0\n";
@@ -196,7 +196,7 @@ TEST_F(Writer, EndingsAndSizesThatDoNotWorkAreRefused) {
   EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-// A smooth picture, as shading gives it.
+// A smooth picture, as produced by shading.
 glint::Image smooth(int width, int height, bool alpha) {
   glint::Image image{width, height, std::vector<float>(std::size_t(4) * width * height)};
   for (int y = 0; y < height; ++y) {
@@ -221,8 +221,8 @@ double meanDifference(const glint::Image& a, const glint::Image& b) {
   return sum / double(a.values.size());
 }
 
-// What is read again is near: about a code and a half at the default quality, far more at the
-// lowest, and the file the smaller for it.
+// The picture read back is close: about a code and a half off at the default quality, far more at
+// the lowest, which gives a smaller file.
 TEST_F(Writer, JpegAndWebpAreNearThePicture) {
   const glint::Image image = smooth(67, 45, false);
   for (const std::string name : {"a.jpg", "a.JPEG", "a.webp"}) {
@@ -277,7 +277,7 @@ TEST_F(Writer, RawHasAHeaderAndTheFloats) {
   for (const bool alpha : {false, true}) {
     glint::PictureOptions options;
     options.alpha = alpha;
-    options.exposureScale = 8;  // is not applied
+    options.exposureScale = 8;  // ignored
     options.format = &glint::pictureFormat(glint::PictureFormat::Id::raw);
     save("a.png", image, options, 4);
     const auto bytes = glint::readFile(in("a.png"));
@@ -322,7 +322,7 @@ TEST(PictureFormats, AreToldByEndingsAndBytes) {
   EXPECT_EQ(glint::pictureFormatNamed(""), nullptr);
 }
 
-// What is written is what its format's bytes say.
+// The bytes written are those of the format requested.
 TEST_F(Writer, WritesTheFormatThatIsAskedFor) {
   const glint::Image image = example(8, 8);
   for (const glint::PictureFormat& each : glint::pictureFormats()) {

@@ -1,5 +1,4 @@
-// A mesh that stands in many places is drawn by instanced calls, and looks as it does piece by
-// piece.
+// A mesh with many instances is drawn by instanced calls, and looks the same as drawn one by one.
 
 #include <gmock/gmock.h>
 
@@ -9,7 +8,7 @@
 
 namespace glint::test::instancing_gl_test {
 
-// Spheres in a row in depth, so that places and normals of each count.
+// Spheres in a row in depth, so that each one's position and normals matter.
 Scene crowd(int count) {
   Random random(11);
   Scene scene = sceneOf(sphere(12, 8), materialOf(0.9, 0.8, 0.6, 30, 0.2, {0.8, 0.6, 0.4}));
@@ -41,7 +40,7 @@ TEST(DrawCalls, TakeWhatDiffersInItsPlaceAlone) {
     return counts;
   };
   using testing::ElementsAre;
-  EXPECT_THAT(sizes(crowd(3)), ElementsAre(1, 1, 1));  // not worth a program of their own
+  EXPECT_THAT(sizes(crowd(3)), ElementsAre(1, 1, 1));  // too few for a program of their own
   EXPECT_THAT(sizes(crowd(30)), ElementsAre(30));
   EXPECT_THAT(sizes(crowd(300)), ElementsAre(128, 128, 44));
   Scene scene = crowd(30);
@@ -54,11 +53,11 @@ TEST(DrawCalls, TakeWhatDiffersInItsPlaceAlone) {
   scene = crowd(30);
   scene.materials[0].alphaMode = glint::AlphaMode::blend;
   scene.materials[0].alpha = 0.5;
-  EXPECT_EQ(sizes(scene).size(), 30u);  // each at its depth
+  EXPECT_EQ(sizes(scene).size(), 30u);  // each in its depth order
 }
 
-// By every program, with samples and without: the same values, but for the last bits that another
-// program's arithmetic may have, and so for the odd sample at an edge.
+// With every program, with and without multisampling: the same values, except for last bits where
+// another program's arithmetic differs, and so for the occasional sample at an edge.
 TEST_P(Instancing, LooksAsPieceByPiece) {
   const Scene scene = crowd(200);
   for (const Shading shading :
@@ -70,7 +69,7 @@ TEST_P(Instancing, LooksAsPieceByPiece) {
       look.antiAliasing = {mode, 4};
       look.light = {directional({1, 2, 3}), directional({-2, 1, 1}, {0.3, 0.2, 0.1})};
       const Image together = draw(scene, look);
-      // Meshes that take turns keep them apart.
+      // Alternating meshes prevent instancing.
       Scene apart = scene;
       apart.meshes.assign(8, scene.meshes[0]);
       for (std::size_t i = 0; i < apart.instances.size(); ++i) apart.instances[i].mesh = int(i % 8);

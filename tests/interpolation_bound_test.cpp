@@ -1,6 +1,6 @@
-// What flat and gouraud shading change, against its bound: triangles at random under lights of all
-// kinds, hunted over every point for the largest difference between the sum of their corners and
-// the sum at the point, both by the reference's formulas in double.
+// The error of flat and gouraud shading compared with its bound: random triangles under lights of
+// all kinds, searched for the point with the largest difference between the interpolated sum of
+// their corners and the sum at the point, both by the reference's formulas in double.
 
 #include "glint/budget/interpolation_bound.h"
 
@@ -36,7 +36,7 @@ struct Draw {
   Look look;
 };
 
-// The same triangle by a transform that scales unevenly and may mirror.
+// The same triangle under a transform that scales unevenly and may mirror.
 void placeUnevenly(Scene& scene, Random& r) {
   const auto scale = [&] { return (r.coin() ? -1 : 1) * (0.5 + r.unit()); };
   const glm::dmat4 world = test::rotation(r.unit()) * test::scaling({scale(), scale(), scale()});
@@ -51,8 +51,8 @@ void placeUnevenly(Scene& scene, Random& r) {
 
 enum class Kind { directional, point, falloff, spot, any };
 
-// A triangle of about unit size seen from somewhere, its normals near the face's or not, under
-// lights that tend to graze it, to be mirrored to the eye, or to stand near it.
+// A triangle of about unit size seen from somewhere, with normals near the face's or not, under
+// lights that tend to graze it, to be mirrored to the eye, or to be near it.
 Draw randomDraw(Random& r, Kind kind, Shading program) {
   Draw d;
   Mesh mesh;
@@ -107,7 +107,7 @@ Draw randomDraw(Random& r, Kind kind, Shading program) {
   return d;
 }
 
-// The same with everything moved a little.
+// The same with everything changed slightly.
 Draw nudged(const Draw& from, double step, Random& r) {
   Draw d = from;
   Mesh& mesh = d.scene.meshes.front();
@@ -139,8 +139,8 @@ Draw nudged(const Draw& from, double step, Random& r) {
   return d;
 }
 
-// The largest difference between what the program carries and the sum at the point, over all
-// triangles, of the side that shows.
+// The largest difference between what the program interpolates and the sum at the point, over all
+// triangles, for the visible side.
 double worstOf(const Draw& d, Shading program, Random& r, int steps) {
   const ReferenceRenderer reference(d.scene, {}, boundsOf(d.scene), d.look, 1);
   const reference::Stage& stage = reference.stage();
@@ -206,7 +206,7 @@ double boundOf(const Draw& d, Shading program) {
   return interpolationBound({d.scene, mesh, world, material, d.look, camera, lights, v}, program);
 }
 
-// How many times the bound is what was found.
+// The ratio of the bound to the error found.
 class Looseness {
  public:
   void add(double bound, double worst) {
@@ -232,7 +232,7 @@ std::string describe(const Draw& d) {
          std::to_string(m.diffuse) + " specular " + std::to_string(m.specular);
 }
 
-// Nothing found is above the bound; a tenth of the triangles come nearer to it than `nearly`.
+// No error found is above the bound; a tenth of the triangles come nearer to it than `nearly`.
 void attack(Kind kind, Shading program, unsigned seed, double nearly) {
   Random r(seed);
   Looseness looseness;
@@ -261,7 +261,7 @@ TEST(InterpolationBound, OfGouraudUnderSpots) { attack(Kind::spot, Shading::gour
 TEST(InterpolationBound, OfGouraudUnderAnyLights) { attack(Kind::any, Shading::gouraud, 45, 1.7); }
 TEST(InterpolationBound, OfFlatUnderAnyLights) { attack(Kind::any, Shading::flat, 46, 2); }
 
-// Climbs from draws at random to where the bound is nearest to what is found.
+// Climbs from random draws to where the error is closest to the bound.
 void hunt(Kind kind, Shading program, unsigned seed, double nearly) {
   Random r(seed);
   double nearest = 0, nearestSmall = 0;
@@ -272,7 +272,7 @@ void hunt(Kind kind, Shading program, unsigned seed, double nearly) {
       const Draw d = step == 0 ? best : nudged(best, 0.2 * std::pow(0.96, step), r);
       const double bound = boundOf(d, program), worst = worstOf(d, program, r, 12);
       ASSERT_LE(worst, bound + 1e-12) << i << ": " << describe(d);
-      // Half of them among small differences, which are those of the derivatives.
+      // Half of them among small differences, which are dominated by the derivatives.
       const bool counts = i % 2 == 0 || worst < 0.03;
       if (counts && worst > 1e-5 && worst >= most * bound && bound < 1e6)
         most = worst / bound, best = d;
@@ -294,8 +294,8 @@ TEST(InterpolationBound, HuntedUnderLightsThatFallOff) {
 TEST(InterpolationBound, HuntedUnderSpots) { hunt(Kind::spot, Shading::gouraud, 54, 0.9); }
 TEST(InterpolationBound, HuntedOfFlat) { hunt(Kind::any, Shading::flat, 55, 0.7); }
 
-// Over a whole sphere, which shows the highlight and the terminator of every light: there the bound
-// is within a small factor of what is found.
+// Over a whole sphere, where the highlight and the terminator of every light are visible, the bound
+// is within a small factor of the error found.
 TEST(InterpolationBound, OfSpheresIsNear) {
   Random r(47);
   for (const Kind kind : {Kind::directional, Kind::point, Kind::falloff, Kind::spot}) {
@@ -326,7 +326,7 @@ TEST(InterpolationBound, OfSpheresIsNear) {
   }
 }
 
-// Where nothing changes, nothing arrives, or nothing is known.
+// Where nothing changes, no light arrives, or nothing is known.
 TEST(InterpolationBound, OfPlainCases) {
   const Material matte = test::materialOf(0, 1, 0, 20), shiny = test::materialOf(0, 1, 1, 20);
   Draw d{test::sceneOf(test::quad(), shiny), test::parallelLook()};
@@ -358,7 +358,7 @@ TEST(InterpolationBound, OfPlainCases) {
   lamp.position = {0.5, 0.5, 0};
   d.look.light = {lamp};
   EXPECT_EQ(boundOf(d, Shading::gouraud), std::numeric_limits<double>::infinity());
-  // A cone that misses the square, one that takes it in, and one whose edge lies on it.
+  // A cone that misses the square, one that contains it, and one whose edge crosses it.
   Light spot = lamp;
   spot.type = Light::Type::spot;
   spot.fallsOff = false;
@@ -376,8 +376,8 @@ TEST(InterpolationBound, OfPlainCases) {
   EXPECT_GT(boundOf(d, Shading::gouraud), 3 * inside);
 }
 
-// Corners that a lamp just grazes, before and behind, with normals that lean to the other side of
-// it in between: there the gate closes on the highlight that all three have, or opens to one.
+// Corners that a lamp just grazes, before and behind, with normals in between that lean to the
+// other side of it: there the gate turns off the highlight that all three have, or turns one on.
 TEST(InterpolationBound, CountsGatesThatTurnBetweenTheCorners) {
   for (const double side : {1.0, -1.0}) {
     Mesh mesh;
@@ -404,7 +404,7 @@ TEST(InterpolationBound, CountsGatesThatTurnBetweenTheCorners) {
   }
 }
 
-// Only phong reads a normal map.
+// Only phong uses a normal map.
 TEST(InterpolationBound, IsInfiniteWithNormalMaps) {
   Mesh mesh = test::quad();
   mesh.tangents.assign(4, {1, 0, 0, 1});

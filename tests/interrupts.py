@@ -1,10 +1,11 @@
-"""Batches and conversions interrupted at random moments: what is there is whole, and nothing else is.
+"""Interrupts batches and conversions at random moments: all files left are complete, and no others
+exist.
 
     interrupts.py GLINT MODELS [--count N] [--seed N]
 
-Starts `glint render --from-list` and `glint convert`, ends them after a random time by SIGINT, SIGTERM or
-SIGKILL, and looks at what is left: every picture has its last chunk and right checksums, every model can be
-read, no other file is there. At last --resume makes what is missing.
+Starts `glint render --from-list` and `glint convert`, ends them after a random time with SIGINT,
+SIGTERM or SIGKILL, and checks what is left: every picture has its last chunk and correct checksums,
+every model can be read, and there is no other file. Finally, --resume makes the rest.
 """
 
 import argparse
@@ -86,7 +87,7 @@ def main():
         left = [path.name for path in folder.iterdir() if path.name not in ("model.glb", "list", "out")]
         if left:
             faults.append(f"left beside: {left}")
-        # Interrupted and taken up again until all is there.
+        # Interrupts and resumes until everything is there.
         for _ in range(20):
             process = subprocess.Popen([*render, "--resume"], cwd=folder, stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)

@@ -1,8 +1,9 @@
-"""The memory of a large model's picture is at most 2.2 times its file beside what any picture takes.
+"""A large model's picture takes at most 2.2 times its file's size more memory than a small one's.
 
     large_memory.py GLINT
 
-Without and with anti-aliasing: a driver that takes triangles faster than it fills them must not keep them all.
+With and without anti-aliasing: if the driver queues triangles faster than it draws them, it must
+not hold all of them.
 """
 
 import os
@@ -15,13 +16,13 @@ MODELS = pathlib.Path(__file__).parent / "benchmarks" / "scale_models.py"
 
 
 def sphere(folder, triangles):
-    """Made by a process of its own: what this one has held would count for its children."""
+    """Made in a separate process: the memory of this one would count towards its children's."""
     return subprocess.run([sys.executable, "-B", MODELS, folder, "sphere", str(triangles)], check=True,
                           capture_output=True, text=True).stdout.strip()
 
 
 def peak(command):
-    """The most memory of a run, in bytes."""
+    """The peak memory of a run, in bytes."""
     process = subprocess.Popen(command)
     _, status, usage = os.wait4(process.pid, 0)
     if status != 0:

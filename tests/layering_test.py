@@ -1,8 +1,8 @@
-"""Which library may include which: the arrows of the house, read from the includes.
+"""Which library may include which: the dependencies of the project, checked from its includes.
 
-Run as `layering_test.py FOLDER` on the project's folder: prints every include that points the wrong
-way, or that names a header by another path than its own, and fails if there is one. Before that it
-plants one of each kind in a folder of its own, which must be found.
+Run as `layering_test.py FOLDER` with the project's folder: prints every include that points the
+wrong way, or that names a header by a path other than its own, and fails if there is one. First it
+plants one of each kind in a temporary folder and checks that they are found.
 """
 
 import pathlib
@@ -10,7 +10,7 @@ import re
 import sys
 import tempfile
 
-# Each library with those it may include; what those may include follows.
+# Each library with those it may include; their own dependencies are implied.
 ARROWS = {
     "image": [],
     "shading": ["image"],
@@ -29,10 +29,11 @@ ARROWS = {
     "models": [],
 }
 
-# The reference draws without GL: of `render` it may see what decides a picture, not what draws it.
+# The reference draws without GL: from `render` it may include what determines a picture, not what
+# draws it.
 REFERENCE_SEES = {"decode.h", "draw_list.h", "environment_image.h", "picture_terms.h", "variant.h"}
 
-# Window and widgets belong to the viewer alone.
+# Only the viewer uses windows and widgets.
 VIEWER_ONLY = re.compile(r"(GLFW/|imgui)")
 
 
@@ -86,7 +87,7 @@ def faults(root):
                 yield f"{where}: the reference may not include what draws with GL"
 
 
-# A small house: of each file its text and, of what must be found in it, the words.
+# A small project: the text of each file and, if it has a fault, the message expected.
 PLANTED = {
     "src/glint/image/image.h": ("", None),
     "src/glint/scene/scene.h": ('#include "glint/image/image.h"', None),

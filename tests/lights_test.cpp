@@ -1,4 +1,4 @@
-// Lights of a model file: reading, the scale that makes a picture of them, and the look.
+// Lights of a model file: reading, the scale that gives a usable picture, and the look.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(FileLights, AreReadWithTheirNodesPlace) {
   sample.triangle();
   const double h = std::sqrt(0.5);
   addLight(sample, {{"type", "directional"}, {"intensity", 3}, {"color", {1, 0.5, 0}}},
-           {{"rotation", {-h, 0, 0, h}}, {"scale", {5, 5, 5}}});  // -Z turned to -Y
+           {{"rotation", {-h, 0, 0, h}}, {"scale", {5, 5, 5}}});  // -Z rotated to -Y
   addLight(sample, {{"type", "point"}, {"range", 7}, {"name", "lamp"}},
            {{"translation", {1, 2, 3}}});
   addLight(sample,
@@ -113,15 +113,15 @@ TEST(LightMeter, LeavesFivePercentOfTheLitAreaAboveOne) {
   lamp.position = {0, 0, 0.5};
   lamp.intensity = glm::dvec3(800);
   const double scale = glint::meterLights(litSquare(lamp)).scale;
-  // I N.L = 800 h / (r^2 + h^2)^1.5 is 1 / scale on a circle of radius r; its share of the 16 of
-  // the square's area. The grid of points is 0.06 wide.
+  // I N.L = 800 h / (r^2 + h^2)^1.5 is 1 / scale on a circle of radius r; divided by the square's
+  // area of 16 it is the circle's share. The grid of points is 0.06 wide.
   const double r2 = std::pow(800 * 0.5 * scale, 2.0 / 3) - 0.25;
   EXPECT_NEAR(std::numbers::pi * r2 / 16, 0.05, 0.005);
 }
 
 TEST(LightMeter, IsOneWhereNoLightArrives) {
   FileLight behind;
-  behind.direction = {0, 0, 1};  // shines at the back of the square
+  behind.direction = {0, 0, 1};  // illuminates the back of the square
   EXPECT_EQ(glint::meterLights(litSquare(behind)).scale, 1);
   EXPECT_EQ(glint::meterLights(Scene{}).scale, 1);
   Scene unlit = litSquare({});

@@ -1,9 +1,9 @@
-"""Memory over a long list of models does not grow with its length.
+"""Memory does not grow with the length of a list of models.
 
     list_memory.py GLINT MODELS [--count N]
 
-Draws a list of N / 10 and one of N models, made of those in MODELS in turn, and compares the most memory
-that each run held.
+Draws a list of N / 10 and one of N models, made of those in MODELS in turn, and compares the peak
+memory of the two runs.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import tempfile
 
 
 def peak(command):
-    """The most memory of a run, in MiB, and its status."""
+    """The peak memory of a run, in MiB, and its status."""
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     return usage.ru_maxrss / 1024, os.waitstatus_to_exitcode(status)
@@ -41,8 +41,8 @@ def main():
             peaks.append(most)
             if status != 0 or drawn != count:
                 sys.exit(1)
-    # Which models are in memory at the same time is a matter of luck: some MiB. A model that is kept, the
-    # least of which takes some kilobytes, would be seen.
+    # Which models are in memory at the same time varies by chance: some MiB. A leak of each model,
+    # which takes at least some kilobytes, would be noticed.
     growth = (peaks[1] - peaks[0]) * 1024 / (given.count * 0.9)
     print(f"{growth:.2f} KiB a model")
     sys.exit(growth > 2)

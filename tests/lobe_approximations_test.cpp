@@ -22,9 +22,9 @@ double errorAt(const Form& form, double alpha, double rho) {
   return std::abs(form(lambda) - exact);
 }
 
-/// Errors against cos^alpha over [0, 180] degrees by the midpoint rule on 40000 angles. The maximum
-/// may sit on a kink, where the form is cut off: it is sought again between the angles beside the
-/// greatest, to 1e-7 radian, with slopes of at most sqrt(alpha).
+/// Errors against cos^alpha over [0, 180] degrees by the midpoint rule with 40000 angles. The
+/// maximum may be at the kink where the form is cut off, so it is refined between the neighbours of
+/// the largest value, to 1e-7 radian, with slopes of at most sqrt(alpha).
 Errors errorsOf(const Form& form, double alpha) {
   const int count = 40000;
   const double step = std::numbers::pi / count;
@@ -59,11 +59,11 @@ Errors errorsOf(const Form& form, double alpha) {
   return e;
 }
 
-constexpr double half = 0.51;  // of a unit of the last digit printed
+constexpr double half = 0.51;  // of a unit of the last printed digit
 const double alphas[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000, 10000};
 
-// docs/science.md 2.2; for gamma = 1 the maximum is where the form is cut off,
-// (1 - 1/alpha)^alpha, which gives two last digits better than sampling: 0.36696 and 0.36786.
+// docs/science.md 2.2. For gamma = 1 the maximum is where the form is cut off, (1 - 1/alpha)^alpha,
+// which gives two last digits more accurately than sampling: 0.36696 and 0.36786.
 TEST(LobeApproximations, LyonErrsAsTabulated) {
   const double maximum[10][7] = {{0.0000, 0.2500, 0.3164, 0.3436, 0.3561, 0.3621, 0.3650},
                                  {0.3277, 0.1058, 0.0159, 0.0228, 0.0408, 0.0495, 0.0538},
@@ -188,7 +188,7 @@ TEST(LobeApproximations, LawsForLargeExponents) {
   EXPECT_NEAR(gaussian * alpha, 0.1337, 1e-4);
 }
 
-// docs/science.md 1, the identities; equal to rounding, gamma roundings of the squarings.
+// docs/science.md 1, the identities; equal up to rounding, gamma roundings for the squarings.
 TEST(LobeApproximations, Identities) {
   for (double lambda = 0.0; lambda < 1.0; lambda += 1.0 / 128.0) {
     for (int gamma = 1; gamma <= 64; gamma *= 2) {
@@ -204,7 +204,7 @@ TEST(LobeApproximations, Identities) {
   // E7, D7: alpha < gamma leaks
   EXPECT_NEAR(glint::lyon(1.0, 1.0, 8), 0.344, 5e-4);
   EXPECT_NEAR(glint::lyon(2.0, 1.0, 8), 0.100, 5e-4);
-  // a gamma that is no power of two counts as the next below, in beta too
+  // a gamma that is not a power of two counts as the next lower one, in beta too
   EXPECT_EQ(glint::lyon(0.1, 20.0, 15), glint::lyon(0.1, 20.0, 8));
   EXPECT_EQ(glint::lyon(0.1, 20.0, 200), glint::lyon(0.1, 20.0, 64));
 }

@@ -1,4 +1,5 @@
-// The lobe from a table: in GLSL what it is in double, in pictures and in the terms of each light.
+// The lobe from a table: in GLSL it equals that in double, in pictures and in the terms of each
+// light.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ Look lit(Shading shading) {
   return look;
 }
 
-/// Pixels of the sphere, away from the last one at its edge, that are off by more.
+/// Pixels inside the sphere, excluding those at its edge, that are off by more than the tolerance.
 int pixelsOff(const Image& drawn, const Image& truth, double tolerance) {
   int off = 0;
   for (int y = 0; y < truth.height; ++y)
@@ -37,9 +38,9 @@ int pixelsOff(const Image& drawn, const Image& truth, double tolerance) {
   return off;
 }
 
-// Against the same form in double, by what rounding adds to it and what the driver makes of normals
-// between vertices (1e-6, times the steepest slope 0.61 sqrt(a)); at edges, of some 1000 pixels,
-// the next triangle may be another's.
+// Compared with the same form in double. The tolerance is its rounding and the driver's
+// interpolation of normals (1e-6, times the steepest slope 0.61 sqrt(a)); at edges, in a
+// few of some 1000 pixels, the driver may choose the adjacent triangle.
 TEST_P(LobeTable, IsThatInDouble) {
   for (const Shading shading : {Shading::phong, Shading::blinnPhong, Shading::gouraud})
     for (const int steps : {16, 64, 1024})
@@ -65,7 +66,7 @@ TEST_P(LobeTable, IsThatInDouble) {
       }
 }
 
-// Each form finds its own table, in the picture and where one light is drawn by itself.
+// Each form uses its own table, in the picture and where one light is drawn separately.
 TEST_P(LobeTable, EachFormHasItsOwn) {
   const Scene scene = sceneOf(sphere(48, 24), materialOf(0, 0.3, 0.5, 7.5));
   Look look = lit(Shading::phong);
@@ -83,7 +84,7 @@ TEST_P(LobeTable, EachFormHasItsOwn) {
   }
 }
 
-// Where the exponent varies there is no one table.
+// With a varying exponent there is no single table.
 TEST_P(LobeTable, OfAVaryingExponentIsExact) {
   const Scene scene = sceneOf(sphere(24, 12), materialOf(0, 0, 0.5, 20));
   Look look = lit(Shading::phong);

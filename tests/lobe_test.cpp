@@ -21,7 +21,7 @@ constexpr double u = 0x1p-53;  // unit roundoff
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// 50-digit vectors, normalised in 50 digits.
+/// 50-digit vectors, normalised with 50 digits.
 struct Vector {
   Real x, y, z;
   explicit Vector(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) { normalize(); }
@@ -48,19 +48,21 @@ Real lobeTruth(const Real& cosine, double alpha) {
   return cosine > 0 ? pow(cosine, Real(alpha)) : Real(0);
 }
 
-/// sup over d of the slope of the lobe, alpha d (1 - d^2/2)^(alpha - 1), d = |D|: where
-/// d^2 = 1 / (alpha - 1/2). Below 1.42 sqrt(alpha) for alpha >= 1, near 0.61 sqrt(alpha) for large.
+/// The supremum over d of the slope of the lobe, alpha d (1 - d^2/2)^(alpha - 1), d = |D|: at
+/// d^2 = 1 / (alpha - 1/2). Below 1.42 sqrt(alpha) for alpha >= 1, near 0.61 sqrt(alpha) for large
+/// alpha.
 double steepest(double alpha) {
   return alpha / std::sqrt(alpha - 0.5) * std::pow(1.0 - 1.0 / (2.0 * alpha - 1.0), alpha - 1.0);
 }
 
-// The bounds. A double unit vector is off by at most 2.5 u in direction and length. Lengths enter
-// lambda in second order (|R|, |V| near each other) or as a relative error, so what counts is |dD|.
+// The bounds. A double unit vector is off by at most 2.5 u in direction and length. Lengths affect
+// lambda only in second order (|R|, |V| near each other) or as a relative error, so what counts is
+// |dD|.
 //
 // Phong, D = (L + V) - 2 (N.L) N: L and V 2.5 u each, N 4 * 2.5 u, the dot product 2 * 2 u, its
 // product with N 2 u, the sum L + V 2 u, the last difference at most u |D|: below 24 u.
 // Blinn, D = N - H: N 2.5 u, H's normalisation 2.5 u, difference u; L + V is off by 2.5 + 2.5 + 2
-// u, which its division by |L + V| enlarges: 6 u + 7 u / |L + V|.
+// u, which dividing by |L + V| magnifies: 6 u + 7 u / |L + V|.
 //
 // The lobe is then off by steepest(alpha) |dD|, and by at most 2 u from log1p, exp and the relative
 // error of lambda (t exp(-t) <= 1/e): sqrt(alpha) 2^-53 times at most 34 and, for large alpha, 15.
@@ -74,7 +76,7 @@ class Geometry {
   glm::vec3 direction() {
     return glm::vec3(float(normal_(random_)), float(normal_(random_)), float(normal_(random_)));
   }
-  /// A float vector near `around`, off it by about `spread`, and not unit.
+  /// A float vector near `around`, off by about `spread`, and not unit.
   glm::vec3 near(const dvec3& around, double spread) {
     const dvec3 v = around + spread * dvec3(direction());
     return glm::vec3(v * std::exp2(normal_(random_)));
@@ -122,7 +124,7 @@ TEST(Lobe, BlinnIsOffByRootAlphaOnly) {
   }
 }
 
-// pow of the dot is the same lobe in double, off by alpha u: D3, D4 in another precision.
+// pow of the dot product is the same lobe in double, off by alpha u: D3, D4 in another precision.
 TEST(Lobe, PowIsOffByAlpha) {
   Geometry geometry(3);
   for (const double alpha : exponents) {
@@ -132,7 +134,7 @@ TEST(Lobe, PowIsOffByAlpha) {
       const glm::vec3 b = geometry.near(A, 1.0 / std::sqrt(alpha));
       const dvec3 B = glint::safeNormalize(b);
       const Real exact = lobeTruth(dot(Vector(a), Vector(b)), alpha);
-      // two lengths of 2.5 u and a dot product of 2 u; a clamp that can only help
+      // two lengths of 2.5 u and a dot product of 2 u; the clamp can only help
       ASSERT_LE(abs(Real(glint::lobePow(glm::dot(A, B), alpha)) - exact), (7 * alpha + 4) * u);
     }
   }
@@ -272,7 +274,7 @@ TEST(Lobe, NamedCases) {
   EXPECT_EQ(glint::lobePow(0.0, 0.0), 0.0);                   // D1
   EXPECT_LT(glint::lobeExact(0.5, 2000.0), 1e-300);           // D11
   EXPECT_EQ(glint::lyon(1.0 - std::cos(0.09), 1e3, 4), 0.0);  // D9: cut off at 5.1 degrees
-  // D3: the half maximum of alpha = 1e6 lies at 0.067 degrees
+  // D3: the half maximum of alpha = 1e6 is at 0.067 degrees
   EXPECT_NEAR(glint::lobeExact(1.0 - std::cos(0.0674593 * 3.14159265 / 180.0), 1e6), 0.5, 1e-3);
 }
 

@@ -1,4 +1,4 @@
-// The texts of options and look files.
+// The syntax of options and look files.
 
 #include <gmock/gmock.h>
 
@@ -63,7 +63,7 @@ Light light(Light::Type type, glm::dvec3 position, glm::dvec3 direction, glm::dv
   return {type, position, direction, inner, outer, intensity};
 }
 
-// What each option's text makes of the default look, written out by hand.
+// The look that each option's text gives, starting from the default, written by hand.
 const std::vector<Good>& goodTexts() {
   using glint::Environment, glint::Fresnel, glint::Highlight, glint::Shading, glint::Viewer;
   const auto material = [](const char* name, auto edit) {
@@ -454,7 +454,7 @@ class RandomLooks {
     l.cameraElevationAngle = number(-90, 90);
     l.cameraZoomFactor = number(1e-6, 1e6);
     l.cameraOrthographic = coin();
-    if (coin()) {  // in place of both
+    if (coin()) {  // replaces both
       l.cameraIntrinsics = {number(1e-3, 1e7), number(1e-3, 1e7), number(-1e7, 1e7), 0};
       l.cameraViewAngle.reset();
       l.cameraOrthographic = false;
@@ -612,7 +612,7 @@ TEST(LookFiles, RoundTripEveryGoodText) {
   }
 }
 
-// The example of the documentation.
+// The example in the documentation.
 TEST(LookFiles, ReadTheExample) {
   const Look look = read(R"({"glint-look": 1, "shading": "phong", "highlight": "exact",
       "camera-position": [0, 1, 4], "light": ["directional:1,1,1:1,1,1"],
@@ -706,7 +706,7 @@ TEST(SpecularAntialiasingOption, AloneIsASwitch) {
   const auto of = [](const std::string& text) {
     return lookFrom({{"specular-antialiasing", text}}).specularAntialiasing;
   };
-  EXPECT_EQ(of("true"), SpecularAntialiasing::kaplanyan);  // as the command line has a name alone
+  EXPECT_EQ(of("true"), SpecularAntialiasing::kaplanyan);  // like the option without a value
   EXPECT_EQ(of("false"), SpecularAntialiasing::none);
   EXPECT_EQ(of("toksvig"), SpecularAntialiasing::toksvig);
 }

@@ -1,4 +1,4 @@
-"""Manual pages, completions and docs/options.md are what the programs' help says, and versions agree.
+"""Manual pages, completions and docs/options.md match the programs' help, and versions agree.
 
 manual_test.py GLINT GLINT_VIEWER PROJECT_FOLDER VERSION
 """
@@ -33,7 +33,8 @@ with tempfile.TemporaryDirectory() as folder:
           "docs/options.md is up to date: cmake/manual.py %s --markdown docs/options.md"
           % " ".join(command))
 
-    # Every option of every command's help is in its page, in the completions and in docs/options.md.
+    # Every option in the help of every command is in its manual page, in the completions and in
+    # docs/options.md.
     reference = (folder / "options.md").read_text()
     fish = (folder / "fish/glint.fish").read_text()
     commands = re.findall(r"^  ([a-z]+) ", run(glint, "--help").stdout.split("Commands:")[1]
@@ -77,11 +78,11 @@ with tempfile.TemporaryDirectory() as folder:
             said = run("groff", "-ww", "-man", "-Tutf8", "-z", page, cwd=folder).stderr
             check(not said, "%s without warnings: %s" % (page.name, said))
 
-# The version, everywhere.
+# The version is the same everywhere.
 newest = re.search(r"^## (\S+)", (root / "CHANGELOG.md").read_text(), re.M)[1]
 check(newest == version, "CHANGELOG.md begins with %s, the project's version is %s" % (newest, version))
 check(run(glint, "--version").stdout == "glint %s\n" % version, "glint --version is " + version)
-# A source tree need be no clone, nor git be there.
+# The source tree need not be a clone, and git need not be installed.
 tags = subprocess.run(["git", "-C", str(root), "tag", "--points-at", "HEAD"], text=True, stdout=subprocess.PIPE,
                       stderr=subprocess.DEVNULL).stdout.split() if shutil.which("git") else []
 check(not tags or "v" + version in tags, "the tag of this commit is v%s, not %s" % (version, tags))

@@ -1,5 +1,5 @@
-// Public sample models: animations move what is drawn, a normal map shows, cameras of the file
-// serve.
+// Public sample models: animations move the picture, a normal map is visible, and cameras of the
+// file can be used.
 
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ Image draw(const std::string& model, const std::vector<std::string>& options,
   return glint::readImage(folder / "picture.pfm");
 }
 
-/// The share of pixels that differ by more than half a level of 255.
+/// The fraction of pixels that differ by more than half a level of 255.
 double changed(const Image& a, const Image& b) {
   EXPECT_EQ(a.values.size(), b.values.size());
   std::size_t count = 0;
@@ -57,8 +57,8 @@ TEST(AssetPictures, AnimationsMoveWhatIsDrawn) {
 }
 
 TEST(AssetPictures, NormalMapOfTheHelmetShows) {
-  // The same file with the texture's name in the document overwritten by one of the same length
-  // that nobody reads.
+  // The same file with the texture's name in the document overwritten by an unknown one of the same
+  // length.
   const std::string model = asset("DamagedHelmet.glb");
   std::string bytes = glint::test::contents(model);
   const std::string key = "\"normalTexture\"";
@@ -70,7 +70,7 @@ TEST(AssetPictures, NormalMapOfTheHelmetShows) {
   std::ofstream(plain, std::ios::binary) << bytes;
   const std::vector<std::string> options{"--shading", "phong"};
   EXPECT_GT(changed(draw(model, options), draw(plain, options)), 0.05);
-  // One normal a face leaves the map out.
+  // With one normal per face the map is not used.
   const std::vector<std::string> flat{"--shading", "flat"};
   EXPECT_EQ(draw(model, flat, "the normal texture is not used").values, draw(plain, flat).values);
 }

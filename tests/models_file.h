@@ -16,15 +16,15 @@
 #include <utility>
 #include <vector>
 
-/// Reads the files in models/ for their tests, without the project's own reader.
+/// Reads the files in models/ for their tests, independently of the project's reader.
 namespace shipped {
 
 using nlohmann::json;
 
 inline const std::filesystem::path folder = GLINT_SOURCE_DIR "/models";
 
-/// A coordinate of size at most 1 is off by half an ulp, 2^-25, when rounded to float; a point by
-/// sqrt(3) times that at most.
+/// A coordinate of magnitude at most 1 is off by at most half an ulp, 2^-25, when rounded to float;
+/// a point by sqrt(3) times that.
 inline constexpr double rounding = 5.2e-8;
 
 inline std::string readFile(const std::filesystem::path& path) {
@@ -38,7 +38,7 @@ inline std::uint32_t wordAt(const std::string& bytes, std::size_t offset) {
   return word;
 }
 
-/// A file of ours, taken apart; a test of the container as well.
+/// A parsed file from models/; parsing also tests the container.
 struct Model {
   json document;
   std::string buffer;
@@ -50,7 +50,7 @@ struct Model {
   glm::dvec3 corner(std::size_t triangle, int i) const {
     return positions[indices[3 * triangle + i]];
   }
-  /// Twice the area times the unit normal of the side seen counter-clockwise.
+  /// Twice the area times the unit normal of the counter-clockwise side.
   glm::dvec3 faceNormal(std::size_t triangle) const {
     const glm::dvec3 a = corner(triangle, 0);
     return glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
@@ -101,8 +101,8 @@ inline Model load(const std::string& name) {
   return model;
 }
 
-/// The number of edges that have a triangle on one side only, vertices at one place taken as one.
-/// Fails if two triangles beside each other turn opposite ways.
+/// The number of edges with a triangle on only one side, where vertices at the same place count as
+/// one. Fails if adjacent triangles have opposite winding.
 inline std::size_t openEdges(const Model& model) {
   const auto less = [](const glm::dvec3& a, const glm::dvec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -130,7 +130,7 @@ inline double volume(const Model& model) {
   return sum;
 }
 
-/// No triangle is a line, and its side seen counter-clockwise is that of its vertices' normals.
+/// No triangle is degenerate, and its counter-clockwise side is that of its vertices' normals.
 inline void expectFacesFollowNormals(const Model& model) {
   for (std::size_t t = 0; t < model.triangleCount(); ++t) {
     ASSERT_GT(glm::length(model.faceNormal(t)), 1e-7) << "triangle " << t;

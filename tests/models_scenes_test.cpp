@@ -1,5 +1,5 @@
-// The files in models/ of several meshes, or that move, against formulas that the program that
-// makes them does not use. What moves is read by the project's reader.
+// The files in models/ with several meshes or with motion, compared with formulas that the program
+// that makes them does not use. Moving ones are read by the project's reader.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST(TorusKnot, IsATubeAboutItsCurve) {
       const double t = 2 * std::numbers::pi * k / samples;
       if (glm::distance(knot(t), p) < glm::distance(knot(best), p)) best = t;
     }
-    // By golden sections within the two neighbours; the distance is flat at its minimum.
+    // Golden-section search between the two neighbours; the distance is flat at its minimum.
     double low = best - 2 * std::numbers::pi / samples, high = best + (best - low);
     for (int k = 0; k < 60; ++k) {
       const double a = high - (high - low) / std::numbers::phi;
@@ -52,7 +52,7 @@ TEST(TorusKnot, IsATubeAboutItsCurve) {
     }
     const glm::dvec3 nearest = knot((low + high) / 2);
     ASSERT_NEAR(glm::distance(nearest, p), 0.14, rounding);
-    // The minimum is found to the root of the precision, about 1e-8 of the length.
+    // The minimum is found only to the square root of the precision, about 1e-8 of the length.
     ASSERT_LT(glm::distance(model.normals[i], (p - nearest) / 0.14), 1e-6);
   }
   EXPECT_EQ(openEdges(model), 0u);
@@ -61,8 +61,8 @@ TEST(TorusKnot, IsATubeAboutItsCurve) {
     length += glm::distance(knot(2 * std::numbers::pi * k / samples),
                             knot(2 * std::numbers::pi * (k + 1) / samples));
   }
-  // A tube's volume is that of its section times its length. A regular 16-gon has 0.9745 of the
-  // circle's area; the 192 chords along the tube take away far less than a hundredth.
+  // A tube's volume is its cross-section's area times its length. A regular 16-gon has 0.9745 of
+  // the circle's area; the 192 chords along the tube lose far less than a hundredth.
   const double exact = std::numbers::pi * 0.14 * 0.14 * length;
   EXPECT_NEAR(volume(model) / exact, 0.9745, 0.01);
 }
@@ -85,7 +85,7 @@ TEST(Preview, StandsOnTheFloorWithHollowAndRoundParts) {
   EXPECT_NEAR(lowest, 0, 1e-7);
   EXPECT_GE(inward, 48);  // the dish
   EXPECT_GE(flat, 48 * 4);
-  // The body ends where the base begins: a ring of 48 edges, and nothing else, is open.
+  // The body ends where the base begins: the only open edges are a ring of 48.
   EXPECT_EQ(openEdges(load("preview.glb")), 48u);
   expectFacesFollowNormals(load("preview.glb"));
 }
@@ -106,7 +106,7 @@ TEST(Chart, NamesSayWhatTheMaterialsAre) {
     const json& phong = material["extras"]["glint"];
     EXPECT_EQ(phong["exponent"], std::stod(name.substr(1, split - 1))) << name;
     EXPECT_EQ(phong["metalness"], std::stod(name.substr(split + 2))) << name;
-    // To the right the exponent doubles for each 2.3, upwards the metalness grows by 1/4.
+    // To the right the exponent doubles every 2.3 units, upwards the metalness increases by 1/4.
     EXPECT_NEAR(node["translation"][0], 2.3 * std::log2(phong["exponent"].get<double>() / 40),
                 1e-9);
     EXPECT_NEAR(node["translation"][1], 2.3 * (4 * phong["metalness"].get<double>() - 2), 1e-9);
@@ -124,8 +124,8 @@ TEST(Bend, TipGoesWhereItsJointsTakeIt) {
     if (model.positions[i].y > model.positions[tip].y) tip = i;
   }
   EXPECT_EQ(model.positions[tip], glm::dvec3(0, 2, 0));
-  // Four bones of 1/2, each turned 30 degrees further than the one below; half that at half time,
-  // since a rotation about one axis goes evenly.
+  // Four bones of 1/2, each rotated 30 degrees further than the one below; by half of that at half
+  // time, because a rotation about one axis is uniform.
   for (const double time : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0}) {
     SCOPED_TRACE(time);
     const double turn = std::numbers::pi / 6 * (time <= 1 ? time : time == 3 ? -1.0 : 0.0);
@@ -153,7 +153,7 @@ TEST(Morph, TargetsAreAnEllipsoidAndACube) {
     ASSERT_NEAR(glm::length(glm::dvec3(ball.meshes[0].positions[i])), 1, 1e-7);
     const glm::dvec3 p = tall.meshes[0].positions[i];
     const glm::dvec3 gradient(p.x / 0.36, p.y / 2.25, p.z / 0.36);
-    // A few roundings of coordinates up to 1.5, over the smallest axis of 0.6.
+    // A few roundings of coordinates up to 1.5, divided by the smallest axis of 0.6.
     ASSERT_NEAR(glm::dot(p, gradient), 1, 1e-6);
     ASSERT_LT(glm::distance(glm::dvec3(tall.meshes[0].normals[i]), glm::normalize(gradient)), 1e-6);
     const glm::dvec3 q = cube.meshes[0].positions[i];
@@ -171,7 +171,7 @@ TEST(LightsModel, HasEachTypeOnce) {
   EXPECT_EQ(scene.lights[0].type, Type::directional);
   EXPECT_EQ(scene.lights[1].type, Type::point);
   EXPECT_EQ(scene.lights[2].type, Type::spot);
-  // The spot's axis meets the ball below it: its distance from the middle is below the radius.
+  // The spot's axis meets the ball: its distance from the ball's centre is below the radius.
   const glint::FileLight& spot = scene.lights[2];
   const glm::dvec3 toBall = glm::dvec3(1.2, 0.4, 0) - spot.position;
   EXPECT_LT(glm::length(glm::cross(toBall, spot.direction)), 0.4);

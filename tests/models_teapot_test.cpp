@@ -35,7 +35,7 @@ TEST(TeapotData, HasThePublishedSize) {
   EXPECT_EQ(most, glm::dvec3(3.525, 2.0, 3.15));
 }
 
-/// The parts turned about the axis: a profile (radius, height) swept through four quarter circles.
+/// The round parts: a profile (radius, height) swept through four quarter circles.
 TEST(TeapotData, RoundPartsAreProfilesSweptAroundTheAxis) {
   struct Part {
     int firstPatch;
@@ -55,8 +55,8 @@ TEST(TeapotData, RoundPartsAreProfilesSweptAroundTheAxis) {
           return controlPoint(part.firstPatch + quarter, row, column);
         };
         const double radius = part.profile[row].x;
-        // Newell's quarter circles have their inner points at 0.56 (0.5523 is closest to a
-        // circle); the knob's widest row, rounded to two digits, at 0.45 / 0.8.
+        // Newell's quarter circles have their inner points at 0.56 (0.5523 is closest to a circle);
+        // the knob's widest row, rounded to two digits, at 0.45 / 0.8.
         const double k = part.firstPatch == 20 && row == 1 ? 0.5625 : 0.56;
         const glm::dvec3 up(0.0, 0.0, part.profile[row].y);
         const glm::dvec3 from = at(0) - up, to = at(3) - up;
@@ -82,7 +82,7 @@ TEST(TeapotData, HandleAndSpoutAreMirrored) {
       }
     }
   }
-  for (const int patch : {12, 13, 16, 17}) {  // the second half goes on where the first one ends
+  for (const int patch : {12, 13, 16, 17}) {  // the second half continues where the first one ends
     for (int column = 0; column < 4; ++column) {
       EXPECT_EQ(controlPoint(patch, 3, column), controlPoint(patch + 2, 0, column));
     }
@@ -147,7 +147,7 @@ TEST(Teapot, StandsOnTheGroundAndIsOneAndAHalfHigh) {
     least = glm::min(least, p);
     most = glm::max(most, p);
   }
-  // The handle, the body's widest ring, the ground and the knob are met by vertices.
+  // The extremes of the handle, the body's widest ring, the ground and the knob are vertices.
   EXPECT_NEAR(least.x, -3.0 * teapotScale, rounding * 2.0);
   EXPECT_EQ(least.y, 0.0);
   EXPECT_EQ(most.y, 1.5);
@@ -159,17 +159,17 @@ TEST(Teapot, StandsOnTheGroundAndIsOneAndAHalfHigh) {
   const double t = ratio / (1.0 + ratio), s = 1.0 - t;
   const double tip =
       3.3 * s * s * s + 3.0 * 3.525 * s * s * t + 3.0 * 3.45 * s * t * t + 3.2 * t * t * t;
-  // The nearest vertex is 1/24 off in t at most; |x''| is at most 6 * 0.3.
+  // The nearest vertex is at most 1/24 off in t; |x''| is at most 6 * 0.3.
   EXPECT_LE(most.x, tip * teapotScale + 2.0 * rounding);
   EXPECT_GT(most.x, (tip - 0.5 * 1.8 / (24.0 * 24.0)) * teapotScale - 2.0 * rounding);
 }
 
 TEST(Teapot, IsSmoothAndHasFourPieces) {
   const Model model = load("teapot.glb");
-  // Two of every quadrilateral's, one at the eight poles of the patches.
+  // Two per quadrilateral, one at the eight poles of the patches.
   EXPECT_EQ(model.triangleCount(), 32u * 2 * 12 * 12 - 8 * 12);
-  // Pot and lid: a pole, and rings of 48. Handle and spout: rings of 24, both ends open. Were there
-  // a crease between patches, its vertices would stand twice.
+  // Pot and lid: a pole, and rings of 48. Handle and spout: rings of 24, both ends open. With a
+  // crease between patches, its vertices would be stored twice.
   EXPECT_EQ(model.positions.size(), (1u + 48 * 48) + (1u + 48 * 24) + 2u * (24 * 25));
   EXPECT_EQ(openEdges(model), 2u * 48 + 4u * 24);  // rim, edge of the lid, ends
 }
@@ -190,7 +190,7 @@ TEST(Teapot, IsSymmetric) {
   }
 }
 
-/// The distance along the ray to the triangle, seen from either side (Möller and Trumbore 1997).
+/// The distance along the ray to the triangle, from either side (Möller and Trumbore 1997).
 std::optional<double> hit(const glm::dvec3& origin, const glm::dvec3& direction,
                           const glm::dvec3& a, const glm::dvec3& ab, const glm::dvec3& ac) {
   const glm::dvec3 p = glm::cross(direction, ac);
@@ -206,8 +206,8 @@ std::optional<double> hit(const glm::dvec3& origin, const glm::dvec3& direction,
 }
 
 TEST(Teapot, ShowsItsOutsideFromTheSidesAndBelow) {
-  // Rays that do not go down cannot come in between lid and rim, nor into the spout: what they meet
-  // first is a front face, if nothing is turned inside out and there is no hole.
+  // Rays that do not go down cannot pass between lid and rim, nor into the spout: what they meet
+  // first is a front face, unless a part is inside out or there is a hole.
   const Model model = load("teapot.glb");
   std::mt19937 random(1975);
   const auto between = [&](double low, double high) {

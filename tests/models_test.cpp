@@ -1,5 +1,5 @@
-// The files in models/: that the program makes them as they are, and that they hold what they say,
-// by formulas that the program does not use.
+// The files in models/: that the program makes exactly these files, and that their contents are
+// right, by formulas that the program does not use.
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,8 @@ TEST(Sphere, LiesOnTheUnitSphere) {
     ASSERT_EQ(model.normals[i], model.positions[i]);
   }
   EXPECT_EQ(openEdges(model), 0u);
-  // A polyhedron with 72 by 36 faces inside the sphere lacks a part of the order of (2 pi/72)^2.
+  // A polyhedron with 72 by 36 faces inside the sphere lacks a fraction of the order of
+  // (2 pi/72)^2.
   EXPECT_NEAR(volume(model) / (4.0 / 3.0 * std::numbers::pi), 1.0, 0.0076);
 }
 
@@ -131,12 +132,12 @@ TEST(Sphere, TextureCoordinatesAreLongitudeAndLatitude) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const glm::dvec3 p = model.positions[i];
     const glm::dvec2 uv = model.texcoords[i];
-    // Both by the arc tangent, whose error is that of p over the distance from the axis.
+    // Both by the arc tangent, whose error is that of p divided by the distance from the axis.
     const double fromAxis = std::hypot(p.x, p.z);
     ASSERT_NEAR(uv.y, std::atan2(fromAxis, p.y) / std::numbers::pi, 1e-7);
     if (fromAxis > 0.0) {
       const double turns = std::atan2(p.x, p.z) / (2.0 * std::numbers::pi) + 0.5;
-      // The seam is at u = 0 and u = 1, for the arc tangent one of the two.
+      // The seam has u = 0 and u = 1; the arc tangent gives one of the two.
       ASSERT_NEAR(std::remainder(uv.x - turns, 1.0), 0.0, 1e-7 / fromAxis);
     }
   }
@@ -153,10 +154,10 @@ TEST(Torus, FulfilsItsEquation) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const glm::dvec3 p = model.positions[i];
     const double fromAxis = std::hypot(p.x, p.z);
-    // The distance from the circle in the middle grows with p by at most the rounding of p.
+    // The distance from the tube's circle changes by at most the rounding of p.
     ASSERT_NEAR(std::hypot(fromAxis - major, p.y), minor, rounding);
     const glm::dvec3 middle = major / fromAxis * glm::dvec3(p.x, 0.0, p.z);
-    // `middle` moves by major/fromAxis <= 1.5 times what p does: (1 + 1.5) / minor times the
+    // `middle` moves by major/fromAxis <= 1.5 times the change of p: (1 + 1.5) / minor times the
     // rounding of p, and that of the normal itself.
     ASSERT_LT(glm::distance(model.normals[i], (p - middle) / minor), 11.0 * rounding);
   }
@@ -180,9 +181,9 @@ TEST(SphereSeries, RefinesByFour) {
       ASSERT_EQ(model.normals[i], model.positions[i]);
     }
 
-    // The largest triangle is the equilateral one in the middle of an icosahedron's face. Its
-    // edges have the arc a, the chord 2 sin(a/2); the triangle of its midpoints has the chord
-    // tan(a/2), which tends to half of it.
+    // The largest triangle is the equilateral one in the middle of an icosahedron's face. Its edges
+    // have the arc a and the chord 2 sin(a/2); the triangle of its midpoints has the chord
+    // tan(a/2), which tends to half of that.
     double edge = 0.0;
     for (std::size_t t = 0; t < model.triangleCount(); ++t) {
       for (int i = 0; i < 3; ++i) {
@@ -190,10 +191,10 @@ TEST(SphereSeries, RefinesByFour) {
       }
     }
     const double expected = std::tan(std::asin(largestEdge / 2.0));
-    EXPECT_NEAR(edge, expected, 3.1 * rounding);  // two ends, and what the level before is off
+    EXPECT_NEAR(edge, expected, 3.1 * rounding);  // two ends, and the error of the previous level
     EXPECT_LT(edge / largestEdge, level == 1 ? 0.59 : 0.53);
-    // The volume that the sphere has more is a series in the square of the edge: it falls by four
-    // a level, up to a term of the order of that square.
+    // The missing volume is a series in the square of the edge: it falls by a factor of four per
+    // level, up to a term of the order of that square.
     const double missing = 4.0 / 3.0 * std::numbers::pi - volume(model);
     EXPECT_GT(missing, 0.0);
     if (level > 1) {

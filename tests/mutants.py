@@ -1,12 +1,12 @@
-"""The whole program on files that are damaged as files get damaged: on purpose and by accident.
+"""Runs the whole program on damaged files, whether damaged by malice or by accident.
 
     mutants.py GLINT MODELS [--seconds N] [--seed N] [--keep FOLDER]
 
 Takes the models in the folder MODELS, a few made here, and those under GLINT_ASSETS (malformed/ and
-models/) and GLINT_CASES where they are set; changes them in what they mean (members of the JSON, counts,
-offsets and types of accessors, lengths of chunks, bytes of buffers and pictures) and draws, lists and
-converts them, with looks and tables damaged likewise. Fails on a crash, a hang, a sanitizer's report, an
-"internal error" or a status that is none of 0, 1 and 2, and keeps what did it in FOLDER.
+models/) and GLINT_CASES if they are set. Mutates their structure (members of the JSON, counts,
+offsets and types of accessors, lengths of chunks, bytes of buffers and pictures) and draws, lists
+and converts them, with looks and tables mutated likewise. Fails on a crash, a hang, a sanitizer
+report, an "internal error" or a status other than 0, 1 and 2, and keeps the inputs in FOLDER.
 """
 
 import argparse
@@ -105,7 +105,7 @@ def made_model():
 
 
 def take_apart(path):
-    """(document, binary) of a model, or None where there is no JSON to change."""
+    """(document, binary) of a model, or None if there is no JSON to change."""
     data = path.read_bytes()
     try:
         if data[:4] != b"glTF":
@@ -124,7 +124,7 @@ def take_apart(path):
 
 
 def places(value, found):
-    """All places in a JSON tree, as (container, key)."""
+    """All positions in a JSON tree, as (container, key)."""
     if isinstance(value, dict):
         items = value.items()
     elif isinstance(value, list):
@@ -141,7 +141,7 @@ def change_tree(document, rng):
     places(document, found)
     if not found:
         return
-    # Half of the time where it hurts: numbers of accessors and views, and references.
+    # Half of the time, the most sensitive members: numbers of accessors and views, and references.
     if rng.random() < 0.5:
         found = [each for each in found if each[1] in KEYS] or found
     container, key = rng.choice(found)
@@ -185,7 +185,7 @@ def change_bytes(data, rng):
 
 
 def mutant(seed, rng):
-    """(bytes, ending) of a changed model."""
+    """(bytes, extension) of a mutated model."""
     document, binary = copy.deepcopy(seed[0]), seed[1]
     for _ in range(rng.choice([1, 1, 2, 3, 6])):
         change_tree(document, rng)
@@ -224,7 +224,7 @@ class Runs:
         self.executions, self.finds = 0, []
 
     def fault(self, arguments):
-        """What is wrong with a run, or nothing."""
+        """The fault of a run, or nothing."""
         self.executions += 1
         environment = dict(os.environ, ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=0",
                            UBSAN_OPTIONS="print_stacktrace=1")
@@ -280,7 +280,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="glint-mutants-") as name:
         folder = pathlib.Path(name)
         runs = Runs(os.path.abspath(given.glint), folder, given.keep.absolute())
-        # As they are, in a folder of their own.
+        # Unmutated, in a folder of their own.
         for path in paths:
             inputs += 1
             runs.check(["render", str(path), "-o", "a.png", "--resolution", "24,16", "--confine",
@@ -292,7 +292,7 @@ def main():
         while time.monotonic() < end:
             names = []
             for i in range(PER_RUN):
-                # The made one has most kinds of things in it.
+                # The generated model has most features.
                 data, ending = mutant(seeds[0] if rng.random() < 0.4 else rng.choice(seeds), rng)
                 names.append(f"m{i}{ending}")
                 (folder / names[-1]).write_bytes(data)
@@ -309,7 +309,7 @@ def main():
                                     ["--terms"], ["--turntable", "2"], ["--camera-index", "0"], ["--two-sided"]])]
             output = "{model}-{frame}.png" if "--frames" in options or "--turntable" in options else "{model}.png"
             whole = ["render", "--from-list", "list", "-o", output, *options]
-            if runs.fault(whole):  # which one?
+            if runs.fault(whole):  # which of them?
                 alone = [runs.check(["render", each, "-o", output, *options], [each]) for each in names]
                 if all(alone):
                     runs.check(whole, ["list", *names])

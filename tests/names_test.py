@@ -1,9 +1,9 @@
-"""No name is defined twice: linking all of the house into one program must not mix two things up.
+"""No name is defined twice: linking the whole project into one program must not mix up definitions.
 
-Run as `names_test.py FOLDER FILE...` on the project's folder and on its libraries and objects: prints
-every type that two files of the source define in one namespace, and every function or variable that
-two objects define (what is inline has one definition by rule and is left out), and fails if there is
-one. Before that it plants one of each kind, which must be found.
+Run as `names_test.py FOLDER FILE...` with the project's folder and its libraries and objects:
+prints every type that two source files define in one namespace, and every function or variable that
+two objects define (inline ones, which the language requires to be identical, are left out), and
+fails if there is one. First it plants one of each kind and checks that they are found.
 """
 
 import collections
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-# Comments, texts, characters and lines of the preprocessor.
+# Comments, string and character literals, and preprocessor lines.
 NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'
                    r"'(?:\\.|[^'\\])'|^\s*#[^\n]*", re.S | re.M)
 OPENING = re.compile(r"(?:inline\s+)?namespace\s*([\w:]*)\s*$")
@@ -22,7 +22,7 @@ TYPE = re.compile(r"\b(?:class|struct|union|enum(?:\s+class|\s+struct)?)\s+(\w+)
 
 
 def types(text):
-    """Qualified names of the types that a text defines and another file could see."""
+    """Qualified names of the types that a text defines and that other files could see."""
     scopes, start = [], 0
     text = NOISE.sub(" ", text)
     for match in re.finditer(r"[{};]", text):
@@ -54,7 +54,7 @@ def symbols_twice(files):
     places = collections.defaultdict(list)
     for line in listed.stdout.splitlines():
         match = re.match(r"(.*):[0-9a-f]* ([A-Z]) (.*)", line)
-        # Weak ones (W, V, u) are inline functions and templates; each program has a main of its own.
+        # Weak symbols (W, V, u) are inline functions and templates; each program has its own main.
         if match and match[2] in "TDBRGSC" and match[3] != "main":
             places[match[3]].append(match[1].rsplit("/", 1)[-1])
     twice = [f"{name}: {', '.join(where)}\n" for name, where in places.items() if len(where) > 1]

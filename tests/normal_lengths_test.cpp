@@ -1,4 +1,4 @@
-// What a normal map's smaller levels keep of how far the normals are apart.
+// The mip levels of a normal map store how far the normals spread.
 
 #include "glint/render/normal_lengths.h"
 
@@ -15,7 +15,7 @@
 namespace glint {
 namespace normal_lengths_test {
 
-/// A normal map whose codes are known.
+/// A normal map with known codes.
 DecodedImage mapOf(int width, int height, const std::function<glm::ivec4(int x, int y)>& code) {
   DecodedImage decoded{{width, height, 4, {}}, {}, false};
   for (int y = 0; y < height; ++y)
@@ -25,7 +25,7 @@ DecodedImage mapOf(int width, int height, const std::function<glm::ivec4(int x, 
   return decoded;
 }
 
-// Slopes to either side by the same angle: their mean is as long as its cosine.
+// Slopes to either side by the same angle: the length of their mean is its cosine.
 TEST(NormalLengths, OfTwoSlopesAreTheCosine) {
   for (const int across : {1, 5, 20, 60, 110}) {
     const int up = int(std::lround(std::sqrt(127.5 * 127.5 - across * across)));
@@ -40,7 +40,7 @@ TEST(NormalLengths, OfTwoSlopesAreTheCosine) {
     const double length = std::hypot(y, z) / std::hypot(x, y, z);
     const double width = std::sqrt((1 - length) / length);
     for (std::size_t i = 3; i < map.image.values.size(); i += 4)
-      ASSERT_EQ(map.image.values[i], 255);  // one normal has no spread
+      ASSERT_EQ(map.image.values[i], 255);  // a single normal has no spread
     for (std::size_t k = 0; k < map.mipLevels.size(); ++k)
       for (std::size_t i = 0; i < map.mipLevels[k].values.size(); ++i) {
         if (i % 4 != 3)
@@ -51,8 +51,8 @@ TEST(NormalLengths, OfTwoSlopesAreTheCosine) {
   }
 }
 
-// Every size of level has weights of its own: what is all the same has no spread in any, and what
-// points everywhere has all of it.
+// Each level size has its own weights: equal normals have no spread at any size, and normals in all
+// directions have the full one.
 TEST(NormalLengths, OfTheSameNormalsAreOne) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), {7, 1}, {33, 57}, {640, 3}, {1021, 1019}}) {
     DecodedImage map = mapOf(size.x, size.y, [](int, int) { return glm::ivec4(128, 128, 255, 0); });
@@ -75,11 +75,11 @@ TEST(NormalLengths, CodesAreTheNearest) {
     const double variance = std::pow((255 - code) / 255.0, 2);
     EXPECT_EQ(normalSpreadCode(1 / (1 + variance)), code);
   }
-  // The least that is told apart from none: the variance of an exponent of 65,000.
+  // The smallest spread that differs from none: the variance of an exponent of 65,000.
   EXPECT_NEAR(1 / std::pow(1 / 255.0, 2), 65025, 1);
 }
 
-// A look without it gets the levels as they always were.
+// A look without the filter gets the usual levels.
 TEST(NormalLengths, AreMadeWhereTheLookAsksForThem) {
   Scene scene;
   Mesh mesh;
@@ -112,7 +112,7 @@ TEST(NormalLengths, AreMadeWhereTheLookAsksForThem) {
   const auto [base, level] = alphas(SpecularAntialiasing::toksvig);
   EXPECT_EQ(base, 255);
   EXPECT_LT(level, 150);
-  // Of a look that has changed, the maps without lengths are decoded once more, and no others.
+  // If a look changes, only maps without lengths are decoded again.
   const auto again = [&](bool lengths) {
     return decodeImages(scene, look, [&](int, bool needs) { return lengths >= needs; }).size();
   };
@@ -122,8 +122,8 @@ TEST(NormalLengths, AreMadeWhereTheLookAsksForThem) {
   EXPECT_EQ(again(false), 0u);
 }
 
-// a / (1 + 4 a v) of Phong, n / (1 + n v) of Blinn-Phong, and the light of the lobe, 2 pi / (a +
-// 1), stays.
+// a / (1 + 4 a v) for Phong, n / (1 + n v) for Blinn-Phong. The total light of the lobe,
+// 2 pi / (a + 1), is unchanged.
 TEST(NormalLengths, WidenTheLobe) {
   for (const double n : {0.0, 1.0, 20.0, 400.0, 1e6})
     for (const double v : {0.0, 1e-5, 0.01, 1.0}) {

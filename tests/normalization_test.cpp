@@ -1,4 +1,4 @@
-// Highlights that keep their light: the factors against integrals of the sum's own highlight.
+// Energy-preserving highlights: the factors compared with integrals of the sum's own highlight.
 
 #include "glint/shading/normalization.h"
 
@@ -41,11 +41,11 @@ double integral(double a, double b, int cells, F f) {
   return sum * (b - a) / (6 * cells);
 }
 
-/// What a surface with the normal +Z shows of a furnace, in which light is 1 from everywhere, to
-/// V at the angle `view` from the normal: 1/pi times the integral of the highlight over all L with
-/// N.L > 0. Light that is 1 from everywhere lights a white diffuse surface by 1/pi times the
-/// integral of N.L, 1. About the lobe's axis, its angle a as 1 - cos a = exp(y), so that lobes of
-/// every width have steps enough.
+/// The radiance that a surface with the normal +Z reflects in a furnace of radiance 1, towards V at
+/// the angle `view` from the normal: 1/pi times the integral of the highlight over all L with
+/// N.L > 0. A white diffuse surface reflects 1/pi times the integral of N.L, which is 1. Integrated
+/// around the lobe's axis, with the angle a as 1 - cos a = exp(y), so that lobes of every width get
+/// enough steps.
 double furnace(const SumParameters& p, bool blinn, double view) {
   const glm::dvec3 V(std::sin(view), 0, std::cos(view));
   const glm::dvec3 axis = blinn ? glm::dvec3(0, 0, 1) : glm::dvec3(-V.x, 0, V.z);
@@ -56,7 +56,7 @@ double furnace(const SumParameters& p, bool blinn, double view) {
     const auto at = [&](double turn) {
       const glm::dvec3 d =
           c * axis + s * (std::cos(turn) * across + std::sin(turn) * glm::dvec3(0, 1, 0));
-      // Of Blinn-Phong, d is H: dL = 4 V.H dH.
+      // For Blinn-Phong, d is H: dL = 4 V.H dH.
       const glm::dvec3 L = blinn ? 2 * glm::dot(V, d) * d - V : d;
       const double measure = blinn ? 4 * std::max(glm::dot(V, d), 0.0) : 1;
       return L.z > 0 ? measure * highlight(p, blinn, L, V) : 0;
@@ -67,12 +67,12 @@ double furnace(const SumParameters& p, bool blinn, double view) {
   return integral(std::log(1e-13), -1e-12, rings, ring) / pi;
 }
 
-/// Simpson's error of the smooth integrand along the normal is far below 1e-5, but that Phong's
-/// lobe of an exponent below 1 ends with infinite slope.
+/// Simpson's error for the smooth integrand along the normal is far below 1e-5, except that Phong's
+/// lobe with an exponent below 1 ends with infinite slope.
 double phongsError(double n) { return n > 0 && n < 1 ? 2e-3 : 1e-5; }
 
-// Of Blinn-Phong the lobe ends with a jump at H 45 degrees from N, where L is on the horizon: a
-// ring is 0.05 wide in y there, and what is left of the lobe is at most 2^(-n/2).
+// Blinn-Phong's lobe ends with a jump at H 45 degrees from N, where L is on the horizon: a ring is
+// 0.05 wide in y there, and the lobe has fallen to at most 2^(-n/2).
 TEST(Normalization, ExactShowsTheShareInAFurnaceAlongTheNormal) {
   for (const double n : exponents) {
     const auto p = parametersFor(n, Normalization::exact);
@@ -81,15 +81,15 @@ TEST(Normalization, ExactShowsTheShareInAFurnaceAlongTheNormal) {
   }
 }
 
-// The notes' formula shows less and less.
+// The notes' formula, without normalisation, reflects less and less.
 TEST(Normalization, WithoutItTheLightIsThatOfTheLobesSize) {
   for (const double n : exponents)
     EXPECT_NEAR(furnace(parametersFor(n, Normalization::none), false, 0) * (n + 1) / 2, 1,
                 phongsError(n));
 }
 
-// Phong's: at least half, what the horizon leaves of a lobe that lies on it. Blinn-Phong's: less
-// and less, towards the cosine. None shows more than along the normal. (The gate N.L > 0 cuts
+// Phong's is at least half, the part of a lobe on the horizon that is above it. Blinn-Phong's
+// decreases towards the cosine. Neither reflects more than along the normal. (The gate N.L > 0 cuts
 // through cells of the integral: 1e-2.)
 TEST(Normalization, ExactShowsNoMoreFromTheSide) {
   for (const double n : {0.0, 1.0, 10.0, 40.0, 1e3}) {
@@ -112,7 +112,7 @@ TEST(Normalization, ExactShowsNoMoreFromTheSide) {
   }
 }
 
-// With N.L, as the sum does not have it, but the literature means it: 2 pi / (n + 2) of the lobe's
+// With N.L, which the literature includes and the sum does not: 2 pi / (n + 2) for the lobe's
 // cosine-weighted integral.
 TEST(Normalization, SimpleIsThatOfTheLiterature) {
   for (const double n : exponents) {
@@ -139,8 +139,8 @@ TEST(Normalization, IsFiniteForEveryExponent) {
       }
 }
 
-// a^2 = 2 / (n + 2) grows by 2 s^2 T, at most by 0.18, and not beyond 1; the peak falls by as much
-// as a^2 rises, so that what the distribution (n + 2) / (2 pi) (N.H)^n sends stays.
+// a^2 = 2 / (n + 2) increases by 2 s^2 T, by at most 0.18, and not beyond 1. The peak falls by the
+// same factor, so that the light of the distribution (n + 2) / (2 pi) (N.H)^n is unchanged.
 TEST(SpecularFilter, WidensByTheTurnAndKeepsTheLight) {
   EXPECT_DOUBLE_EQ(pixelVariance, 1 / (2 * pi));
   for (const double n : exponents)

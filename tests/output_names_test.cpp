@@ -1,4 +1,4 @@
-// Names of pictures from a template.
+// Picture names from a template.
 
 #include <gmock/gmock.h>
 
@@ -34,7 +34,7 @@ TEST(OutputNames, StandForModelAndNumber) {
               ElementsAre("out/Duck.png", "out/Box.v2.png"));
   EXPECT_THAT(outputNames("{n}-{model}{model}.pfm", {"a.glb", "b.glb"}),
               ElementsAre("0-aa.pfm", "1-bb.pfm"));
-  // Downloads are all called scene.gltf.
+  // Downloads are often all called scene.gltf.
   EXPECT_THAT(outputNames("{folder}.png", {"x/duck/scene.gltf", "/a/./b/../ship/scene.gltf"}),
               ElementsAre("duck.png", "ship.png"));
   EXPECT_THAT(outputNames("{model}-{folder}.png", {"-"}), ElementsAre("stdin-stdin.png"));

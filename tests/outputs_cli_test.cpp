@@ -1,5 +1,5 @@
-// What programs and desktops ask of outputs: formats by name, floats on stdout, thumbnails, and
-// lists whose lines say more than a path.
+// Output features for programs and desktops: formats by name, floats on stdout, thumbnails, and
+// list lines with more than a path.
 
 #include <gmock/gmock.h>
 
@@ -34,7 +34,7 @@ std::vector<Json> jsonLines(const std::string& text) {
   return lines;
 }
 
-/// A picture of --output-format raw, read as a program would.
+/// A picture of --output-format raw, read as another program would.
 struct RawPicture {
   std::uint32_t width = 0, height = 0, channels = 0;
   std::vector<float> values;
@@ -110,7 +110,7 @@ TEST(Formats, WithoutTransparencyAreOverBlack) {
   EXPECT_EQ(readImage(folder / "a.webp").values[3], 0);
 }
 
-// Thumbnailers name files without an ending, or with one of letters by chance.
+// Thumbnailers name files without an extension, or with a random one.
 TEST(Formats, AreAPngWhereTheEndingTellsNone) {
   Folder folder("endings");
   ASSERT_EQ(render(folder / "a.png").status, 0);
@@ -142,7 +142,7 @@ TEST(Raw, IsTheFloatsOfThePfm) {
   for (std::size_t i = 0; i < 40 * 30; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       ASSERT_EQ(pictures[0].values[3 * i + c], pfm.values[4 * i + c]);
-  // Transparent ones have alpha, premultiplied, as an EXR has it.
+  // Transparent ones have premultiplied alpha, as in an EXR.
   ASSERT_EQ(render(folder / "a.exr", {"--no-background"}).status, 0);
   const auto transparent =
       rawPictures(render("-", {"--output-format", "raw", "--no-background"}).out);
@@ -164,7 +164,7 @@ TEST(Raw, SeveralFollowEachOther) {
     for (std::size_t i = 0; i < 40 * 30; ++i)
       ASSERT_EQ(pictures[k].values[3 * i], frame.values[4 * i]);
   }
-  // What stands on stdout without telling its end is one picture.
+  // In formats without an end marker, stdout can hold only one picture.
   expectRefusal(render("-", turning), "{frame}");
   expectRefusal(render("-", {"--output-format", "exr"}), "needs a regular file");
 }
@@ -189,7 +189,7 @@ TEST(ListOfJson, LinesHaveLooksOfTheirOwn) {
   EXPECT_THAT(folder.names(), ElementsAre("1.png", "2.png", "a.png", "d.png", "list", "red.json"));
   EXPECT_EQ(contents(folder / "a.png"), contents(folder / "d.png"));
   EXPECT_EQ(readImage(folder / "1.png").width, 20);
-  // The same as options give.
+  // The same as the options give.
   const auto same = [&](const std::string& name, Arguments more) {
     more.insert(more.begin(), {"--shading", "blinn-phong"});
     EXPECT_EQ(render(folder / "x.png", more).status, 0);
@@ -199,7 +199,7 @@ TEST(ListOfJson, LinesHaveLooksOfTheirOwn) {
   same("2.png", {"--material", "color=0.6,0.02,0.01"});
   same("1.png",
        {"--camera-azimuth-angle", "40", "--resolution", "20,10", "--material", "exponent=5"});
-  // Nothing is made again, as each has its own look.
+  // Nothing is made again, since each picture records its own look.
   const Ran again = runGlint(quick({"render", "--from-list", folder / "list", "-o",
                                     folder / "{n}.png", "--shading", "blinn-phong", "--resume"}));
   for (const Json& line : jsonLines(again.out)) EXPECT_TRUE(line.value("skipped", false));
@@ -223,7 +223,7 @@ TEST(ListOfJson, WhatIsSaidOfAModelBeatsTheRunsLook) {
             plain({"--light", "directional:1,2,3"}));
   EXPECT_EQ(draw(R"({"light": ["directional:1,2,3"]})", {"--light", "camera"}),
             plain({"--light", "directional:1,2,3"}));
-  // Of all materials, over one of them by name.
+  // An edit of all materials takes precedence over one by name.
   EXPECT_EQ(draw(R"({"material": {"": {"exponent": 3}}})", {"--material", "#0:exponent=90"}),
             plain({"--material", "exponent=3"}));
   EXPECT_EQ(draw(R"({"camera-intrinsics": [40, 40, 10, 20]})", {"--camera-view-angle", "70"}),
@@ -270,7 +270,7 @@ TEST(ListOfJson, WrongLinesFailAlone) {
   EXPECT_THAT(folder.names(), ElementsAre("18.png", "list"));
 }
 
-// The installed entry, filled in as a file manager does it.
+// The installed entry, filled in as a file manager does.
 TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
   Folder folder("thumbnails");
   std::string command;
@@ -279,7 +279,7 @@ TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
     if (line.starts_with("Exec=")) command = line.substr(5);
   ASSERT_TRUE(command.starts_with("glint render "));
   std::filesystem::copy_file(torus, folder / "a model.glb");
-  // The path, as the entry asks for it, and the URI that another would have in its place.
+  // The path, as the entry requests it, and the URI that another one might use.
   for (const std::string& model :
        {folder / "a model.glb", "file://" + (folder / "a%20model.glb")}) {
     Arguments arguments;
@@ -301,7 +301,7 @@ TEST(Thumbnailer, MakesAPictureOfTheSizeAskedFor) {
     const glint::Image picture = readImage(folder / "out.X7PQ2M");
     EXPECT_EQ(picture.width, 96);
     EXPECT_EQ(picture.height, 96);
-    EXPECT_EQ(picture.values[3], 0);  // transparent beside the model
+    EXPECT_EQ(picture.values[3], 0);  // transparent next to the model
     EXPECT_EQ(picture.values[4 * (96 * 48 + 20) + 3], 1);
     std::filesystem::remove(folder / "out.X7PQ2M");
   }

@@ -1,5 +1,5 @@
-// Textures that give the numbers of a material: a texel says of its place what a factor says of the
-// whole, so that a picture of a texture of one value is the picture of a material with that factor.
+// Textures for material parameters: a texel acts locally like a factor acts globally, so a texture
+// with one value gives the same picture as that factor.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr Shading programs[] = {Shading::flat, Shading::gouraud, Shading::phong,
 
 class ParameterTexture : public OnStage {};
 
-/// What glTF says of a material, and its texels.
+/// The glTF parameters of a material, and its texels.
 struct Wanted {
   double metallic = 1, roughness = 1, strength = 1, specular = 1, transmission = 0;
   glm::ivec4 texel{255};  ///< R occlusion or transmission, G roughness, B metallic, A specular
@@ -32,7 +32,7 @@ Material plainMaterial(const PbrParameters& pbr) {
   return m;
 }
 
-/// With no texture, the texels multiplied into the factors.
+/// Without a texture: the texels multiplied into the factors.
 Material factored(const Wanted& w) {
   const glm::dvec4 t = glm::dvec4(w.texel) / 255.0;
   Material m = plainMaterial({w.metallic * t.b, w.roughness * t.g, 1.5, w.specular * t.a});
@@ -89,8 +89,8 @@ Look lookFor(Shading shading) {
 }
 
 // The fourth power of the roughness takes 8 roundings, which the steepest lobe here (4 x 4999.5)
-// turns into 8 x 2^-24 / e of its height, the highlight of two lights: below 1e-6. Lobes of two
-// exponents that differ by that are 2e-6 apart at most.
+// turns into 8 x 2^-24 / e of its height, for the highlights of two lights: below 1e-6. Lobes whose
+// exponents differ by that are at most 2e-6 apart.
 TEST_P(ParameterTexture, ATexelIsAFactor) {
   const Wanted all[] = {
       {},
@@ -112,8 +112,8 @@ TEST_P(ParameterTexture, ATexelIsAFactor) {
       }
 }
 
-// The same of normalised highlights, whose factor the shader computes where a texture gives the
-// exponent: relative to their height, which is up to m_s (alpha + 2) / 2 of Phong's.
+// The same for normalised highlights, whose factor the shader computes if a texture gives the
+// exponent: relative to their height, which is up to m_s (alpha + 2) / 2 for Phong.
 TEST_P(ParameterTexture, ATexelIsAFactorOfANormalisedHighlight) {
   const Wanted all[] = {{},
                         {1, 1, 1, 1, 0.5, {128, 77, 255, 255}},
@@ -137,7 +137,7 @@ TEST_P(ParameterTexture, ATexelIsAFactorOfANormalisedHighlight) {
       }
 }
 
-// Two halves of a texture, of which each pixel of a per-pixel program shows its own.
+// A texture with two halves: in a per-pixel program each pixel shows its own texel.
 TEST_P(ParameterTexture, PixelsShowTheirOwnTexels) {
   const glm::ivec4 left(60, 90, 255, 255), right(255, 200, 0, 200);
   const auto halves = png(2, 1, [&](int x, int) { return x == 0 ? left : right; });
@@ -164,7 +164,7 @@ TEST_P(ParameterTexture, PixelsShowTheirOwnTexels) {
   }
 }
 
-// A number that a look gives takes the texture's place.
+// A value in the look replaces the texture.
 TEST_P(ParameterTexture, GivenNumbersTakeTheTexturesPlace) {
   const auto texels =
       png(2, 2, [](int x, int y) { return glm::ivec4(200 * x, 90 + 60 * y, 255, 9); });
@@ -183,9 +183,9 @@ TEST_P(ParameterTexture, GivenNumbersTakeTheTexturesPlace) {
   }
 }
 
-// Filtered: bilinear texels, in double by the reference. Roughness above 0.4, so that a driver's
-// filter in fixed point (3.3e-3 of the texel) turns into less than 4 x 3.3e-3 / 0.4 of the
-// exponent, 1/e of that of the lobe, and as much of its height.
+// Filtered: bilinear texels, by the reference in double. The roughness is above 0.4, so the
+// driver's fixed-point filter (3.3e-3 of the texel) causes less than 4 x 3.3e-3 / 0.4 of the
+// exponent, 1/e of that in the lobe, and as much in its height.
 TEST_P(ParameterTexture, AgreesWithTheReference) {
   const auto texels = png(4, 4, [](int x, int y) {
     return glm::ivec4(60 + 60 * x, 110 + 40 * y, 80 * ((x + y) % 4), 120 + 40 * x);
@@ -197,7 +197,7 @@ TEST_P(ParameterTexture, AgreesWithTheReference) {
          {&m.parameterTextures.metallicRoughness, &m.parameterTextures.occlusion,
           &m.parameterTextures.specular, &m.parameterTextures.transmission})
       (*t)->sampler.magnify = (*t)->sampler.minify = Filter::linear;
-    m.parameterTextures.specular->transform[2] = {0.25, 0.125};  // looked up at a place of its own
+    m.parameterTextures.specular->transform[2] = {0.25, 0.125};  // its own texture coordinates
     Scene scene = sceneWith(m, texels);
     const Image drawn = draw(scene, look);
     const DecodedImages images = decodeImages(scene, look);
@@ -209,7 +209,7 @@ TEST_P(ParameterTexture, AgreesWithTheReference) {
         const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
         const double most = std::max({d.x, d.y, d.z});
         if (most > 0.05)
-          ++off;  // an outline's pixel
+          ++off;  // a pixel at an outline
         else
           worst = std::max(worst, most);
       }

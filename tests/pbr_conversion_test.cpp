@@ -21,16 +21,16 @@ TEST(Conversion, ExponentFollowsRoughness) {
   EXPECT_EQ(glint::exponentFromRoughness(0.0), glint::exponentFromRoughness(0.1));
   EXPECT_EQ(glint::exponentFromRoughness(2.0), 0.0);
   for (double r = 0.1; r <= 1.0; r += 0.01) {
-    // r^4 has four roundings and the root a quarter of what they make of alpha
+    // r^4 has four roundings, and the root a quarter of their effect on alpha
     EXPECT_NEAR(glint::roughnessFromExponent(glint::exponentFromRoughness(r)), r, 8 * u) << r;
   }
   EXPECT_EQ(glint::roughnessFromExponent(1e6), 0.1);
   EXPECT_EQ(glint::roughnessFromExponent(-1.0), 1.0);
 }
 
-// What a weak highlight peaks at, and the uniform part that it leaves out, make the lobe
-// (1 + peak / share / F0) / pi cos^a, which reflects about as much as comes: here with L = N, where
-// N.H = cos(theta / 2), by the midpoint rule.
+// A weak highlight's peak, and the uniform part that it omits, give the lobe
+// (1 + peak / share / F0) / pi cos^a, which reflects about as much as arrives: here with L = N,
+// where N.H = cos(theta / 2), by the midpoint rule.
 TEST(Conversion, TheLobeReflectsWhatComes) {
   for (const double a : {0.0, 30.0, 1248.0}) {
     const int steps = 20000;

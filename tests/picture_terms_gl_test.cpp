@@ -1,5 +1,5 @@
-// The parts of a picture: they add up to it, they are those of the reference, and normal and depth
-// are those of known surfaces.
+// The terms of a picture: they add up to it, they equal those of the reference, and normal and
+// depth are those of known surfaces.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ class Terms : public OnStage {
   }
 };
 
-// A glossy sphere that glows a little, an unlit one, a glass and a blended one in front.
+// A glossy, slightly emissive sphere, an unlit one, a glass one, and a blended one in front.
 Scene everything() {
   Scene scene;
   scene.name = "everything";
@@ -62,9 +62,9 @@ Look threeLights(Shading shading) {
   spot.innerAngle = 5;
   spot.outerAngle = 40;
   look.light = {spot, directional({1, 1, 1}, {0.8, 0.7, 0.6}), point};
-  look.highlight = glint::Highlight::gaussian;  // of the point, which is the brightest
+  look.highlight = glint::Highlight::gaussian;  // for the point light, which is the brightest
   look.highlight.add(glint::Highlight::exact, 1);
-  look.highlight.add({glint::Highlight::lyon, 64}, 2);  // of the spot
+  look.highlight.add({glint::Highlight::lyon, 64}, 2);  // for the spot
   return look;
 }
 
@@ -92,8 +92,8 @@ TEST_P(Terms, OfLightAddUpToThePicture) {
         }
         SCOPED_TRACE(testing::Message()
                      << shadingName(shading) << " " << int(mode) << " " << names(all));
-        // Some 12 terms, each with a few roundings of its own of values up to 4; the picture's
-        // own roundings come on top.
+        // Some 12 terms, each with a few roundings of values up to 4, in addition to the picture's
+        // own roundings.
         double worst = 0;
         for (std::size_t i = 0; i < sum.size(); ++i)
           if (i % 4 != 3) worst = std::max(worst, std::abs(sum[i] - double(picture.values[i])));
@@ -115,8 +115,8 @@ TEST_P(Terms, AreThoseOfTheReference) {
     for (const auto& [term, image] : terms(scene, look)) {
       const Image truth = drawReferenceTerm(scene, {}, boundsOf(scene), look, term);
       ASSERT_EQ(truth.values.size(), image.values.size());
-      // But for pixels at edges, which one of the two gives to another surface, and the steps of
-      // flat shading there. The sphere's normals in flat's and gouraud's layer are interpolated.
+      // Except for pixels at edges, which may belong to another surface, and the steps of flat
+      // shading there. The sphere's normals in the layers of flat and gouraud are interpolated.
       int other = 0, seen = 0;
       for (std::size_t i = 0; i < image.values.size(); ++i) {
         if (i % 4 == 3) continue;
@@ -156,15 +156,15 @@ TEST_P(Terms, NormalAndDepthAreThoseOfASphere) {
           continue;
         }
         ++hits;
-        // Back along the ray of the pixel's centre.
+        // Back along the ray through the pixel's centre.
         const double across = ((x + 0.5) / 60 * 2 - 1) * camera.halfHeight * camera.aspect;
         const double up = (1 - (y + 0.5) / 40 * 2) * camera.halfHeight;
         const double reach = orthographic ? 1 : depth;
         const glm::dvec3 point =
             camera.eye + camera.axes * glm::dvec3(across * reach, up * reach, -depth);
         const glm::dvec3 normal(n[0], n[1], n[2]);
-        // The faces lie up to 1 - cos(pi / 64) = 1.2e-3 inside the sphere; an interpolated normal
-        // is off by no more than a share of that.
+        // The faces lie up to 1 - cos(pi / 64) = 1.2e-3 inside the sphere; the error of an
+        // interpolated normal is only a fraction of that.
         EXPECT_NEAR(glm::length(point), 1, 1.3e-3);
         EXPECT_NEAR(glm::length(normal), 1, 1e-6);
         EXPECT_LE(glm::length(normal - glm::normalize(point)), 3e-3);
@@ -173,8 +173,8 @@ TEST_P(Terms, NormalAndDepthAreThoseOfASphere) {
   }
 }
 
-// Every pixel has the whole numbers of one opaque draw, or -1, also where the picture has several
-// samples; those of the reference, but at edges.
+// Every pixel has the whole numbers of one opaque draw, or -1, even if the picture has several
+// samples; they equal the reference's except at edges.
 TEST_P(Terms, IdsAreThoseOfOneSurface) {
   Scene scene = everything();
   scene.materials[0].alphaMode = glint::AlphaMode::mask;
@@ -196,7 +196,7 @@ TEST_P(Terms, IdsAreThoseOfOneSurface) {
     other += !std::equal(p, p + 4, truth.values.data() + i);
   }
   EXPECT_LE(other, 10);
-  // The blended one in front does not count.
+  // The blended one in front is ignored.
   using Ids = std::array<float, 3>;
   ASSERT_EQ(seen.size(), 4u);
   for (const Ids& expected : {Ids{-1, -1, -1}, Ids{8, 0, 0}, Ids{1, 7, 1}, Ids{2, 2, 2}})

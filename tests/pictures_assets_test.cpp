@@ -1,5 +1,5 @@
-// Public sample models drawn by the binary: the same files from every backend, pictures of
-// something, programNames that differ, and a clear end for every damaged file.
+// Public sample models drawn by the binary: the same files from every backend, pictures that are
+// not empty, programs that differ visibly, and an error for every damaged file.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ std::vector<std::string> modelsIn(const char* part) {
   return models;
 }
 
-// All models in one process: FOLDER/STEM.ENDING.
+// Draws all models in one process: FOLDER/STEM.EXT.
 void drawAll(const std::vector<std::string>& models, const std::string& output,
              const std::vector<std::string>& options) {
   std::vector<std::string> arguments{"render"};
@@ -83,8 +83,8 @@ TEST_P(Pictures, AreTheSameFilesFromEveryBackendAndShowSomething) {
           ASSERT_TRUE(std::isfinite(x)) << name;
           sum += x;
         }
-        // The model fills nine tenths of the smaller side: even a thin one a hundredth of the
-        // picture. The mean is of colour and alpha.
+        // The model fills nine tenths of the smaller side, so even a thin one covers a hundredth of
+        // the picture. The mean is over colour and alpha.
         EXPECT_GT(covered(image), image.values.size() / 4 / 100) << name;
         const double mean = (sum / double(image.values.size() / 4) - 1) / 3;
         EXPECT_GT(mean, 0.01) << name;
@@ -99,10 +99,10 @@ INSTANTIATE_TEST_SUITE_P(Programs, Pictures, testing::ValuesIn(programNames), []
   return name;
 });
 
-// On average over the pixels of the model, two programs differ by more than half a level of 255
-// (linear light) from one of two views: what an eye comparing the pictures can find. A highlight
-// must fall on flat faces too and change over them: so the light comes from the eye, which is near
-// and sees at a wide angle.
+// Averaged over the model's pixels, two programs differ by more than half a level of 255 (linear
+// light) in one of two views, which an eye comparing the pictures can see. Flat faces need a
+// highlight that varies over them, too, so the light is at the eye, which is near and has a wide
+// angle.
 TEST(PicturesOfPrograms, DifferVisibly) {
   const auto models = modelsIn("models");
   ASSERT_FALSE(models.empty()) << "set GLINT_ASSETS to the folder of the sample models";

@@ -1,4 +1,4 @@
-// Counts of differing pixels, against those of pixelmatch and closed cases.
+// Counts of differing pixels, compared with pixelmatch and closed cases.
 
 #include <gmock/gmock.h>
 
@@ -12,8 +12,8 @@ namespace glint::test::pixel_count_test {
 
 using testing::ElementsAre;
 
-/// A disc with anti-aliased edges, by 4 x 4 samples; centre and radius in eighths of a pixel.
-/// `grain` of seven pixels are somewhat brighter.
+/// An anti-aliased disc, from 4 x 4 samples; centre and radius in eighths of a pixel. `grain` of
+/// every seven pixels are slightly brighter.
 StoredImage disc(int cx, int cy, int grain) {
   return codes(48, 48, 3, [=](int x, int y) {
     int covered = 0;
@@ -54,7 +54,8 @@ void expectCounts(std::initializer_list<Counted> cases, PixelDistance distance) 
   }
 }
 
-// By the program itself, version 7.2.0: pixelmatch(a, b, null, 48, 48, {threshold, includeAA}).
+// Counted by the program itself, version 7.2.0:
+// pixelmatch(a, b, null, 48, 48, {threshold, includeAA}).
 TEST(PixelCount, AsPixelmatch7) {
   expectCounts({{192, 191, 0, {{0, 96, 0}, {0.02, 96, 0}, {0.1, 37, 0}, {0.3, 0, 0}}},
                 {194, 190, 0, {{0, 120, 0}, {0.02, 120, 0}, {0.1, 64, 0}, {0.3, 0, 0}}},
@@ -65,7 +66,7 @@ TEST(PixelCount, AsPixelmatch7) {
                PixelDistance::yiq);
 }
 
-// By version 8.0.0.
+// Counted by version 8.0.0.
 TEST(PixelCount, AsPixelmatch8) {
   expectCounts(
       {{192, 191, 0, {{0.02, 96, 0}, {0.05, 70, 0}, {0.1, 50, 0}, {0.3, 0, 0}}},
@@ -77,9 +78,9 @@ TEST(PixelCount, AsPixelmatch8) {
       PixelDistance::oklab);
 }
 
-// The largest threshold that 8.0.0 counts, found by halving. It takes cube roots from 4096 steps
-// with lines between them, which are off by h^2 / 8 (2 / 9) x^(-5/3): by 3e-5 for the dark grey
-// (x = 0.003), where lightness follows with a slope below 1, and by less than 1e-6 elsewhere.
+// The largest threshold at which 8.0.0 counts a pixel, found by bisection. It interpolates cube
+// roots linearly between 4096 steps, which is off by h^2 / 8 (2 / 9) x^(-5/3): by 3e-5 for the dark
+// grey (x = 0.003), where lightness has a slope below 1, and by less than 1e-6 elsewhere.
 TEST(PixelCount, DistancesOfPixelmatch8) {
   struct Case {
     std::vector<int> a, b;
@@ -104,7 +105,7 @@ TEST(PixelCount, DistancesOfPixelmatch8) {
   }
 }
 
-// Version 8.0.0 with windowSize, threshold 0.1.
+// Counted by version 8.0.0 with windowSize, threshold 0.1.
 TEST(PixelCount, WindowsOfPixelmatch8) {
   struct Case {
     int cx, cy, grain;
@@ -147,7 +148,7 @@ TEST(PixelCount, NumberAndShareAllowed) {
   EXPECT_TRUE(compare(a, b, options).same);
   options.maxPixels = {{0.0299, true}};
   EXPECT_FALSE(compare(a, b, options).same);
-  // The distance of black and white is the root of 0.5053 * 255^2 / 35215 = 0.96592.
+  // The distance between black and white is the root of 0.5053 * 255^2 / 35215 = 0.96592.
   options.maxPixels = {{0, true}};
   options.tolerance = 0.9659;
   EXPECT_FALSE(compare(a, b, options).same);

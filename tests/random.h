@@ -1,6 +1,6 @@
 #pragma once
 
-// Random numbers of tests that hold properties against many draws: the same in every run.
+// Random numbers for property tests: the same in every run.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace glint::test {
 
-/// How many draws a test makes: those of the environment variable, if it is set.
+/// The number of draws in a test: from the environment variable if it is set.
 inline int drawsOf(const char* variable, int usual) {
   const char* more = std::getenv(variable);
   return more != nullptr ? std::max(std::atoi(more), 1) : usual;

@@ -1,4 +1,4 @@
-"""The recipes for CI, and the tables for users of other programs, are true of this program.
+"""The recipes for CI, and the tables for users of other programs, are correct for this program.
 
 recipes_test.py GLINT GLINT_VIEWER PROJECT_FOLDER; needs PyYAML.
 """
@@ -71,7 +71,7 @@ with tempfile.TemporaryDirectory() as folder:
         shell(last["run"], folder, status=status, STATUS=str(status))
 
 
-# What stands in a table's columns of this program's options is in its help.
+# The options of this program in a table's columns are in its help.
 def described(program):
     return json.loads(subprocess.run([program, "--help-json"], stdout=subprocess.PIPE, check=True,
                                      text=True).stdout)
@@ -84,7 +84,7 @@ top = {n for o in whole["options"] for n in o["names"]}
 
 
 def rows(page):
-    """Of the page's first table, without its head."""
+    """The page's first table, without its header."""
     lines = (root / "docs" / page).read_text().splitlines()
     first = next(i for i, line in enumerate(lines) if line.startswith("|---"))
     table = itertools.takewhile(lambda line: line.startswith("|"), lines[first + 1:])
@@ -103,7 +103,7 @@ for theirs, ours, _ in f3d:
     check(ours == "-" or named(ours) or ours == "the models themselves", "an option in " + ours)
     for option in named(ours):
         check(option in known, "glint has %s, for %s" % (option, theirs))
-    # The same name for the same thing.
+    # The same name means the same thing.
     if ours == "-":
         for option in named(theirs):
             check(option not in options["render"], "glint has F3D's %s" % option)
@@ -111,7 +111,7 @@ if shutil.which("f3d"):
     said = subprocess.run(["f3d", "--help"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           env=dict(os.environ, QT_QPA_PLATFORM="offscreen")).stdout
     told = {option for theirs, _, _ in f3d for option in named(theirs)}
-    # What version 3 has by other names than the 1.3 of Debian 12.
+    # Options that version 3 names differently from version 1.3 in Debian 12.
     former = {"--readers-list", "--dry-run", "--quiet", "--geometry-only", "--animation-index", "--hdri",
               "--depth-peeling", "--ssao", "--fxaa", "--scalars", "--bg-color", "--fullscreen"}
     for option in re.findall(r"^ .{0,6}(--[a-z-]+)", said, re.M):

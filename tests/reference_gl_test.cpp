@@ -1,4 +1,5 @@
-// The GL pictures against the double-precision reference: coverage, the whole error, and its parts.
+// GL pictures compared with the double-precision reference: coverage, the whole error, and its
+// parts.
 
 #include <gtest/gtest.h>
 
@@ -77,30 +78,30 @@ bool perPixel(Shading s) { return s != Shading::flat && s != Shading::gouraud; }
 
 /// Counts and largest differences between a GL picture and the reference.
 struct Comparison {
-  int covered = 0;       ///< in both
-  int coverage = 0;      ///< pixels that one of them covers and the other does not
-  int nearEdge = 0;      ///< covered in both, within 1/256 of an edge of the triangle
-  int otherSurface = 0;  ///< GL shows another: an edge in front, or depths that float cannot tell
-  int interior = 0;      ///< the rest, with a neighbourhood covered in both
-  int overBound = 0;     ///< interior ones with a whole error above wholeBound
-  double coverageEdge = 0;  ///< the farthest from an edge that the reference sees of `coverage`
+  int covered = 0;          ///< in both
+  int coverage = 0;         ///< pixels covered in only one of the two
+  int nearEdge = 0;         ///< covered in both, within 1/256 of an edge of the triangle
+  int otherSurface = 0;     ///< GL shows another one: an edge in front, or depths equal in float
+  int interior = 0;         ///< the rest, with neighbours covered in both
+  int overBound = 0;        ///< interior ones with a whole error above wholeBound
+  double coverageEdge = 0;  ///< farthest from an edge in the reference, among `coverage`
   double whole = 0, shading = 0, interpolation = 0, position = 0, normal = 0, filtering = 0;
   int worstX = 0, worstY = 0;
   int levels = 0;        ///< largest difference of interior pixels in codes of the encoded picture
   int unequal = 0;       ///< interior pixels whose codes differ
-  bool blended = false;  ///< some of it is, which the reference's attributes do not tell of
+  bool blended = false;  ///< some surfaces are, for which the reference has no attributes
   double alpha = 0;      ///< the largest exponent of the lobe
 };
 
-/// What the whole error of an interior pixel without textures may be: the interpolation of
-/// normals to a few ulps, magnified by a lobe whose steepest slope grows like the root of alpha.
+/// The largest whole error allowed at an interior pixel without textures: normals interpolated to a
+/// few ulps, magnified by a lobe whose steepest slope grows like the root of alpha.
 double wholeBound(const Comparison& c) { return 1e-5 + 4e-6 * std::sqrt(c.alpha); }
 
-/// What shading may add to what it was given.
+/// The largest error that shading may add to its inputs.
 double shadingBound(const Comparison& c, const Look& look) {
   double bound = 1e-6 + 4e-7 * std::sqrt(c.alpha);
-  // The textbook power of a dot product loses digits in proportion to the exponent (docs/science.md
-  // 2.5): alpha times the rounding of the dot product, 8 * 2^-24 at most.
+  // The textbook's power of a dot product loses digits in proportion to the exponent
+  // (docs/science.md 2.5): at most alpha times the rounding of the dot product, 8 * 2^-24.
   if (look.highlight == Highlight::pow) bound += 8 * 6e-8 * c.alpha;
   // The other forms are at most twice as steep as the exponential (Lyon's with gamma = 1), and a
   // power p by squaring costs 3 p / 2 roundings.
@@ -113,7 +114,7 @@ double shadingBound(const Comparison& c, const Look& look) {
 
 using Places = std::set<std::pair<int, int>>;
 
-/// Pixels in `nearEdge` are left out, as are those of opaque surfaces that lie so.
+/// Leaves out pixels in `nearEdge`, and those of opaque surfaces that are near an edge.
 Comparison compare(Renderer& renderer, Model& model, const Look& look,
                    const Places& nearEdge = {}) {
   ReferenceRenderer reference(model.scene, model.images, model.bounds, look);
@@ -126,10 +127,10 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
   const auto output = [&](PixelOutput o) { return attributeImage(renderer, scene, list, look, o); };
   const bool split = perPixel(look.shading);
   const Image colors = output(PixelOutput::color), emission = output(PixelOutput::emission);
-  // Where a pixel lies and how it is turned, which only per-pixel programs can tell.
+  // Position and normal of each pixel, which only per-pixel programs give.
   Look phong = look;
   if (!split) phong.shading = Shading::phong;
-  Scene bare = model.scene;  // flat and gouraud leave normal maps out
+  Scene bare = model.scene;  // flat and gouraud ignore normal maps
   if (!split)
     for (Material& m : bare.materials) m.normalTexture.reset();
   const DrawList geometry = makeDrawList(bare, model.bounds, phong);
@@ -211,9 +212,9 @@ Comparison compare(Renderer& renderer, Model& model, const Look& look,
   return c;
 }
 
-/// What is known of blended layers, whose attributes nobody tells apart, from the same surfaces
-/// drawn opaque, the near and the far ones: where an edge of theirs is close to a pixel's middle,
-/// and what interpolation may add, since the weights of the layers at a pixel add up to at most 1.
+/// Properties of blended layers, whose attributes cannot be separated, taken from the same surfaces
+/// drawn opaque, the near and the far ones: where their edges are close to a pixel's centre, and
+/// the largest interpolation error, because the layers' weights at a pixel add up to at most 1.
 struct Layers {
   Places nearEdge;
   double interpolation = 0;
@@ -260,19 +261,19 @@ void print(const std::string& name, Shading shading, const Comparison& c, double
       c.shading, c.interpolation, c.position, c.normal, c.filtering, c.worstX, c.worstY);
 }
 
-/// Of pictures without textures.
+/// For pictures without textures.
 void expectAccurate(const std::string& what, const Look& look, const Comparison& c) {
   SCOPED_TRACE(what + " " + std::string(shadingName(look.shading)));
   EXPECT_GT(c.interior, 500);
-  // The driver snaps vertices to 1/256 of a pixel; here and there a centre is that close.
+  // The driver snaps vertices to 1/256 of a pixel; a few pixel centres are that close.
   EXPECT_LE(c.coverage, 3);
   EXPECT_LT(c.coverageEdge, 1.0 / 256);
   EXPECT_LE(c.shading, shadingBound(c, look));
-  // A few pixels of slivers, whose normals change much from pixel to pixel: there the driver's
-  // rounding of interpolated normals is all of the error, as the split shows.
+  // A few pixels of slivers, whose normals change much from pixel to pixel: there the whole error
+  // is the driver's rounding of interpolated normals, as the split shows.
   EXPECT_LE(c.overBound, 5 + c.interior / 2000);
   EXPECT_LE(c.whole, 10 * wholeBound(c));
-  // Errors this small move a code only where a threshold lies between both values.
+  // Errors this small change a code only if a threshold lies between the two values.
   EXPECT_LE(c.levels, 1);
   EXPECT_LE(c.unequal, c.interior / 200);
   if (perPixel(look.shading)) {
@@ -308,7 +309,7 @@ TEST_P(AgainstReference, ShippedModels) {
     }
 }
 
-/// A scene of its own and what its pictures may differ by.
+/// A special scene and the differences allowed in its pictures.
 struct Special {
   const char* name;
   std::function<void(Scene&, Look&)> make;
@@ -322,7 +323,7 @@ Material paint(double specular = 0.5) {
   return m;
 }
 
-// Triangles with all corners at pixel centres: whichever samples lie on edges shows who owns them.
+// Triangles with all corners at pixel centres: samples on edges show which triangle owns them.
 void cornersAtCenters(Scene& scene, Look& look) {
   std::vector<glm::vec3> corners;
   for (const glm::vec2 v : {glm::vec2(-20.5f, -12.5f),
@@ -345,7 +346,7 @@ void cornersAtCenters(Scene& scene, Look& look) {
   scenes::lookAlongZ(scene, look, 32);
 }
 
-/// A picture of the environment without edges, as a file.
+/// Writes an environment picture without edges.
 std::string smoothPicture() {
   static const std::string path = [] {
     const std::string name = test::temporaryFolder() + "/smooth.pfm";
@@ -386,8 +387,7 @@ std::vector<std::byte> picture(const std::string& name,
   return readFile(path);
 }
 
-/// Waves as a normal map, and a texture that is turned: on the sphere, with a transform that
-/// mirrors.
+/// Waves as a normal map, and a rotated texture, on the sphere under a mirroring transform.
 void normalMapped(Scene& scene, Look& look) {
   scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
   scene.images.push_back({"waves",
@@ -418,7 +418,7 @@ void normalMapped(Scene& scene, Look& look) {
     mesh.texcoords.resize(1);
     mesh.texcoords[0].clear();
     mesh.tangents.clear();
-    for (const glm::vec3& p : mesh.positions) {  // by longitude and latitude, as a formula
+    for (const glm::vec3& p : mesh.positions) {  // from longitude and latitude
       const double turn = std::atan2(double(p.x), double(p.z)) / (2 * std::numbers::pi);
       mesh.texcoords[0].emplace_back(turn, 0.5 - 0.5 * double(p.y));
       mesh.tangents.emplace_back(glm::vec3(safeNormalize(glm::dvec3(double(p.z), 0, -double(p.x)))),
@@ -536,7 +536,7 @@ const Special specials[] = {
        glass.alphaMode = AlphaMode::blend;
        glass.alpha = 0.4;
        glass.doubleSided = true;
-       // One mesh, nearest first, and each cuts the others.
+       // One mesh, nearest first, whose triangles intersect each other.
        Mesh mesh = scenes::triangles({{-24, -20, 6},
                                       {24, -20, -6},
                                       {0, 24, 0},
@@ -568,7 +568,7 @@ TEST_P(AgainstReference, SpecialScenes) {
   printHeading();
   for (const Special& special : specials)
     for (Shading shading : allPrograms) {
-      // Flat and Gouraud shading leave normal maps out, which the driver's normals would show.
+      // Flat and Gouraud shading ignore normal maps, which the driver's normals would include.
       if (special.textured && !perPixel(shading)) continue;
       Look look = lookWith(shading, 200);
       Model model;
@@ -609,7 +609,8 @@ TEST_P(AgainstReference, EveryForm) {
       expectAccurate(form, look, c);
     }
   }
-  // By light: from the brightest to the dimmest a point, a directional light, a spot and another.
+  // Forms by light: from the brightest to the dimmest, a point, a directional light, a spot and
+  // another.
   for (const std::string form :
        {"exact/2,lyon:4", "lyon:1/1,pow/1,pade:4/1,none", "none/1,lyon-cross:2/2,gaussian"})
     for (int program = 0; program < 5; ++program) {
@@ -617,7 +618,7 @@ TEST_P(AgainstReference, EveryForm) {
       Look look = lookWith(shading, 100);
       look.light.emplace();
       look.highlight = parseHighlights(form, "form");
-      // Some lamps weaken with distance and some do not.
+      // Some lamps have fall-off and some do not.
       for (const char* light :
            {"spot:2,2,3:-2,-2,-3:10,40:4,3,3:falloff", "point:-2,2,2:0.7,0.9,0.5",
             "point:0,3,2:7,8,5:falloff,9", "spot:-2,2,3:2,-2,-3:10,40:0.4,0.3,0.3",
@@ -644,7 +645,8 @@ TEST_P(AgainstReference, EveryForm) {
     }
 }
 
-// Points and lines, whose rules leave the driver more room: the same pixels where no tie is near.
+// Points and lines, whose rules leave the driver more freedom: the same pixels unless a tie is
+// near.
 TEST_P(AgainstReference, PointsAndLines) {
   const auto context = openContext(GetParam());
   context->makeCurrent();

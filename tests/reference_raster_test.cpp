@@ -1,4 +1,4 @@
-// What the reference covers, and how it interpolates.
+// The reference's coverage and interpolation.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ long cross(glm::ivec2 a, glm::ivec2 b, glm::ivec2 p) {
   return long(b.x - a.x) * (p.y - a.y) - long(b.y - a.y) * (p.x - a.x);
 }
 
-// Exact, y upwards, counter-clockwise: samples on a left edge (going down) or on a level bottom
-// edge (going right) are inside.
+// Exact, y upwards, counter-clockwise: samples on a left edge (going down) or on a horizontal
+// bottom edge (going right) are inside.
 bool covers(const std::array<glm::ivec2, 3>& t, glm::ivec2 p) {
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::ivec2 a = t[i], b = t[(i + 1) % 3];
@@ -35,7 +35,7 @@ TEST(ReferenceCoverage, AgreesWithIntegerArithmetic) {
   for (int trial = 0; trial < 300; ++trial) {
     std::array<glm::ivec2, 3> t;
     for (auto& v : t) {
-      // A third of the trials: pixel centres alone, where every vertex is a tie.
+      // In a third of the trials only pixel centres, where every vertex is a tie.
       const bool centers = trial % 3 == 0;
       for (int i = 0; i < 2; ++i) v[i] = 4 * place(random) + (centers ? 2 : quarter(random));
     }
@@ -83,10 +83,10 @@ TEST(ReferenceCoverage, SharedEdgesAreDrawnOnce) {
       EXPECT_TRUE(value == 0 || value == 0.5) << x << "," << y << ": " << value;
       covered += value == 0.5;
     }
-  EXPECT_EQ(covered, 256);  // 16 x 16 with one of each pair of opposite sides
+  EXPECT_EQ(covered, 256);  // 16 x 16, with one of each pair of opposite sides
 }
 
-// docs/science.md G5: w from 1 to 10 across the picture; the middle is at 1/11, not at 1/2.
+// docs/science.md G5: w from 1 to 10 across the picture; the middle value is 1/11, not 1/2.
 TEST(ReferenceInterpolation, IsPerspectiveCorrect) {
   Mesh mesh = rectangle({-1, -1}, {1, 1});
   mesh.positions = {{-1, -1, -1}, {10, -10, -10}, {10, 10, -10}, {-1, 1, -1}};
@@ -104,8 +104,8 @@ TEST(ReferenceInterpolation, IsPerspectiveCorrect) {
   }
 }
 
-// docs/science.md G4: a floor from behind the eye to far ahead. Its pixels are those whose ray
-// meets it between near and far plane, and the position is where.
+// docs/science.md G4: a floor from behind the eye to far ahead. It covers the pixels whose ray
+// meets it between near and far plane, with the position of that intersection.
 TEST(ReferenceClipping, AFloorThroughTheEyesPlane) {
   const double near = 0.5, far = 40;
   Mesh mesh = triangles({{-100, -1, 50}, {100, -1, 50}, {0, -1, -100}});
@@ -122,7 +122,7 @@ TEST(ReferenceClipping, AFloorThroughTheEyesPlane) {
     for (int x = 0; x < 64; ++x) {
       const auto& a = seen[std::size_t(y * 64 + x)];
       const double right = (x + 0.5) / 32 - 1, up = 1 - (y + 0.5) / 32;
-      const double distance = -1 / up;  // along the view, where the ray meets y = -1
+      const double distance = -1 / up;  // along the view, to where the ray meets y = -1
       const bool inTriangle = up < 0 && std::abs(right * distance) < 100 * (100 - distance) / 150;
       const bool hit = inTriangle && distance > near && distance < far;
       ASSERT_EQ(a.item >= 0, hit) << x << "," << y;
@@ -162,7 +162,7 @@ TEST(ReferenceDepth, TheNearerIsSeenWhateverTheOrder) {
   red.unlit = green.unlit = true;
   red.shading.color = {1, 0, 0};
   green.shading.color = {0, 1, 0};
-  // Of 1e-9 of their distance, which float depth would not tell.
+  // Separated by 1e-9 of their distance, which float depth could not resolve.
   Mesh near = rectangle({-4, -4}, {4, 4}), far = near;
   near.origin = {0, 0, 1e-8};
   for (int order = 0; order < 2; ++order) {

@@ -9,7 +9,7 @@
 #include "glint/scene/look.h"
 #include "glint/scene/scene.h"
 
-/// Small scenes whose pictures can be worked out by hand.
+/// Small scenes whose pictures can be computed by hand.
 namespace scenes {
 
 using glint::Look;
@@ -32,7 +32,7 @@ inline Mesh rectangle(glm::vec2 low, glm::vec2 high, float z = 0) {
   return mesh;
 }
 
-/// One mesh a material, at the origin, in this order.
+/// One mesh per material, at the origin, in this order.
 inline Scene sceneOf(std::vector<std::pair<Mesh, glint::Material>> parts) {
   Scene scene;
   scene.name = "test";
@@ -46,8 +46,8 @@ inline Scene sceneOf(std::vector<std::pair<Mesh, glint::Material>> parts) {
   return scene;
 }
 
-/// A camera on +Z at the distance z that sees 2 halfHeight of the plane z = 0, without perspective.
-/// Powers of two for all give window coordinates without rounding.
+/// An orthographic camera on +Z at the distance z that sees 2 halfHeight of the plane z = 0. With
+/// powers of two for all, window coordinates have no rounding.
 inline void lookAlongZ(Scene& scene, Look& look, double halfHeight, double z = 8) {
   glint::FileCamera camera;
   camera.orthographic = true;
@@ -57,7 +57,8 @@ inline void lookAlongZ(Scene& scene, Look& look, double halfHeight, double z = 8
   look.cameraIndex = 0;
 }
 
-/// A camera at the origin that looks along -Z, `halfHeight` the picture's at the distance 1.
+/// A camera at the origin that looks along -Z; `halfHeight` is the picture's half height at
+/// distance 1.
 inline void lookFromOrigin(Scene& scene, Look& look, double halfHeight, double near, double far) {
   glint::FileCamera camera;
   camera.viewAngle = 2 * std::atan(halfHeight);

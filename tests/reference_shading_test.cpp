@@ -1,4 +1,4 @@
-// Pictures of the reference against closed forms written out here.
+// Pictures of the reference compared with closed forms written here.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace glint::reference_shading_test {
 
 using namespace scenes;
 
-// Of a pixel's float, not of the double behind it.
+// Of the pixel's float, not of the double before it.
 constexpr double floatRounding = 1.2e-7;
 
 glint::Light directional(glm::dvec3 to, glm::dvec3 intensity = glm::dvec3(1.0)) {
@@ -39,7 +39,7 @@ void expectColor(const glm::dvec4& seen, const glm::dvec3& expected, double tole
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], tolerance) << where << " c" << c;
 }
 
-// A plane across the picture, viewed straight on: one colour, by the sum of docs/architecture.md.
+// A plane across the picture, viewed frontally: one colour, by the sum of docs/architecture.md.
 TEST(ReferenceShading, APlaneUnderADirectionalLight) {
   const glm::dvec3 L = glm::normalize(glm::dvec3(0.3, -0.2, 0.8)), N(0, 0, 1);
   const glm::dvec3 C(0.9, 0.5, 0.1), A(0.1, 0.2, 0.3), I(0.6, 0.7, 2), S = 0.25 * C + 0.75;
@@ -61,7 +61,7 @@ TEST(ReferenceShading, APlaneUnderADirectionalLight) {
   }
 }
 
-// Point and spot light and a local viewer: every pixel has its own L and V.
+// Point and spot lights and a local viewer: every pixel has its own L and V.
 TEST(ReferenceShading, APlaneUnderPointAndSpotLights) {
   const double height = 3;
   Scene scene = sceneOf({{rectangle({-9, -9}, {9, 9}, float(-height)), paint()}});
@@ -103,7 +103,7 @@ TEST(ReferenceShading, APlaneUnderPointAndSpotLights) {
     }
 }
 
-// Flat: one value per face, at its centroid. Gouraud: the vertices' values, weighted.
+// Flat: one value per face, at its centroid. Gouraud: interpolated values of the vertices.
 TEST(ReferenceShading, FlatAndGouraudCarryTheLight) {
   Mesh mesh = triangles({{-4, -3, 0}, {5, -3, 0.5f}, {0, 4, 1}});
   mesh.normals = {glm::normalize(glm::vec3(-1, 0, 2)), glm::normalize(glm::vec3(1, 0.5f, 2)),
@@ -148,7 +148,7 @@ TEST(ReferenceShading, FlatAndGouraudCarryTheLight) {
   }
 }
 
-// A glass plane in a white room: what is not reflected is let through, so that all is 1.
+// A glass plane in a white room: what is not reflected is transmitted, so the result is 1.
 TEST(ReferenceEnvironment, AWhiteFurnaceStaysWhite) {
   Material glass;
   glass.shading.transmission = 1;
@@ -188,7 +188,7 @@ TEST(ReferenceEnvironment, AMetalMirrorsTheSky) {
     for (int x = 0; x < 16; ++x) {
       const glm::dvec3 d = glm::normalize(glm::dvec3((x + 0.5) / 8 - 1, 1 - (y + 0.5) / 8, -1));
       const glm::dvec3 F = metal.shading.color + (1.0 - metal.shading.color) * std::pow(1 + d.z, 5);
-      // Mirrored by the plane, then looked up in an environment turned by 90 degrees about +Y.
+      // Mirrored by the plane, then looked up in an environment rotated by 90 degrees about +Y.
       const glm::dvec3 back(-(-d.z), d.y, d.x);
       const glm::dvec3 E = environmentRadiance(glint::BuiltinEnvironment::sky, back);
       expectColor(pixel(image, x, y), F * E, 3 * floatRounding);
@@ -216,7 +216,7 @@ TEST(ReferenceBlending, BackToFrontOverTheBackground) {
   high.alpha = 0.25;
   low.shading.color = {1, 0, 0};
   high.shading.color = {0, 1, 0};
-  // The nearer comes first in the file.
+  // The nearer one comes first in the file.
   Scene scene =
       sceneOf({{rectangle({-9, -9}, {9, 9}, 1), high}, {rectangle({-9, -9}, {9, 9}), low}});
   Look look = plainLook(4, 4);
@@ -263,9 +263,9 @@ TEST(ReferenceNormals, BackFacesTurnThem) {
   }
 }
 
-// The shipped sphere under a light from the side of the camera against the sphere itself, at the
-// same image point. Interpolated normals are off by at most h^2 / 2 of their angle (docs/science.md
-// 5.2: 4e-5 at h = 0.0094), h the longest edge.
+// The shipped sphere under a light from the side of the camera, compared with the exact sphere at
+// the same image point. The angles of interpolated normals are off by at most h^2 / 2
+// (docs/science.md 5.2: 4e-5 at h = 0.0094), where h is the longest edge.
 TEST(ReferenceSphere, IsASphereUpToItsFacets) {
   Scene scene = glint::loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
   const Mesh& mesh = scene.meshes[0];

@@ -1,4 +1,4 @@
-// Texture sampling of the reference against values worked out by hand.
+// Texture sampling of the reference compared with values computed by hand.
 
 #include "glint/reference/texture.h"
 
@@ -15,13 +15,13 @@ namespace glint::reference_texture_test {
 using namespace scenes;
 using glint::reference::TextureSampler;
 
-// The sRGB curve from its definition.
+// The sRGB curve by its definition.
 double linear(int code) {
   const double s = code / 255.0;
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// One row or more of grey texels; alpha is 255 minus the code.
+// One or more rows of grey texels; alpha is 255 minus the code.
 ByteImage grey(int width, std::vector<int> codes) {
   ByteImage image;
   image.width = width;
@@ -35,7 +35,7 @@ Sampler sampler(Filter filter, Wrap wrap, MipFilter mip = MipFilter::none) {
   return {filter, filter, mip, wrap, wrap};
 }
 
-// Codes decode to floats: half an ulp.
+// Codes decode to floats: an error of half an ulp.
 constexpr double decoding = 3e-8;
 
 TEST(ReferenceTexture, CoordinatesBeyondAllBoundsGiveSomeTexel) {
@@ -119,8 +119,8 @@ TEST(ReferenceTexture, LevelsOfDetail) {
   EXPECT_NEAR(trilinear.sample({0.3, 0.7}, {{0.3, 0.4}, {0, 0}}).r, l1, decoding);
 }
 
-// Each texel of the next level is the mean over the area it covers, also of an odd size: of three
-// texels, one texel covers them all.
+// Each texel of the next level is the mean over the area that it covers, also for odd sizes: of
+// three texels, one texel covers all.
 TEST(ReferenceTexture, OddSizesAreMeansOverArea) {
   const auto levels = glint::mipLevels(grey(3, {0, 120, 250, 40, 90, 130, 200, 220, 255}));
   ASSERT_EQ(levels.size(), 1u);
@@ -130,8 +130,8 @@ TEST(ReferenceTexture, OddSizesAreMeansOverArea) {
   EXPECT_TRUE(low < mean && mean < high);
 }
 
-// The whole pyramid against means that are worked out anew from the full size in double: a code is
-// that of the exact mean, or next to it where rounding decides.
+// The whole pyramid compared with means computed from the full size in double: a code is that of
+// the exact mean, or next to it where rounding decides.
 TEST(ReferenceTexture, LevelsAreMeansOfTheFullSize) {
   constexpr int width = 24, height = 10;  // 24 to 12, 6, 3 and 1; 10 to 5, 2 and 1
   std::vector<int> codes;
@@ -140,7 +140,7 @@ TEST(ReferenceTexture, LevelsAreMeansOfTheFullSize) {
   for (const bool isData : {false, true}) {
     const auto levels = glint::mipLevels(base, isData);
     ASSERT_EQ(levels.size(), 4u);
-    std::vector<double> values[2];  // of the level before: colour and alpha
+    std::vector<double> values[2];  // of the previous level: colour and alpha
     for (const int c : codes) {
       values[0].push_back(isData ? c / 255.0 : linear(c));
       values[1].push_back((255 - c) / 255.0);
@@ -181,8 +181,8 @@ TEST(ReferenceTexture, LevelsAreMeansOfTheFullSize) {
   }
 }
 
-// A plane that recedes: the texture's footprint is the largest step of the perspective coordinates,
-// here of a floor: u = right * distance, v = distance, within the square of 2 x 2 pixels.
+// A receding plane: the texture's footprint is the largest step of the perspective coordinates
+// within the square of 2 x 2 pixels, here for a floor: u = right * distance, v = distance.
 TEST(ReferenceTexture, FootprintsInPerspective) {
   glint::Material floor;
   floor.unlit = floor.doubleSided = true;
@@ -191,7 +191,7 @@ TEST(ReferenceTexture, FootprintsInPerspective) {
   mesh.texcoords = {{{-40, 0}, {40, 0}, {0, 40}}};
   Scene scene = sceneOf({{mesh, floor}});
   scene.images.emplace_back();
-  // A chain of uniform levels: the colour is a function of the level of detail alone.
+  // A chain of uniform levels: the colour depends only on the level of detail.
   glint::DecodedImages images;
   images[0].image = grey(16, std::vector<int>(256, 0));
   const int codes[] = {60, 120, 180, 240};
@@ -211,7 +211,7 @@ TEST(ReferenceTexture, FootprintsInPerspective) {
       const double right = 2 * (x + 0.5) / size - 1, up = 1 - 2 * (y + 0.5) / size;
       const double step = 2.0 / size;
       const double otherRight = x % 2 ? right - step : right + step;
-      const double otherUp = y % 2 ? up + step : up - step;  // the rows are even in number
+      const double otherUp = y % 2 ? up + step : up - step;  // the number of rows is even
       const auto place = [](double r, double u) { return glm::dvec2(-r / u, -1 / u); };
       double most = 0;
       for (const double u : {up, otherUp})

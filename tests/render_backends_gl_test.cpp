@@ -1,4 +1,4 @@
-// Every program on the driver, and the same bits on every backend.
+// Every program on the driver, and identical bits on every backend.
 
 #include <gmock/gmock.h>
 
@@ -21,8 +21,8 @@ class Programs : public OnStage {};
 const AntiAliasing everyAntiAliasing[] = {
     {AntiAliasing::Mode::msaa, 4}, {AntiAliasing::Mode::ssaa, 2}, {AntiAliasing::Mode::none, 1}};
 
-// A scene with something of everything: blended, masked, textured by vertex colours, mirrored,
-// uneven, points, emission, both sides.
+// A scene with some of everything: blended, masked, vertex colours, mirrored, uneven scales,
+// points, emission, two-sided.
 Scene mixedScene() {
   Scene scene = sceneOf(sphere(24, 12), materialOf(1, 0.7, 0.4, 30, 0.5, {0.8, 0.4, 0.2}));
   scene.instances.push_back({0, translation({1.1, 0.2, 0.3}) * scaling({-0.6, 0.4, 0.5})});
@@ -68,7 +68,7 @@ void expectSameBits(const std::vector<Scene>& scenes, const std::vector<Look>& l
                  << ", anti-aliasing " << int(look.antiAliasing.mode));
     EXPECT_EQ(differingPixels(a[i], b[i]), 0u);
     EXPECT_TRUE(isFinite(a[i]));
-    // Not an empty picture: the models fill at least a twentieth of it.
+    // Not empty pictures: the models fill at least a twentieth of them.
     EXPECT_GT(coveredPixels(a[i], look.backgroundColor), a[i].values.size() / 4 / 20);
     const std::size_t pixels = a[i].values.size() / 4;
     std::vector<std::uint8_t> codesA(3 * pixels), codesB(3 * pixels);
@@ -101,7 +101,7 @@ TEST_P(Programs, CompileForEverySampledVariant) {
       const glint::Program program(text.name, sources);
       EXPECT_TRUE(program.bindBlock("DrawBlock", 2));
       EXPECT_TRUE(program.bindBlock("MaterialBlock", 3));
-      // The samplers that the variant holds are there, and no others.
+      // Exactly the samplers that the variant needs exist.
       EXPECT_EQ(program.uniform("colorTexture") >= 0, v.colorTexture);
       EXPECT_EQ(program.uniform("emissionTexture") >= 0, v.emissionTexture);
       EXPECT_EQ(program.uniform("metallicRoughnessTexture") >= 0, v.metallicRoughnessTexture);

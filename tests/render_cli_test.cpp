@@ -1,4 +1,4 @@
-// What the binary draws and reports.
+// Pictures and reports of the binary.
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ using testing::StartsWith;
 
 const std::string sphere = shipped + "sphere.glb", torus = shipped + "torus.glb";
 
-// Draws the sphere with the arguments; the bytes of the picture.
+// Draws the sphere with the arguments; returns the bytes of the picture.
 std::string picture(const Folder& folder, std::vector<std::string> arguments,
                     const std::string& name = "a.pfm") {
   arguments.insert(arguments.begin(), {"render", sphere, "-o", folder / name});
@@ -66,7 +66,7 @@ TEST(Render, WritesAPngToStdout) {
 
 TEST(Render, EndsQuietlyWhenNobodyReads) {
   const Ran ran = runGlint(quick({"render", sphere, "-o", "-"}), {.closedOut = true});
-  // By the signal, as other tools, or in words: never by a crash or as if all were well.
+  // By the signal, like other tools, or with a message; never with a crash or with success.
   EXPECT_FALSE(ran.timedOut);
   if (ran.signal == 0) {
     EXPECT_EQ(ran.status, 2);
@@ -154,7 +154,7 @@ TEST(Render, BackgroundIsWhatIsAskedFor) {
   EXPECT_THAT(corner({"--background-color", "#ff8000"}),
               ElementsAre(1, glint::decodeSrgb8(0x80), 0, 1));
   EXPECT_THAT(corner({"--no-background"}), ElementsAre(0, 0, 0, 0));
-  // PFM has no alpha: black.
+  // PFM has no alpha: the background is black.
   picture(folder, {"--no-background"});
   EXPECT_EQ(glint::readImage(folder / "a.pfm").values[0], 0);
 }
@@ -164,7 +164,7 @@ TEST(Render, SeveralModelsByTemplates) {
   expectDone(runGlint(quick({"render", sphere, torus, "-o", folder / "{n}-{model}.png"})));
   EXPECT_THAT(folder.names(), ElementsAre("0-sphere.png", "1-torus.png"));
   EXPECT_NE(contents(folder / "0-sphere.png"), contents(folder / "1-torus.png"));
-  // Each as it is when drawn alone.
+  // Each is the same as when drawn separately.
   expectDone(runGlint(quick({"render", torus, "-o", folder / "alone.png"})));
   EXPECT_EQ(contents(folder / "alone.png"), contents(folder / "1-torus.png"));
 }
@@ -200,11 +200,11 @@ TEST(Render, ASavedLookGivesTheSameBytes) {
   expectDone(runGlint({"render", sphere, "-o", folder / "b.png", "--look", folder / "look.json",
                        "--rendering-backend", "osmesa"}));
   EXPECT_EQ(drawn, contents(folder / "b.png"));
-  // And the look saved from it is the same file.
+  // The look saved from it is the same file.
   expectDone(runGlint({"render", sphere, "-o", folder / "b.png", "--look", folder / "look.json",
                        "--save-look", folder / "again.json", "--rendering-backend", "osmesa"}));
   EXPECT_EQ(contents(folder / "look.json"), contents(folder / "again.json"));
-  // info saves a look too.
+  // info saves a look, too.
   const Ran info = runGlint(
       {"info", sphere, "--look", folder / "look.json", "--save-look", folder / "info.json"});
   EXPECT_EQ(info.status, 0);
@@ -235,7 +235,7 @@ TEST(Render, TheReferenceKeepsTheAntiAliasingOfALook) {
   }
 }
 
-// A picture says how it was made, and that makes it again.
+// A picture records its look, which reproduces it.
 TEST(Render, ThePictureHoldsItsLook) {
   Folder folder("picture_look");
   for (const char* ending : {".png", ".exr"}) {
@@ -253,7 +253,7 @@ TEST(Render, ThePictureHoldsItsLook) {
     const auto text = glint::readPictureText(first);
     EXPECT_THAT(text.at("GL_RENDERER"), HasSubstr("llvmpipe"));
     EXPECT_THAT(text.at("Software"), StartsWith("glint "));
-    // As with a look file, options go before it.
+    // As with a look file, options take precedence over it.
     expectDone(runGlint({"render", torus, "-o", again, "--look", first, "--exposure", "1",
                          "--rendering-backend", "osmesa"}));
     EXPECT_NE(contents(first), contents(again));
@@ -271,15 +271,15 @@ TEST(Render, ExrHoldsTheLinearValues) {
   const glint::Image pfm = glint::readImage(folder / "a.pfm"),
                      exr = glint::readImage(folder / "a.exr");
   EXPECT_EQ(pfm.values, exr.values);
-  // With alpha: the sphere opaque, nothing around it.
+  // With alpha: the sphere is opaque, its surroundings are transparent.
   picture(folder, {"--no-background"}, "a.exr");
   const glint::Image alpha = glint::readImage(folder / "a.exr");
   EXPECT_EQ(alpha.values[3], 0);
   EXPECT_EQ(alpha.row(15)[4 * 20 + 3], 1);
 }
 
-// Straight alpha: where a surface covers a part of a pixel, its colour is the surface's own and
-// alpha says how much. A square of one colour has that colour wherever there is anything of it.
+// Straight alpha: where a surface covers part of a pixel, its colour is the surface's own and alpha
+// is the coverage. A square of one colour has that colour wherever its coverage is above 0.
 TEST(Render, TransparentBackgroundHasStraightColoursAtTheEdges) {
   Folder folder("straight");
   const std::string model = glint::test::writeGltf(
@@ -307,7 +307,7 @@ TEST(Render, TransparentBackgroundHasStraightColoursAtTheEdges) {
       for (std::size_t i = 0; i < rgba.size(); i += 4) {
         ++alphas[rgba[i + 3]];
         if (rgba[i + 3] == 0) continue;
-        // One code of rounding: the mean of equal samples divided by their share.
+        // One code of rounding: the mean of equal samples divided by their coverage.
         const float colors[] = {0.5f, 0.25f, 0.125f};
         for (std::size_t c = 0; c < 3; ++c)
           ASSERT_NEAR(rgba[i + c], glint::encodedValue(colors[c]), 1 / codes) << antiAliasing;
@@ -351,19 +351,19 @@ TEST(Render, CommandLineBeatsLookBeatsModelBeatsDefault) {
   look = saved({"--shading", "gouraud", "--exposure", "-1"});
   EXPECT_EQ(look["shading"], "gouraud");
   EXPECT_EQ(look["exposure"], -1.0);
-  // Lights given take the place of the file's, whatever the file says of having none.
+  // Given lights replace the file's, even if the file has none.
   look = saved({"--light", "camera", "--light", "point:1,2,3"});
   EXPECT_EQ(look["light"].size(), 2u);
   EXPECT_EQ(look["no-lights"], false);
-  // Flags can be taken back.
+  // Flags can be reset.
   look = saved({"--no-lights=false"});
   EXPECT_EQ(look["no-lights"], false);
-  // An edit of every material beats the file's of one.
+  // An edit of all materials takes precedence over the file's edit of one.
   look = saved({"--material", "exponent=7"});
   EXPECT_EQ(look["material"][""]["exponent"], 7.0);
   EXPECT_EQ(look["material"][""]["specular"], 0.25);
 
-  // The model's own parameters, unless the look has them; the file's edits of one material unless
+  // The model's own parameters, unless the look has them; the file's edits of one material, unless
   // the command line edits all.
   const auto shown = [&](const std::vector<std::string>& arguments) {
     std::vector<std::string> all{"info", sphere, "--json", "-"};
@@ -425,7 +425,7 @@ TEST(Render, ReportsInJson) {
     }
     EXPECT_GE(p["ms"]["total"].get<double>(), p["ms"]["draw"].get<double>());
   }
-  // Samples a pixel of each anti-aliasing.
+  // Samples per pixel for each anti-aliasing.
   const std::pair<const char*, int> samples[] = {{"none", 1}, {"msaa:4", 4}, {"ssaa:3", 9}};
   for (const auto& [antiAliasing, count] : samples) {
     const Ran r =

@@ -1,5 +1,6 @@
-// Flat, Gouraud and per-pixel shading of ever finer spheres against the analytic sphere: orders and
-// constants (docs/science.md 5). A constant, not the order, tells whether normals are renormalised.
+// Flat, Gouraud and per-pixel shading of ever finer spheres compared with the analytic sphere:
+// orders and constants (docs/science.md 5). The constant, not the order, shows whether normals are
+// renormalised.
 
 #include <gmock/gmock.h>
 
@@ -16,7 +17,7 @@
 
 namespace glint::test::render_convergence_gl_test {
 
-// The finest sphere's triangles are 0.016 long: 8 pixels of 1024 over 2.2.
+// The finest sphere's edges are 0.016 long: 8 of 1024 pixels for 2.2.
 constexpr int size = 1024;
 constexpr double halfHeight = 1.1;
 
@@ -26,9 +27,9 @@ struct Errors {
 
 enum class Region {
   all,     // inside the silhouette, eroded by 2 pixels
-  lit,     // of it, where N.L > 0.2: away from the terminator's kink; and N.V > 0.3: the two
-           // pixels are another share of the sphere's last facets at each level
-  facing,  // of it, where N.V > 0.9
+  lit,     // of those, where N.L > 0.2, away from the terminator's kink, and N.V > 0.3, because the
+           // two pixels are a different fraction of the sphere's last facets at each level
+  facing,  // of those, where N.V > 0.9
 };
 
 Look sphereLook(Shading shading, const glm::dvec3& light) {
@@ -39,7 +40,7 @@ Look sphereLook(Shading shading, const glm::dvec3& light) {
   return look;
 }
 
-// Within the drawn silhouette and 2 pixels from its outside.
+// Pixels inside the drawn silhouette and at least 2 pixels from its outside.
 std::vector<bool> eroded(const Image& image) {
   std::vector<bool> in(std::size_t(size) * size), result(in.size());
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = image.values[4 * i + 3] > 0;
@@ -55,7 +56,7 @@ std::vector<bool> eroded(const Image& image) {
 
 class Convergence : public OnStage {
  protected:
-  // Differences of the drawn sphere of a level from the true one, at the pixels' centres.
+  // Differences between the drawn sphere of a level and the true one, at the pixels' centres.
   Errors errors(int level, const SurfaceValues& m, const glm::dvec3& light, Shading shading,
                 Region region, glint::Highlight form = glint::Highlight::exact,
                 const GlslSources* sources = nullptr) {
@@ -102,9 +103,9 @@ class Convergence : public OnStage {
     return scene;
   }
 
-  // A light from the front whose highlight stands in the middle of a triangle, where Gouraud's
-  // error is greatest, of a generic triangle of level 3; the triangle in its middle has the same
-  // centre at each finer level (to 1/100 of its size).
+  // A light from the front whose highlight is in the middle of a triangle, where Gouraud's error is
+  // largest, for a generic triangle of level 3. At each finer level the triangle in its middle has
+  // the same centre (to 1/100 of its size).
   glm::dvec3 frontLight() {
     const Mesh& mesh = scene(3).meshes.at(0);
     glm::dvec3 half(0), wish = unit({0.16, 0.11, 0.98});
@@ -135,11 +136,12 @@ void expectOrders(const Errors& order, const Errors& expected, const Errors& tol
   EXPECT_NEAR(order.most, expected.most, tolerance.most) << "L infinity";
 }
 
-// Generic: no axis, no vertex and no edge of the spheres lies there; the terminator is in view.
+// Generic: not in the direction of an axis, vertex or edge of the spheres; the terminator is in
+// view.
 const glm::dvec3 sideLight(0.62, 0.35, 0.41);
 
-// The edge length that the formulas mean, where the highlight is: of the triangle whose normal is
-// nearest to H, the side of the equilateral triangle with the same circumscribed circle.
+// The edge length in the formulas, at the highlight: for the triangle whose normal is nearest to H,
+// the side of the equilateral triangle with the same circumscribed circle.
 double edgeAt(const Mesh& mesh, const glm::dvec3& normal) {
   double best = -1, edge = 0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -200,7 +202,7 @@ TEST_P(Convergence, GouraudsConstantIsThatOfTheTheory) {
   }
 }
 
-// The same shaders with the interpolated normal as it stands.
+// The same shaders without renormalising the interpolated normal.
 std::string foldWithoutRenormalisation() {
   const std::string folder = temporaryFolder() + "/unnormalised";
   std::filesystem::create_directories(folder);
@@ -218,11 +220,11 @@ std::string foldWithoutRenormalisation() {
 
 constexpr std::pair<double, double> exponentsAndFactors[] = {{10, 10}, {100, 40}, {1000, 100}};
 
-// Renormalised normals lie 10, 40 and 100 times below Gouraud in L2 (measured there: 12, 53, 169).
-// Without renormalisation they do not, though their order is the same: so it is with the textbook's
-// form of the lobe. The exact form, of the difference vector, hardly asks for unit normals (Lyon
-// 1993): at the peak D stays 0 + O(h^2), and lambda O(h^4). It is held to the same constants, but
-// only the diffuse light, below, tells there whether normals are unit.
+// With renormalised normals the L2 error is 10, 40 and 100 times below Gouraud's (measured: 12, 53,
+// 169). Without renormalisation it is not, though its order is the same; this holds for the
+// textbook's form of the lobe. The exact form, from the difference vector, hardly needs unit
+// normals (Lyon 1993): at the peak D stays 0 + O(h^2), and lambda O(h^4). It must meet the same
+// constants, but only the diffuse light, below, shows whether its normals are unit.
 TEST_P(Convergence, RenormalisedNormalsBeatGouraudByTheirConstant) {
   using glint::Highlight;
   const GlslSources unnormalised(foldWithoutRenormalisation());
@@ -237,14 +239,15 @@ TEST_P(Convergence, RenormalisedNormalsBeatGouraudByTheirConstant) {
       }
     const Errors missing =
         errors(6, m, frontLight(), Shading::phong, Region::lit, Highlight::pow, &unnormalised);
-    // Gouraud's own constant or a worse one: nowhere near the factor.
+    // Gouraud's own constant or a worse one: far from the factor.
     EXPECT_LT(gouraud.l2 / missing.l2, 1.5) << "a missing renormalisation passes";
   }
 }
 
-// Diffuse light of interpolated normals that are not renormalised is Gouraud's: N.L is linear in N.
-// Renormalised, where the sphere faces the viewer, only the facets' depth is left: h^2 / 8 at most
-// times the slope of the surface, at most 0.48 there, against Gouraud's h^2 / 6 N.L at most.
+// Diffuse light with interpolated normals that are not renormalised equals Gouraud's: N.L is linear
+// in N. Renormalised, where the sphere faces the viewer, only the facets' depth remains: at most
+// h^2 / 8 times the slope of the surface, at most 0.48 there, compared with Gouraud's at most
+// h^2 / 6 N.L.
 TEST_P(Convergence, DiffuseLightNeedsRenormalisedNormals) {
   const GlslSources unnormalised(foldWithoutRenormalisation());
   const Errors gouraud = errors(6, matte(), frontLight(), Shading::gouraud, Region::facing);
@@ -255,7 +258,7 @@ TEST_P(Convergence, DiffuseLightNeedsRenormalisedNormals) {
   EXPECT_NEAR(missing.l2 / gouraud.l2, 1, 0.01);
 }
 
-// The bits are those of the other backend (Backends.GiveTheSameBits...): one is enough.
+// The other backend gives identical bits (Backends.GiveTheSameBits...), so one is enough.
 INSTANTIATE_TEST_SUITE_P(Render, Convergence, testing::Values(glint::Backend::osmesa),
                          nameOfBackend);
 

@@ -18,7 +18,7 @@ Look mirrorLook(const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 3) {
   return look;
 }
 
-// Glass that lets everything through, in a colour that takes nothing.
+// Glass that transmits everything, in a colour without absorption.
 Material glass(double transmission = 1, double ior = 1.5) {
   Material m = materialOf(1, 1, 1, 20);
   m.shading.transmission = transmission;
@@ -26,7 +26,7 @@ Material glass(double transmission = 1, double ior = 1.5) {
   return m;
 }
 
-// Seen along (0, 0, -1), its normal inclined so that N.V = cosine.
+// Seen along (0, 0, -1), with the normal tilted so that N.V = cosine.
 Mesh inclined(double cosine) {
   return quad({std::sqrt(1 - cosine * cosine) * 0.6, std::sqrt(1 - cosine * cosine) * 0.8, cosine});
 }
@@ -39,8 +39,8 @@ Mesh turnedAway(double cosine) {
   return mesh;
 }
 
-// How far R may lie off: the cancellation-free form's own 4.5e-7 (docs/science.md 4.3), and
-// its slope times the rounding of the cosine (8 roundings).
+// The error allowed for R: the cancellation-free form's own 4.5e-7 (docs/science.md 4.3), and its
+// slope times the rounding of the cosine (8 roundings).
 double reflectanceTolerance(double cosine, double n1, double n2) {
   const double step = 8 * rounding, c0 = std::max(0.0, cosine - step),
                c1 = std::min(1.0, cosine + step);
@@ -56,8 +56,8 @@ class EnvironmentProgram : public OnStage {
   }
 };
 
-// What neither absorbs nor emits is invisible in a furnace: F + (1 - F) = 1 at every pixel. Each
-// sum rounds a few times; 2e-6 is 32 roundings.
+// A surface that neither absorbs nor emits is invisible in a furnace: F + (1 - F) = 1 at every
+// pixel. Each sum rounds a few times; 2e-6 is 32 roundings.
 TEST_P(EnvironmentProgram, WhiteFurnaceShowsNothingOfGlass) {
   for (double ior : {0.6, 1.0, 1.33, 1.5, 2.4, 100.0})
     for (double metalness : {0.0, 0.4, 1.0})
@@ -66,9 +66,9 @@ TEST_P(EnvironmentProgram, WhiteFurnaceShowsNothingOfGlass) {
         m.shading.metalness = metalness;
         m.doubleSided = true;
         m.alphaMode = glint::AlphaMode::blend;
-        m.alpha = alpha;  // 0: there is no surface, and the background shows
+        m.alpha = alpha;  // 0: no surface is visible, only the background
         Look look = mirrorLook({1, 2, 3}, 64);
-        look.cameraViewAngle = 40;  // the sphere and something around it
+        look.cameraViewAngle = 40;  // the sphere and some background
         const Image image = draw(sceneOf(sphere(48, 24), m), look);
         std::size_t covered = 0;
         for (int y = 0; y < 64; ++y)
@@ -100,7 +100,7 @@ TEST_P(EnvironmentProgram, ReflectsByFresnelsEquations) {
   for (const auto& [angle, expected] : published) {
     const double c = std::cos(angle * degrees);
     expectColor(seen(inclined(c), glass(0), mirrorLook()), glm::dvec3(expected),
-                reflectanceTolerance(c, 1, 1.5) + 5e-8);  // half a unit of the last digit printed
+                reflectanceTolerance(c, 1, 1.5) + 5e-8);  // half a unit of the last printed digit
   }
 }
 
@@ -126,7 +126,7 @@ TEST_P(EnvironmentProgram, MediumIsWhatTheViewerIsIn) {
   for (double cosine : {0.9, 0.4})
     expectColor(seen(inclined(cosine), glass(0), look), glm::dvec3(reflectance(cosine, 1.33, 1.5)),
                 reflectanceTolerance(cosine, 1.33, 1.5));
-  // K1, K2: equal indices are no boundary, at grazing incidence too.
+  // K1, K2: equal indices are not a boundary, also at grazing incidence.
   look.mediumIor = 1.5;
   for (double cosine : {1.0, 0.5, 1e-4})
     EXPECT_EQ(seen(inclined(cosine), glass(0), look), glm::dvec3(0)) << cosine;
@@ -144,7 +144,7 @@ TEST_P(EnvironmentProgram, FormsOfTheReflectance) {
     expectColor(seen(inclined(cosine), glass(0), look),
                 glm::dvec3(0.04 + 0.96 * std::pow(1 - cosine, 4)), 48 * rounding);
   }
-  // E2: from the denser side the refracted angle's cosine, at 40 degrees.
+  // E2: from the denser side, the cosine of the refracted angle, at 40 degrees.
   Material m = glass(0);
   m.doubleSided = true;
   Look look = mirrorLook();
@@ -155,7 +155,7 @@ TEST_P(EnvironmentProgram, FormsOfTheReflectance) {
               5 * 7 * 8 * rounding + 16 * rounding);
 }
 
-// F = C + (1 - C)(1 - N.V)^5 of a metal; the environment is scaled by neither m_s nor S.
+// F = C + (1 - C)(1 - N.V)^5 for a metal; the environment is scaled by neither m_s nor S.
 TEST_P(EnvironmentProgram, MetalsReflectInTheirColour) {
   const glm::dvec3 c(0.9, 0.5, 0.2);
   for (double cosine : {1.0, 0.5, 0.1})
@@ -179,7 +179,7 @@ TEST_P(EnvironmentProgram, TransparencyReplacesTheSum) {
     const glm::dvec3 expected = (1 - t) * 0.5 * c + r + t * (1 - r) * c;
     expectColor(seen(inclined(cosine), m, look), expected,
                 16 * rounding + 2 * reflectanceTolerance(cosine, 1, 1.5));
-    // Alpha is coverage: all of that is blended over the background.
+    // Alpha is coverage: all terms are blended over the background.
     m.alphaMode = glint::AlphaMode::blend;
     look.backgroundColor = {0.25, 0.5, 1};
     for (const double alpha : {0.0, 0.375, 1.0}) {
@@ -192,8 +192,8 @@ TEST_P(EnvironmentProgram, TransparencyReplacesTheSum) {
   }
 }
 
-// Where the environment is not white: the directions of reflection and refraction, in world space,
-// against the environments in double. A direction is off by some 16 roundings (1e-6), and the
+// In environments that are not white: the world-space directions of reflection and refraction,
+// compared with the environments in double. A direction is off by some 16 roundings (1e-6), and the
 // steepest edge of the environments rises by 2.45 * 1.5 / (2 * 0.05) = 37 per radian; their own
 // formulas in float add 1e-5 (environment_map.h).
 TEST_P(EnvironmentProgram, LooksAlongReflectedAndRefractedRays) {
@@ -215,7 +215,7 @@ TEST_P(EnvironmentProgram, LooksAlongReflectedAndRefractedRays) {
                            up = glm::cross(view, right);
           for (glm::vec3& p : mesh.positions) p = glm::vec3(double(p.x) * right + double(p.y) * up);
           mesh.normals.assign(4, glm::vec3(n));
-          // Turned about +Y by the angle: a ray sees what stood at the angle before.
+          // Rotated about +Y by the angle: a ray sees what was at the angle before.
           const auto radiance = [&, &e = reference](const glm::dvec3& d) {
             const double s = std::sin(-angle * degrees), c = std::cos(-angle * degrees);
             return glint::environmentRadiance(e, {c * d.x + s * d.z, d.y, -s * d.x + c * d.z});

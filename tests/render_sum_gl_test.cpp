@@ -1,5 +1,5 @@
-// The sum over the lights as it is drawn, against formulas in double: one surface seen in parallel,
-// so that every pixel has the same N, L and V.
+// The sum over the lights as drawn, compared with formulas in double: one surface in parallel
+// projection, so that every pixel has the same N, L and V.
 
 #include <gmock/gmock.h>
 
@@ -23,8 +23,8 @@ Mesh facing(const glm::dvec3& toViewer, const glm::dvec3& normal) {
   return mesh;
 }
 
-// Every program that shades with the vertices' normals; `environment` by an index of 1 that
-// reflects nothing, which leaves its Blinn-Phong sum.
+// Every program that shades with vertex normals; `environment` with an index of 1, which reflects
+// nothing and so leaves its Blinn-Phong sum.
 constexpr Shading withNormals[] = {Shading::gouraud, Shading::phong, Shading::blinnPhong,
                                    Shading::environment};
 
@@ -32,7 +32,7 @@ bool isBlinn(Shading s) { return s == Shading::blinnPhong || s == Shading::envir
 
 class Sum : public OnStage {
  protected:
-  // The one colour of a surface with these vectors.
+  // The single colour of a surface with these vectors.
   glm::dvec3 shadeOne(const Material& material, Look look, const glm::dvec3& n,
                       const glm::dvec3& v) {
     Material m = material;
@@ -100,7 +100,7 @@ const Vectors published[] = {
 TEST_P(Sum, GivesThePublishedVectors) {
   for (const Vectors& x : published)
     for (Shading shading : withNormals) {
-      if (shading == Shading::gouraud) continue;  // its lobe is phong's: below
+      if (shading == Shading::gouraud) continue;  // its lobe is phong's: see below
       SCOPED_TRACE(testing::Message()
                    << glint::shadingName(shading) << " L " << x.l.x << "," << x.l.y << "," << x.l.z
                    << " V " << x.v.x << "," << x.v.y << "," << x.v.z);
@@ -114,8 +114,8 @@ TEST_P(Sum, GivesThePublishedVectors) {
           const double expected = isBlinn(shading) ? (exponent == 10 ? x.blinn40 : x.blinn400)
                                                    : (exponent == 10 ? x.phong10 : x.phong100);
           const double power = isBlinn(shading) ? 4 * exponent : exponent;
-          // The textbook's form errs with the exponent, not with its root: x^a with x off by 24
-          // roundings (docs/science.md 2.5: about 5e-7 a).
+          // The textbook's form has an error proportional to the exponent, not to its root: x^a
+          // with x off by 24 roundings (docs/science.md 2.5: about 5e-7 a).
           const double tolerance =
               form == glint::Highlight::exact ? lobeTolerance(power) : (24 * power + 16) * rounding;
           const glm::dvec3 lobe = shadeOne(materialOf(0, 0, 1, exponent), look, x.n, x.v);
@@ -145,7 +145,7 @@ TEST_P(Sum, GivesRandomVectorsAndMaterials) {
       for (const glm::dvec3& n : ns)
         for (const glm::dvec3& l : ls)
           for (const glm::dvec3& v : vs) {
-            if (shading == Shading::environment && m.metalness > 0) continue;  // a mirror
+            if (shading == Shading::environment && m.metalness > 0) continue;  // would be a mirror
             Look look = withLight(l, shading);
             look.ambientLight = ambient;
             const Material material =
@@ -159,7 +159,7 @@ TEST_P(Sum, GivesRandomVectorsAndMaterials) {
           }
 }
 
-// E10, C2, C3, C10, D2: nothing from behind, whatever the exponent; exactly the ambient light.
+// E10, C2, C3, C10, D2: light from behind adds nothing for any exponent; exactly the ambient light.
 TEST_P(Sum, LightFromBehindGivesExactlyTheAmbientLight) {
   const glm::dvec3 c(0.75, 0.5, 0.25), a(0.5, 0.25, 0.125);
   const glm::dvec3 behind[] = {{0, 0, -1}, {1, 0, -1e-3}, {1, 0, 0}, {0, -1, 0}, {0.3, 0.2, -0.1}};
@@ -175,7 +175,7 @@ TEST_P(Sum, LightFromBehindGivesExactlyTheAmbientLight) {
       }
 }
 
-// Where a smooth surface turns from the light, the gate is at N.L = 0 and nowhere else.
+// Where a smooth surface turns away from the light, the gate is exactly at N.L = 0.
 TEST_P(Sum, GateIsAtTheTerminator) {
   for (Shading shading : withNormals) {
     Look look = withLight({0, 0, 1}, shading);
@@ -186,8 +186,7 @@ TEST_P(Sum, GateIsAtTheTerminator) {
   }
 }
 
-// C1, C5: the peak is 1 and never more, whatever the exponent; D1: exponent 0 is 1 up to 90
-// degrees.
+// C1, C5: the peak is 1 and never more, for any exponent; D1: exponent 0 is 1 up to 90 degrees.
 TEST_P(Sum, PeakIsOne) {
   for (Shading shading : withNormals)
     for (double exponent : {0.0, 1.0, 100.0, 1e4, 1e6}) {
@@ -206,7 +205,7 @@ TEST_P(Sum, PeakIsOne) {
             0);
 }
 
-// C7, C8: the half vector of opposed L and V is undefined.
+// C7, C8: the half vector of opposite L and V is undefined.
 TEST_P(Sum, OpposedLightAndViewGiveNoHighlight) {
   for (Shading shading : {Shading::phong, Shading::blinnPhong, Shading::environment})
     for (double exponent : {0.0, 0.5, 20.0})
@@ -299,8 +298,8 @@ TEST_P(Sum, PointLightsShineFromWhereTheyAre) {  // C11, C12
       look.light = {point};
       return shadeOne(m, look, {0, 0, 1}, {0, 0, 1}).x;
     };
-    if (shading != Shading::gouraud) {  // whose vertices are elsewhere
-      // The middle pixel is the origin, to a few roundings of the eye's distance 4 (E = 2e-6).
+    if (shading != Shading::gouraud) {  // gouraud's vertices are elsewhere
+      // The middle pixel is the origin, up to a few roundings of the eye's distance 4 (E = 2e-6).
       EXPECT_NEAR(lit({3, 0, 4}), 0.8, 2e-6);
       EXPECT_NEAR(lit({0, 0, 0.5}), 1, 2e-6);
     }
@@ -341,8 +340,8 @@ TEST_P(Sum, SpotsShineInACone) {
   }
 }
 
-// V, L and H of each pixel in perspective with a light nearby; C16: one direction for all pixels
-// with an infinite viewer.
+// V, L and H of each pixel in perspective with a nearby light; C16: one V for all pixels with an
+// infinite viewer.
 TEST_P(Sum, EachPixelHasItsOwnVectors) {
   const int size = 31;
   const SurfaceValues m{0, 0.5, 0.5, 20, 0, glm::dvec3(1)};
@@ -366,8 +365,8 @@ TEST_P(Sum, EachPixelHasItsOwnVectors) {
           const glm::dvec3 v = infinite ? glm::dvec3(0, 0, 1) : unit(glm::dvec3(0, 0, 1) - p);
           const glm::dvec3 expected = shaded(m, glm::dvec3(0), {0, 0, 1}, unit(point.position - p),
                                              v, shading != Shading::phong);
-          // Interpolated positions carry some 32 roundings of the square's size, 4, at distances
-          // of 1: 8e-6, where directions at best carry 8 roundings: 16 times the usual.
+          // Interpolated positions carry some 32 roundings of the square's size, 4, at distances of
+          // 1: 8e-6, where directions at best carry 8 roundings: 16 times the usual tolerance.
           expectColor(color(image, x, y), expected,
                       16 * lobeTolerance(shading == Shading::phong ? 20 : 80));
         }

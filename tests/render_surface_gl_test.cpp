@@ -1,4 +1,4 @@
-// Alpha, sides, emission, colours, points and lines, interpolation: how surfaces are drawn.
+// How surfaces are drawn: alpha, sides, emission, colours, points and lines, interpolation.
 
 #include <gmock/gmock.h>
 
@@ -41,8 +41,8 @@ std::array<int, 3> codes(const glm::dvec3& c) {
           glint::encodeSrgb8(float(c.z))};
 }
 
-// Interpolation over a square of the picture's size: a plane equation of values of at most `size`,
-// evaluated with some 8 roundings.
+// Interpolation over a square of the picture's size: a plane equation with values of at most
+// `size`, evaluated with some 8 roundings.
 double interpolationTolerance(double size) { return 8 * size * rounding; }
 
 TEST_P(Surface, MaskCutsAtTheCutoff) {
@@ -65,7 +65,7 @@ TEST_P(Surface, MaskCutsAtTheCutoff) {
     }
 }
 
-// Three panes of glass before a wall: over, from back to front, in whatever order they stand.
+// Three panes of glass in front of a wall: blended from back to front, in any order in the scene.
 TEST_P(Surface, BlendsFromBackToFront) {
   const glm::dvec3 colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Scene scene;
@@ -89,7 +89,7 @@ TEST_P(Surface, BlendsFromBackToFront) {
     // Binary fractions: exact.
     EXPECT_EQ(middle(draw(scene, parallelLook())), expected);
   }
-  // Before nothing: straight alpha of three panes, colours premultiplied.
+  // Without a background: straight alpha of three panes, colours premultiplied.
   scene.instances.erase(std::remove_if(scene.instances.begin(), scene.instances.end(),
                                        [](const auto& i) { return i.mesh == 0; }),
                         scene.instances.end());
@@ -101,7 +101,7 @@ TEST_P(Surface, BlendsFromBackToFront) {
   EXPECT_EQ(through, over);
 }
 
-// Blended surfaces are hidden by what stands before them and hide nothing themselves.
+// Blended surfaces are hidden by what is in front of them and hide nothing themselves.
 TEST_P(Surface, BlendedThingsRespectDepthAndLeaveItAlone) {
   Scene scene = sceneOf(quad(), unlitMaterial(glm::dvec3(0.5)));
   Material m = unlitMaterial({1, 0, 0});
@@ -136,7 +136,7 @@ TEST_P(Surface, BackFacesAreDrawnOnlyWhereTheyAreWanted) {
       const glm::dvec3 lit = shaded(values, glm::dvec3(0.25), normal, l, {0, 0, 1}, blinn);
       expectColor(middle(draw(sceneOf(mesh, m), look)), lit, lobeTolerance(40) + 16 * rounding,
                   glint::shadingName(shading).data());
-      // Front faces of such things are lit as ever.
+      // Their front faces are lit as usual.
       expectColor(middle(draw(sceneOf(quad(n), m), look)), lit, lobeTolerance(40) + 16 * rounding);
     }
   }
@@ -189,7 +189,7 @@ TEST_P(Surface, PointsAndLinesAreUnlit) {
       const glm::dvec3 c(0.5, 0.25, 0.75);
       const Image image = draw(sceneOf(mesh, materialOf(1, 1, 1, 1, 0, c)), look);
       const std::size_t covered = coveredPixels(image);
-      // Four points of a pixel; four lines of 16 or 17 pixels.
+      // Four points of one pixel; four lines of 16 or 17 pixels.
       EXPECT_GE(covered, topology == glint::Topology::points ? 4u : 60u);
       EXPECT_LE(covered, topology == glint::Topology::points ? 4u : 70u);
       for (int y = 0; y < 33; ++y)
@@ -200,8 +200,8 @@ TEST_P(Surface, PointsAndLinesAreUnlit) {
     }
 }
 
-// I7: between a lit and an unlit vertex lies half the light, code 188, not code 128. F11: vertices
-// brighter than 1 are not clamped.
+// I7: half way between a lit and an unlit vertex is half the light, code 188, not code 128. F11:
+// vertices brighter than 1 are not clamped.
 TEST_P(Surface, GouraudInterpolatesInLinearLight) {
   Look look = parallelLook({0, 0, 1}, 9);
   look.shading = Shading::gouraud;
@@ -215,7 +215,7 @@ TEST_P(Surface, GouraudInterpolatesInLinearLight) {
   expectColor(middle(bright), glm::dvec3(1), interpolationTolerance(2));
 }
 
-// One colour a face, that of its centroid and of its own normal, whatever the vertices' are.
+// One colour per face, computed at its centroid with its own normal, for any vertex normals.
 TEST_P(Surface, FlatIsConstantOverEachFace) {
   Mesh mesh = bent({-1, 0.3, 0.5}, {1, 0, 0.2});
   mesh.positions[2].z = 0.4f;  // the two triangles have different planes
@@ -230,7 +230,7 @@ TEST_P(Surface, FlatIsConstantOverEachFace) {
     const glm::dvec3 a(mesh.positions[mesh.indices[face]]),
         b(mesh.positions[mesh.indices[face + 1]]), c(mesh.positions[mesh.indices[face + 2]]);
     const glm::dvec3 center = (a + b + c) / 3.0, normal = unit(glm::cross(b - a, c - a));
-    // The eye is at (0, 0, 4), seen in parallel: V is +Z everywhere.
+    // The eye is at (0, 0, 4), in parallel projection: V is +Z everywhere.
     const glm::dvec3 expected =
         shaded(values, glm::dvec3(0), normal, unit(point.position - center), {0, 0, 1}, false);
     int count = 0;
@@ -253,8 +253,8 @@ TEST_P(Surface, FlatIsConstantOverEachFace) {
   EXPECT_LE(seen.size(), 4u);  // background 0, alpha 1 and two grey faces
 }
 
-// I3: between normals 90 degrees apart the interpolated one has length 0.7071; renormalised it
-// gives the full highlight, as it stands none.
+// I3: between normals 90 degrees apart, the interpolated one has length 0.7071; renormalised it
+// gives the full highlight, otherwise none.
 TEST_P(Surface, InterpolatedNormalsAreRenormalised) {
   for (Shading shading : {Shading::phong, Shading::blinnPhong, Shading::environment}) {
     Look look = parallelLook({0, 0, 1}, 9);
@@ -263,7 +263,7 @@ TEST_P(Surface, InterpolatedNormalsAreRenormalised) {
     Material m = materialOf(0, 0, 1, 100);
     m.shading.ior = 1;
     const Image image = draw(sceneOf(bent({-1, 0, 1}, {1, 0, 1}), m), look);
-    // N = +Z to the rounding of the interpolation, and squared: 1 - a (8 roundings)^2.
+    // N = +Z up to the rounding of the interpolation, squared: 1 - a (8 roundings)^2.
     expectColor(middle(image), glm::dvec3(1), 4 * rounding, glint::shadingName(shading).data());
     for (int x = 0; x < 9; ++x) {
       const double t = (x + 0.5) / 9;
@@ -276,7 +276,7 @@ TEST_P(Surface, InterpolatedNormalsAreRenormalised) {
   }
 }
 
-// I1, I2: normals that cancel leave the face's.
+// I1, I2: where normals cancel, the face's is used.
 TEST_P(Surface, VanishingNormalsGiveTheFacesOwn) {
   for (Shading shading : {Shading::phong, Shading::blinnPhong, Shading::environment})
     for (bool perspective : {false, true}) {
@@ -290,8 +290,8 @@ TEST_P(Surface, VanishingNormalsGiveTheFacesOwn) {
       mesh.normalsMayCancel = true;
       const Image image = draw(sceneOf(mesh, m), look);
       EXPECT_TRUE(isFinite(image));
-      // In the middle column the normals cancel; the face looks to the light.
-      // Its normal comes from differences of positions over a pixel, 2/9, good to 9 roundings of 4.
+      // In the middle column the normals cancel; the face points to the light. Its normal comes
+      // from differences of positions over a pixel, 2/9, accurate to 9 roundings of 4.
       expectColor(middle(image), glm::dvec3(0.75), 64 * rounding,
                   glint::shadingName(shading).data());
       mesh.normals.assign(4, glm::vec3(0));  // none anywhere (A1)
@@ -309,8 +309,8 @@ TEST_P(Surface, BackgroundIsEncodedToItsCode) {
   EXPECT_EQ(pixel(image, 0, 0).w, 1);
 }
 
-// Covered by k of n samples an edge pixel has alpha k/n, and its colour divided by alpha is the
-// surface's: nothing of the background has bled into it.
+// An edge pixel covered by k of n samples has alpha k/n, and its colour divided by alpha is the
+// surface's: the background has not bled into it.
 TEST_P(Surface, EdgesOverNoBackgroundHaveStraightAlpha) {
   const glm::dvec3 c(0.75, 0.5, 0.25);
   for (const AntiAliasing antiAliasing :
@@ -347,8 +347,8 @@ TEST_P(Surface, EdgesOverNoBackgroundHaveStraightAlpha) {
   }
 }
 
-// Each pixel shows its own place, in every tile of a wide and of a high picture: to far less than
-// the pixel that a tile might be shifted by.
+// Each pixel shows its own position, in every tile of a wide and of a high picture: far more
+// accurately than the one pixel by which a tile might be shifted.
 TEST_P(Surface, TilesShowTheirPartOfThePicture) {
   for (const glm::ivec2 resolution : {glm::ivec2(8200, 6), glm::ivec2(40, 1500)}) {
     Look look = parallelLook();
@@ -366,15 +366,15 @@ TEST_P(Surface, TilesShowTheirPartOfThePicture) {
         const glm::dvec2 place(x + 0.5, resolution.y - y - 0.5);
         most = glm::max(most, glm::abs(seen * glm::dvec2(resolution) - place));
       }
-    // Vertices are snapped to 1/256 pixel, at each end of the ramp; colours carry 8 roundings.
+    // Vertices are snapped to 1/256 pixel at each end of the ramp; colours carry 8 roundings.
     for (int i = 0; i < 2; ++i) EXPECT_LT(most[i], 2.0 / 256 + 8 * rounding * resolution[i]) << i;
   }
 }
 
-// G5: attributes of an inclined surface against the ray through each pixel.
+// G5: attributes of an inclined surface compared with the ray through each pixel.
 TEST_P(Surface, InterpolationIsPerspectiveCorrect) {
   Mesh mesh = quad({0, 0, 1}, 1);
-  // From 1 to 10 before the eye, seen from above.
+  // From 1 to 10 in front of the eye, seen from above.
   mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {10, -1, -10}, {-10, -1, -10}};
   mesh.colors = {{0, 0, 0, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}};
   Material m = unlitMaterial();
@@ -388,7 +388,7 @@ TEST_P(Surface, InterpolationIsPerspectiveCorrect) {
   int seen = 0;
   for (int y = 33; y < 65; ++y) {
     const double slope = (y + 0.5) / 65 * 2 - 1;  // down per distance
-    const double z = 1 / slope;                   // where the ray meets y = -1
+    const double z = 1 / slope;                   // distance at which the ray meets y = -1
     if (z < 1.05 || z > 9.5) continue;
     ++seen;
     // Edges snapped to 1/256 pixel move the depth by z^2 2/65/256 per ray.

@@ -1,4 +1,4 @@
-// Pictures under the transforms that hurt: mirrors, uneven, singular, tiny and huge scales, great
+// Pictures under difficult transforms: mirroring, uneven, singular, tiny and huge scales, large
 // distances.
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace glint::test::render_transforms_gl_test {
 
 class Transforms : public OnStage {};
 
-// Without a symmetry of its own, with points whose coordinates are whole multiples of 1/64.
+// Without symmetry, with coordinates that are multiples of 1/64.
 Mesh pebble() {
   Mesh mesh = sphere(20, 10);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -34,7 +34,7 @@ Material paint() { return materialOf(0.5, 0.7, 0.4, 30, 0.5, {0.9, 0.6, 0.3}); }
 Look plainLook(Shading shading, int pixels = 64) {
   Look look;
   look.shading = shading;
-  look.environment = glint::Environment::white;  // whose reflection has no edges of its own
+  look.environment = glint::Environment::white;  // its reflection has no edges
   look.resolution = {pixels, pixels};
   look.antiAliasing = {AntiAliasing::Mode::none, 1};
   look.backgroundColor = glm::dvec3(0);
@@ -50,16 +50,18 @@ Image flipped(const Image& image) {
   return result;
 }
 
-// How far two pictures of the same thing may differ whose vertices were rounded differently. Window
-// coordinates are floats of up to 64: a vertex moves by 64 * 2^-24 pixels, the three of a triangle
-// and the pixel's own position by four times that. Towards the silhouette normals turn by up to 1
-// radian a pixel, and the light follows with m_d 0.7, a lobe of exponent 120 and strength 0.4 with
-// 0.61 sqrt(120) 0.4 = 2.7, and a reflectance that rises by 2 (n^2 + 1) / sqrt(n^2 - 1) = 5.8.
+// The largest difference allowed between two pictures of the same scene whose vertices were rounded
+// differently. Window coordinates are floats of up to 64: a vertex moves by 64 * 2^-24 pixels, the
+// three of a triangle and the pixel's own position by four times that. Towards the silhouette
+// normals turn by up to 1 radian per pixel, and the light changes with m_d 0.7, a lobe of exponent
+// 120 and strength 0.4 with 0.61 sqrt(120) 0.4 = 2.7, and a reflectance that rises by
+// 2 (n^2 + 1) / sqrt(n^2 - 1) = 5.8.
 double movedTolerance(Shading shading) {
   return 4 * 64 * rounding * (shading == Shading::environment ? 9.2 : 3.4);
 }
 
-// The largest difference where both pictures show the model, and how many pixels only one shows.
+// The largest difference where both pictures show the model, and the number of pixels where only
+// one does.
 std::pair<double, int> compared(const Image& a, const Image& b) {
   double most = 0;
   int single = 0;
@@ -74,7 +76,7 @@ std::pair<double, int> compared(const Image& a, const Image& b) {
   return {most, single};
 }
 
-// B2, B3: a mirrored node under a mirrored light is the mirror image, front faces and all.
+// B2, B3: a mirrored node under a mirrored light gives the mirror image, including front faces.
 TEST_P(Transforms, MirroredNodesGiveMirrorImages) {
   for (Shading shading : everyShading)
     for (const glm::dvec3 mirror : {glm::dvec3(-1, 1, 1), glm::dvec3(1, -1, 1)}) {
@@ -103,8 +105,8 @@ TEST_P(Transforms, MirroredNodesGiveMirrorImages) {
     }
 }
 
-// B1, B7: under uneven scales, shear and mirrors normals stay perpendicular to the surface. The
-// surface is the plane z = 0 of the model, whatever becomes of it.
+// B1, B7: under uneven scales, shear and mirroring, normals stay perpendicular to the surface,
+// which is the model's plane z = 0 under any transform.
 TEST_P(Transforms, NormalsFollowTheSurfaceUnderUnevenScales) {
   glm::dmat4 shear(1);
   shear[2][0] = 0.8;
@@ -124,17 +126,17 @@ TEST_P(Transforms, NormalsFollowTheSurfaceUnderUnevenScales) {
       look.light = {directional(l)};
       Scene scene = sceneOf(quad(n, 20), materialOf(0, 0.6, 0.4, 12), world);
       scene.materials[0].doubleSided = true;
-      // By the inverse transpose in double, turned to the viewer on the back of the square.
+      // By the inverse transpose in double, turned towards the viewer on the back of the square.
       const glm::dvec3 face = glm::transpose(glm::inverse(glm::dmat3(world))) * glm::dvec3(0, 0, 1);
       const glm::dvec3 normal = unit(glm::transpose(glm::inverse(glm::dmat3(world))) * n) *
                                 (glm::dot(face, v) < 0 ? -1.0 : 1.0);
       const Image image = draw(scene, look);
-      // The matrix's entries are rounded once and summed; uneven by 20 at most.
+      // The matrix's entries are rounded once and summed; the unevenness is at most 20.
       expectColor(middle(image),
                   shaded(values, glm::dvec3(0), normal, l, v, shading == Shading::blinnPhong),
                   lobeTolerance(48) + 24 * rounding, glint::shadingName(shading).data());
     }
-  // The published figure: M n is 78.6 degrees off the right normal.
+  // The published figure: M n is 78.6 degrees off the correct normal.
   const glm::dmat3 m(scaling({1, 1, 10}));
   const glm::dvec3 right = unit(glm::transpose(glm::inverse(m)) * n), wrong = unit(m * n);
   EXPECT_NEAR(std::acos(glm::dot(right, wrong)) / degrees, 78.6, 0.05);
@@ -165,7 +167,7 @@ TEST_P(Transforms, SingularScalesAreFinite) {  // B6
     }
 }
 
-// B4, B5: everything a power of two larger is the same to the last bit, at any other factor to the
+// B4, B5: scaling everything by a power of two changes no bit; any other factor changes only the
 // roundings of the input.
 TEST_P(Transforms, ScaleOfEverythingDoesNotMatter) {
   for (Shading shading : everyShading) {
@@ -182,8 +184,8 @@ TEST_P(Transforms, ScaleOfEverythingDoesNotMatter) {
     for (int k : {-67, -10, 1, 13, 66})
       EXPECT_EQ(differingPixels(drawn(std::exp2(k)), one), 0u) << "2^" << k;
     for (double scale : {1e-20, 1e20}) {
-      // The camera's unit is a power of two: all lengths it divides change by a factor between 1
-      // and 2 and are rounded anew.
+      // The camera's unit is a power of two: lengths divided by it change by a factor between 1 and
+      // 2 and are rounded again.
       const auto [most, single] = compared(drawn(scale), one);
       EXPECT_LT(most, movedTolerance(shading)) << scale << " " << glint::shadingName(shading);
       EXPECT_LE(single, 1) << scale;
@@ -191,7 +193,7 @@ TEST_P(Transforms, ScaleOfEverythingDoesNotMatter) {
   }
 }
 
-// B8. Whole numbers far away and vertices on a grid leave nothing to round: equal to the bit.
+// B8. Whole numbers far away and vertices on a grid need no rounding: identical bits.
 TEST_P(Transforms, PlaceOfEverythingDoesNotMatter) {
   for (Shading shading : everyShading) {
     const auto drawn = [&](const glm::dvec3& place) {
@@ -211,8 +213,8 @@ TEST_P(Transforms, PlaceOfEverythingDoesNotMatter) {
   }
 }
 
-// The same with the camera found by glint, which adds and halves far from the origin: in double,
-// where 1e7 has an ulp of 1.9e-9. The picture's floats may differ in their last place by it.
+// The same with glint's own framing, which adds and halves far from the origin: in double, where
+// 1e7 has an ulp of 1.9e-9. This may change the last place of the picture's floats.
 TEST_P(Transforms, FramingFarAwayIsThatAtTheOrigin) {
   for (Shading shading : everyShading) {
     const auto drawn = [&](const glm::dvec3& place) {
@@ -227,8 +229,8 @@ TEST_P(Transforms, FramingFarAwayIsThatAtTheOrigin) {
   }
 }
 
-// Vertices that lie far from their own origin in the file: as far as float can hold them they are
-// where they would be near it. 1/16 is the step of float at 1e6.
+// Vertices that are far from their own origin in the file are, to float precision, where they would
+// be near it. 1/16 is the step of float at 1e6.
 TEST_P(Transforms, VerticesFarFromTheirOriginAreWhereTheyWouldBeNearIt) {
   Mesh mesh = pebble();
   for (glm::vec3& p : mesh.positions) p = glm::round(p * 32.0f) / 16.0f;

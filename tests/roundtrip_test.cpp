@@ -1,5 +1,6 @@
-// Whatever can be set can be said: random looks of the one table and random edits of the panel come
-// back from text and from pictures bit for bit, material parameters from model files.
+// Everything that can be set can be saved: random looks from the parameter table and random edits
+// of the panel are restored from text and from pictures bit for bit, material parameters from model
+// files.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +29,7 @@ void PrintTo(const Look& look, std::ostream* out);  // look_test.cpp
 
 namespace glint::test::roundtrip_test {
 
-/// Texts of every parameter of the table, over their whole ranges.
+/// Texts for every parameter of the table, over their whole ranges.
 class Texts : public test::Random {
  public:
   using Random::Random;
@@ -42,7 +43,7 @@ class Texts : public test::Random {
         return max;
       case 2:
         return std::clamp(std::round(min + (max - min) * unit()), min, max);
-      case 3:  // near 0, and of any size
+      case 3:  // near 0, and of any magnitude
         return std::clamp((coin() ? 1 : -1) * log(1e-300, 1), min, max);
       default:
         return min + (max - min) * unit();
@@ -94,7 +95,7 @@ class Texts : public test::Random {
         return "camera" + color;
     }
   }
-  /// A valid text of the parameter; empty for one that is unknown here.
+  /// A valid text for the parameter; empty for a parameter unknown here.
   std::string of(const Parameter& p) {
     if (p.kind == ParameterKind::flag) return coin() ? "true" : "false";
     if (p.kind == ParameterKind::number) return numberText(number(p.min, p.max));
@@ -158,7 +159,7 @@ class Texts : public test::Random {
   }
 
  private:
-  /// A name in the form that keys have: in quotation marks where it needs them.
+  /// A name in the syntax of keys: in quotation marks if necessary.
   static std::string materialKeyOf(const std::string& name) {
     Material material;
     material.name = name;
@@ -172,7 +173,7 @@ Look read(const std::string& text) {
   return look;
 }
 
-// What of a light does not count for its type is not said.
+// Parameters of a light that its type does not use are not saved.
 Look withoutRest(Look look) {
   if (!look.light) return look;
   for (Light& light : *look.light) {
@@ -216,7 +217,7 @@ std::string optionText(const Parameter& p, const ParameterValue& value) {
   return numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
 }
 
-// As the panel sets them; also what else follows, such as the end of a calibrated lens.
+// As the panel sets them, with the consequences, such as removing a calibrated lens.
 TEST(RoundTrip, OfEveryValueWithoutItsText) {
   Texts texts(7);
   for (int i = 0; i < 200; ++i) {
@@ -325,7 +326,7 @@ TEST(RoundTrip, OfMaterialsThroughAModelsFile) {
   }
 }
 
-// A look file that somebody else changes, under edits that are not saved.
+// A look file changed by another program during unsaved edits.
 TEST(RoundTrip, OfALookThatChangesUnderEdits) {
   using viewer::mergedLook;
   Texts texts(8);

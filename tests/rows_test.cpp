@@ -1,4 +1,4 @@
-// Large pictures, of which a few rows are held at a time, are compared as others are.
+// Large pictures, of which only a few rows are held at a time, compare like small ones.
 
 #include <gtest/gtest.h>
 
@@ -80,9 +80,9 @@ TEST(Rows, AreThoseOfTheWholePicture) {
       }
     };
     expectRows(0, 3);
-    expectRows(2000, 600);  // on, a thousand rows at once
+    expectRows(2000, 600);  // forwards, over a thousand rows
     expectRows(1900, 50);   // still kept
-    expectRows(5, 1);       // from the beginning once more
+    expectRows(5, 1);       // from the beginning again
     expectRows(0, height);
   }
 }
@@ -119,7 +119,7 @@ TEST(Rows, GiveTheSameComparison) {
       expectSame(compare(held(a), held(b), options), compare(byRows(a), byRows(b), options));
     }
   }
-  // Of different sizes: padded.
+  // With different sizes, padded.
   const Bytes tall = glint::pngOfRgb(noise(3, 8), width, height),
               flat = glint::pngOfRgb(noise(3, 9), height, width);
   CompareOptions options;
@@ -128,7 +128,7 @@ TEST(Rows, GiveTheSameComparison) {
              compare(byRows(tall), byRows(flat), options));
 }
 
-// Damage shows where it is met, and no picture is the same as one that is cut.
+// Damage is found where it is, and no picture equals a truncated one.
 TEST(Rows, DamageIsFound) {
   const Bytes whole = glint::pngOfRgb(noise(3, 1), width, height);
   for (const std::size_t less : {std::size_t(13), whole.size() / 2}) {

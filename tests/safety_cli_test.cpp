@@ -1,4 +1,4 @@
-// What strangers send and what people mistype: nothing that is read is lost, nothing runs away.
+// Hostile files and typing mistakes: input files are never lost, and nothing runs out of control.
 
 #include <gmock/gmock.h>
 
@@ -32,7 +32,7 @@ Bytes plainPng(int width, int height, int red = 200) {
   return {begin, begin + png.size()};
 }
 
-/// A triangle that shows an image, which `image` describes, in a material of its own.
+/// A triangle that shows an image, described by `image`, with its own material.
 void show(Sample& sample, const Json& image, const std::string& name = "Paint") {
   const int source = sample.add("images", image);
   const int texture = sample.add("textures", {{"source", source}});
@@ -59,7 +59,7 @@ Ran draw(const fs::path& model, const fs::path& out, std::vector<std::string> mo
   return runGlint(quick(more));
 }
 
-/// The command line under a shell, where descriptors are closed and limits are set.
+/// The command line under a shell, to close descriptors and set limits.
 Ran underShell(const std::string& prefix, const std::vector<std::string>& arguments,
                const std::string& suffix, const std::string& folder) {
   std::string line = prefix + " exec '" GLINT_EXECUTABLE "'";
@@ -92,7 +92,7 @@ TEST(NoOutput, IsAFileThatIsRead) {
     expectRefusal(draw(model, folder / name), "would be lost");
     EXPECT_EQ(contents(texture), before);
   }
-  // Whatever is written, and whatever is read.
+  // For any output and any input.
   const std::string look = (folder / "l.json").string();
   std::ofstream(look) << R"({"glint-look": 1})";
   const std::string environment = write(folder / "env.png", plainPng(8, 4));
@@ -171,7 +171,7 @@ TEST(Descriptors, ThatAreClosedAreTold) {
       underShell("", quick({"render", shipped + "torus.glb", "-o", "-"}), ">&-", folder);
   EXPECT_EQ(out.status, 2);
   EXPECT_THAT(out.err, HasSubstr("standard output"));
-  // A warning does not land in the report, which gets the lowest descriptor.
+  // A warning must not land in the report, which gets the lowest descriptor.
   sample.json["extensionsUsed"] = {"XY_unknown"};
   sample.triangle();
   const std::string model = sample.writeGltf().string(), report = folder + "/r.json";
@@ -217,7 +217,7 @@ TEST(Decoding, WhatIsLongerThanTexturesAreIsScaledDown) {
   ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
   EXPECT_THAT(ran.err, AllOf(HasSubstr("20000 x 4 pixels is shown with 10000 x 2 pixels"),
                              HasSubstr("16384")));
-  // The colour is still the picture's and not that of a material without a texture.
+  // The colour is still the texture's and not that of a material without one.
   Sample small;
   show(small, inView(small, plainPng(8, 8)));
   ASSERT_EQ(draw(small.writeGlb(), small.folder() / "b.png").status, 0);
@@ -227,13 +227,14 @@ TEST(Decoding, WhatIsLongerThanTexturesAreIsScaledDown) {
 
 TEST(Decoding, KeepsToALimitForTheSum) {
   Sample sample;
-  // 2048 x 2048 are 16 MiB, 21.3 with the smaller levels; each is another picture.
+  // 2048 x 2048 takes 16 MiB, 21.3 with the mip levels; each is a different picture.
   for (int i = 0; i < 3; ++i) show(sample, inView(sample, plainPng(2048, 2048, i)));
   const fs::path model = sample.writeGlb(), out = sample.folder() / "a.png";
   const Ran plenty = draw(model, out);
   EXPECT_EQ(plenty.status, 0);
   EXPECT_THAT(plenty.err, IsEmpty());
-  // At 40 x 30 pixels 1024 are enough: 16 MiB in all, one after another until it fits.
+  // For 40 x 30 pixels a size of 1024 is enough: 16 MiB in all; textures are reduced in turn until
+  // they fit.
   const Ran tight = draw(model, out, {"--decode-limit", "17"});
   EXPECT_EQ(tight.status, 0);
   ASSERT_EQ(tight.errorLines().size(), 3u) << tight.err;
@@ -241,7 +242,7 @@ TEST(Decoding, KeepsToALimitForTheSum) {
   expectRefusal(draw(model, sample.folder() / "b.png", {"--decode-limit", "15.9"}),
                 "make it smaller or raise --decode-limit");
   EXPECT_FALSE(fs::exists(sample.folder() / "b.png"));
-  // A large picture shows all of them.
+  // A large picture needs all of them.
   expectRefusal(draw(model, out, {"--decode-limit", "17", "--resolution", "1025,4"}),
                 "take 64 MiB, more than 17 MiB");
 }
@@ -267,7 +268,7 @@ TEST(Reading, StopsAtWhatIsNeeded) {
   const Ran ran = draw(model, sample.folder() / "a.png");
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
-  // A buffer that is as long as that, of which a few bytes are shown.
+  // A buffer of that length, of which a few bytes are used.
   sample.buffers = Json::array({{{"uri", "sample.bin"}, {"byteLength", std::uint64_t(1) << 40}}});
   sample.json["bufferViews"][0]["byteLength"] = std::uint64_t(1) << 40;
   std::ofstream(sample.folder() / "wide.gltf") << [&] {
@@ -347,7 +348,7 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
       }
     }
   }
-  // The model too may be a link that leads out.
+  // The model itself may also be a link that leads out.
   fs::rename(inner / "m.gltf", folder / "m.gltf");
   fs::create_symlink("../m.gltf", inner / "m.gltf");
   expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "lies outside");
@@ -363,7 +364,7 @@ TEST(Converting, TakesATimeThatGrowsWithTheFile) {
   const Ran ran = runGlint({"convert", model.string(), (sample.folder() / "out.gltf").string(),
                             "--material", "exponent=7"});
   EXPECT_EQ(ran.status, 0) << ran.err;
-  // A second, and room for a busy machine; what was quadratic took more than ten minutes.
+  // A second, plus a margin for a busy machine; a quadratic algorithm took more than ten minutes.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 

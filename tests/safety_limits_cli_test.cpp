@@ -1,4 +1,4 @@
-// What is larger than it looks: headers that promise more than fits, files with holes, and models
+// Inputs larger than they look: headers that claim more than fits, files with holes, and models
 // from stdin that name files.
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// What a run holds that reads headers alone, and draws; a sanitizer keeps what is freed.
+// The memory of a run that reads only headers, and draws; a sanitizer keeps freed memory.
 #ifdef __SANITIZE_ADDRESS__
 constexpr long fewKib = 1 << 20;
 #else
@@ -33,7 +33,7 @@ std::string attribute(const std::string& name, const std::string& type, const st
   return name + '\0' + type + '\0' + littleEndian(std::uint32_t(value.size())) + value;
 }
 
-/// An OpenEXR file of RGB halves as far as its header and an empty table of lines.
+/// An OpenEXR file of RGB halves with its header and an empty line table.
 std::string exrOf(int width, int height) {
   std::string channels, box;
   for (const char* name : {"B", "G", "R"})
@@ -61,7 +61,7 @@ void write(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A file that ends in holes and takes no room on the disk; false where there is no such thing.
+/// Extends a file with a hole, which takes no room on the disk; false if that is not supported.
 bool lengthen(const std::string& path, std::uintmax_t size) {
   std::error_code error;
   fs::resize_file(path, size, error);
@@ -129,7 +129,7 @@ TEST(EnvironmentPicture, KeepsToTheDecodeLimit) {
 
 TEST(DamagedExr, AsksForNoMoreThanItHas) {
   const Folder folder("exr");
-  // An attribute that is said to have two gigabytes.
+  // An attribute that claims to have two gigabytes.
   std::string bytes = exrOf(8, 8);
   const std::size_t at = bytes.find("chlist") + 7;
   bytes.replace(at, 4, littleEndian(0x7fffffff));
@@ -176,7 +176,7 @@ TEST(Holes, OfAFileAreNotRead) {
 TEST(Holes, OfAGlbAreNotRead) {
   Sample sample;
   sample.triangle();
-  // As long as a GLB can be, of which 36 bytes are shown.
+  // As long as a GLB can be, of which 36 bytes are used.
   constexpr std::uint32_t chunk = 0xf0000000;
   Json whole = sample.json;
   whole["buffers"] = Json::array({{{"byteLength", chunk}}});
@@ -216,7 +216,7 @@ TEST(Confine, TakesAModelFromStdinThatNamesNoFiles) {
   EXPECT_EQ(drawn.status, 0) << drawn.err;
   EXPECT_TRUE(fs::exists(picture));
   fs::remove(picture);
-  // Whatever it names: by its path, beside nothing, or as an open file of the process.
+  // Whatever it names: an absolute path, a relative one, or an open file of the process.
   const std::string absolute = (folder / "sample.bin").string();
   for (const std::string& name : {absolute, std::string("sample.bin"), std::string("0"),
                                   std::string("../maps"), std::string("../../../etc/passwd")}) {
@@ -241,7 +241,7 @@ TEST(Memory, OfJsonKeepsToAMultipleOfTheFile) {
   };
   const long base = peakOf("nodes", 1, "{}");
   constexpr long size = 2 << 20;
-  // What makes most of few bytes: empty texts, long ones, numbers, and what is nested.
+  // Inputs whose few bytes need the most memory: empty texts, long ones, numbers, and nesting.
   const std::string deep = std::string(50, '[') + std::string(50, ']');
   const std::string named = R"({"name":")" + std::string(100000, 'x') + R"("})";
   for (const std::string& item :
@@ -249,7 +249,7 @@ TEST(Memory, OfJsonKeepsToAMultipleOfTheFile) {
         std::string(R"({"extras":{"a":[]}})")})
     for (const char* list : {"extras", "materials"})
       EXPECT_LT(peakOf(list, size, item) - base, 128 * size) << list << " " << item.substr(0, 40);
-  // Nothing, and the least that says anything.
+  // Nothing, and minimal items.
   for (const char* item :
        {"{}", R"({"abc":123})", R"({"a":1})", "[]", "0", R"({"name":""})", R"({"mesh":0})"})
     for (const char* list : {"nodes", "materials", "textures", "meshes", "accessors", "animations",
@@ -271,13 +271,13 @@ TEST(Memory, TooLittleToBeginWithIsTold) {
                                     GLINT_EXECUTABLE "' info x.glb > /dev/null 2> '" + err + "'")
                                        .c_str());
     ASSERT_TRUE(WIFEXITED(status)) << contents(err);
-    // 127: the libraries do not even find room.
+    // 127: there is not even room for the libraries.
     EXPECT_THAT(WEXITSTATUS(status), testing::AnyOf(2, 127)) << contents(err);
     EXPECT_THAT(contents(err), testing::Not(HasSubstr("terminate")));
   }
 }
 
-// A driver that waits for threads it could not start would wait for ever.
+// A driver that waits for threads that it could not start would wait for ever.
 TEST(Threads, FewOrNoneAreEnough) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "a sanitizer starts threads of its own";

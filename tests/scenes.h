@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes and looks that tests build in memory: small, with every number known.
+// Small scenes and looks that tests build in memory, with known numbers.
 
 #include <cmath>
 #include <cstring>
@@ -44,7 +44,7 @@ inline Mesh sphere(int around, int down) {
   return mesh;
 }
 
-/// One mesh with one material at one place.
+/// One mesh with one material and one instance.
 inline Scene sceneOf(Mesh mesh, Material material = {}, const glm::dmat4& world = glm::dmat4(1)) {
   Scene scene;
   scene.name = "test";
@@ -61,7 +61,7 @@ inline Material materialOf(double ambient, double diffuse, double specular, doub
   return material;
 }
 
-/// A look along -`toViewer` at the origin, 2 units of height, parallel: every pixel has the same V.
+/// An orthographic view along -`toViewer` at the origin, 2 units high: every pixel has the same V.
 inline Look parallelLook(const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 8) {
   Look look;
   look.cameraPosition = toViewer * (4 / std::sqrt(glm::dot(toViewer, toViewer)));
@@ -94,7 +94,7 @@ inline glm::dmat4 scaling(const glm::dvec3& s) {
   return m;
 }
 
-/// About a generic axis.
+/// About an axis in general position.
 inline glm::dmat4 rotation(double angle) {
   const glm::dvec3 a = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
   const double c = std::cos(angle), s = std::sin(angle);

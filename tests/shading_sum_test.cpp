@@ -71,7 +71,7 @@ TEST(ShadingSum, GatesOnTheLightAlone) {
       EXPECT_EQ(peak.matte, white);
       EXPECT_EQ(peak.specular, white);
       for (const dvec3& L : {-z, dvec3(1, 0, 0), at(90.0 + 1e-6), at(150.0), dvec3(0.0)}) {
-        // C2, C3, C10, C11: V = R as well, where the ungated lobe is 1
+        // C2, C3, C10, C11: including V = R, where the ungated lobe is 1
         for (const dvec3& V : {z, at(-150.0), dvec3(-1, 0, 0), dvec3(0.0)}) {
           const LightTerms off = light(p, z, L, V, white);
           EXPECT_EQ(off.matte, dvec3(0.0));
@@ -89,7 +89,7 @@ TEST(ShadingSum, GatesOnTheLightAlone) {
       EXPECT_EQ(light(p, dvec3(0.0), z, z, white).matte, dvec3(0.0));     // A1
     }
   }
-  // C9: N.V < 0 is not gated. L at 80 and V at -95 degrees are 15 degrees apart in R and V.
+  // C9: N.V < 0 is not gated. With L at 80 and V at -95 degrees, R and V are 15 degrees apart.
   const auto p = parameters(10.0);
   const double phong = glint::phongLight(p, z, at(80), at(-95), white).specular.x;
   EXPECT_NEAR(phong, std::pow(at(15).z, 10.0), 64 * u);
@@ -103,7 +103,7 @@ TEST(ShadingSum, TerminatorIsContinuousInDiffuseLight) {  // C4
   EXPECT_EQ(glint::phongLight(p, z, at(90.0 + 1e-6), z, white).matte.x, 0.0);
 }
 
-// The largest difference of Phong at alpha = 200 and Blinn-Phong at 800, over V around R:
+// The largest difference between Phong at alpha = 200 and Blinn-Phong at 800, over V around R:
 // docs/science.md 3 (0.4727 at 60 degrees there; this finer search finds 0.47279).
 TEST(ShadingSum, PhongAndBlinnDifferAsTabulated) {
   const auto p = parameters(200.0);

@@ -10,7 +10,7 @@
 
 namespace glint::shard_test {
 
-// The cost of each shard; fails where a model is in none or in two.
+// The cost of each shard; fails if a model is in no shard or in two.
 std::vector<double> loadsOf(const std::vector<double>& costs, std::size_t of) {
   std::vector<double> loads;
   std::vector<int> times(costs.size(), 0);
@@ -34,7 +34,7 @@ TEST(Shards, OfEqualCostsAreEveryNth) {
 
 TEST(Shards, OneLargeModelIsNotTheWholeRun) {
   std::vector<double> costs(80, 1.0);
-  costs[8] = 10;  // every 8-th would give the first shard 19, the others 10
+  costs[8] = 10;  // every 8th would give the first shard 19, the others 10
   for (const double load : loadsOf(costs, 8)) EXPECT_LE(load, 12);
 }
 
@@ -52,7 +52,7 @@ TEST(Shards, AreNearTheBestPossible) {
     }
     const auto loads = loadsOf(costs, of);
     if (largest * double(costs.size()) <= 2 * sum) continue;  // every N-th
-    // Graham's bound of 1966 for whatever is given out in turn.
+    // Graham's bound of 1966 for items assigned in any order.
     const double most = sum / double(of) + largest * (1 - 1 / double(of));
     EXPECT_LE(*std::ranges::max_element(loads), most * (1 + 1e-12));
   }

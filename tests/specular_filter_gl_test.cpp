@@ -1,5 +1,5 @@
-// Specular anti-aliasing and normalised highlights: their functions in GLSL, pictures against the
-// reference, and a highlight smaller than a pixel, whose mean is known.
+// Specular anti-aliasing and normalised highlights: their functions in GLSL, pictures compared with
+// the reference, and a highlight smaller than a pixel with a known mean.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,9 @@ using std::numbers::pi;
 
 class GlslFactors : public GlslTest {};
 
-// Two or three roundings each, and a division (5 u); the exact one of Blinn-Phong a power of two
-// too, which is off by 3 + 2 |x| of 2^-23 of itself (at most 6 u of the difference, at least 1).
+// Two or three roundings each, and a division (5 u). Blinn-Phong's exact one also has a power of
+// two, which is off by 3 + 2 |x| in 2^-23 of its value (at most 6 u of the difference, which is at
+// least 1).
 TEST_P(GlslFactors, NormalizationsAreThoseInDouble) {
   Probe probe(glslSources(), {{"normalization.glsl"}, {}});
   Column exponents{0};
@@ -38,8 +39,8 @@ TEST_P(GlslFactors, NormalizationsAreThoseInDouble) {
     }
 }
 
-// w = 1 / a^2 and w / (1 + w k) take five operations and a division, of both 12 u at most; less 1,
-// that is of the exponent an error of 12 u (n + 2).
+// w = 1 / a^2 and w / (1 + w k) take five operations and a division, together at most 12 u;
+// subtracting 1 makes it an error of 12 u (n + 2) in the exponent.
 TEST_P(GlslFactors, TheFilterIsThatInDouble) {
   Column exponents, turns;
   for (double n = 0; n < 4e6; n = 1.3 * n + 0.1)
@@ -78,9 +79,9 @@ GLINT_ON_SOFTWARE_BACKENDS(GlslFactors);
 
 class SpecularFilter : public OnStage {};
 
-/// A flat sheet that has the normals of a sphere of the radius `radius` (pixels), about the point
+/// A flat sheet with the normals of a sphere of the radius `radius` (pixels) around the point
 /// `center` of the picture (pixels from its middle): N = (x, y) / radius exactly at the vertices,
-/// which stand a pixel apart. One unit is a pixel.
+/// which are a pixel apart. One unit is a pixel.
 Mesh lens(double radius, const glm::dvec2& center, int size) {
   Mesh mesh;
   const int half = size / 2;
@@ -114,12 +115,12 @@ double sumOf(const Image& image) {
   return sum;
 }
 
-// Under light along the view the highlight (N.H)^n of such a sphere of the radius r brings in all
+// Under light along the view, the highlight (N.H)^n of such a sphere of radius r has the total
 //     2 pi r^2 integral of (1 - s^2)^(n/2) s ds = 2 pi r^2 / (n + 2)   pixels of m_s,
-// and Phong's, (1 - 2 s^2)^a, pi r^2 / (2 (a + 1)). Here a quarter of a pixel wide: sampled at
-// pixels' middles it is found or missed. Filtered it has a variance of more than 1 / pi pixels^2,
-// so that the sum of its samples, wherever it lies between them, is off by at most 4 exp(-2 pi^2 /
-// pi) = 0.8 % (Poisson's summation). Its tail is dimmed with it.
+// and Phong's, (1 - 2 s^2)^a, pi r^2 / (2 (a + 1)). Here it is a quarter of a pixel wide: samples
+// at pixel centres hit or miss it. Filtered, its variance is more than 1 / pi pixels^2, so that the
+// sum of its samples, wherever it lies between them, is off by at most 4 exp(-2 pi^2 / pi) = 0.8 %
+// (Poisson summation). Its tail is dimmed with it.
 TEST_P(SpecularFilter, AHighlightSmallerThanAPixelHasItsMean) {
   constexpr int size = 32;
   constexpr double radius = 64, exponent = 16384;
@@ -136,8 +137,7 @@ TEST_P(SpecularFilter, AHighlightSmallerThanAPixelHasItsMean) {
       look.specularAntialiasing = SpecularAntialiasing::kaplanyan;
       EXPECT_NEAR(sumOf(draw(scene, look)) / mean, 1, 0.01)
           << shadingName(shading) << " at " << place.x << "," << place.y;
-      // The truth, from 16 x 16 samples a pixel that are not filtered, and from the reference's
-      // own.
+      // The truth, from 16 x 16 unfiltered samples per pixel, and from the reference's own.
       look.specularAntialiasing = SpecularAntialiasing::none;
       look.antiAliasing = {AntiAliasing::Mode::ssaa, 16};
       EXPECT_NEAR(sumOf(ReferenceRenderer(scene, {}, boundsOf(scene), look).draw()) / mean, 1,
@@ -148,12 +148,12 @@ TEST_P(SpecularFilter, AHighlightSmallerThanAPixelHasItsMean) {
   }
 }
 
-// Pictures against the reference, which filters by its own normals in double. The bound of the
-// exact form (--max-error 0) holds what rounding does; what the driver makes of normals between
-// vertices, 1e-6, moves the lobe by 0.61 sqrt(n) 1e-6 and the filter by half as much again. A
-// sample within 1/256 of an edge may be the next triangle's to the driver, which snaps vertices,
-// and normals turn otherwise there, as they do outside of an outline: of some 1000 pixels, with
-// edges of one or two pixels' length in each, one or two in a hundred, and twice that of four
+// Pictures compared with the reference, which filters by its own normals in double. The bound of
+// the exact form (--max-error 0) covers rounding. The driver's interpolation of normals, 1e-6,
+// moves the lobe by 0.61 sqrt(n) 1e-6 and the filter by half as much again. A sample within 1/256
+// of an edge may belong to the adjacent triangle for the driver, which snaps vertices, and normals
+// change differently there, as they do outside of an outline: of some 1000 pixels, each with edges
+// of one or two pixels' length, this affects one or two in a hundred, and twice that with four
 // samples.
 TEST_P(SpecularFilter, AgreesWithTheReference) {
   const AntiAliasing samples[] = {
@@ -196,7 +196,7 @@ TEST_P(SpecularFilter, AgreesWithTheReference) {
         }
 }
 
-// Against the supersampled picture without a filter: what it is for.
+// Compared with the supersampled picture without a filter, which is the filter's purpose.
 TEST_P(SpecularFilter, IsNearerToTheSupersampledPicture) {
   const Scene scene = sceneOf(sphere(96, 48), materialOf(0, 0, 1, 10000));
   for (const Shading shading : {Shading::phong, Shading::blinnPhong}) {
@@ -223,12 +223,12 @@ TEST_P(SpecularFilter, IsNearerToTheSupersampledPicture) {
         }
       return std::sqrt(squares);
     };
-    // Not nearer than its kernel, which on a sphere is wider than a pixel, lets it come.
+    // No nearer than its kernel, which on a sphere is wider than a pixel, allows.
     EXPECT_LT(error(filtered), 0.75 * error(plain)) << shadingName(shading);
   }
 }
 
-// Per face and per vertex nothing is known of a pixel.
+// Shading per face or per vertex has no information about a pixel.
 TEST_P(SpecularFilter, ChangesNothingPerFaceAndVertex) {
   const Scene scene = sceneOf(sphere(24, 12), materialOf(0.5, 0.5, 0.4, 1000));
   for (const Shading shading : {Shading::flat, Shading::gouraud}) {

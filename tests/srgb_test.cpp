@@ -38,7 +38,7 @@ bool isNearest(float value, const Decimal& exact) {
          error <= abs(Decimal(std::nextafter(value, -infinity)) - exact);
 }
 
-/// The definition itself: the number of thresholds that are <= x, 0 for NaN.
+/// The definition itself: the number of thresholds <= x, 0 for NaN.
 int definedCode(float x) {
   if (std::isnan(x)) return 0;
   const auto& thresholds = glint::srgbThresholds;
@@ -46,8 +46,8 @@ int definedCode(float x) {
                           thresholds.begin());
 }
 
-/// The number of floats from `first` to `last` (bit patterns, inclusive) whose code is wrong, alone
-/// or in bulk.
+/// The number of floats from `first` to `last` (bit patterns, inclusive) whose code is wrong,
+/// encoded singly or in bulk.
 std::size_t wrongCodes(std::uint32_t first, std::uint32_t last) {
   constexpr std::size_t pixels = 1024;
   std::vector<float> values(4 * pixels, 1.0f);
@@ -101,7 +101,7 @@ TEST(Srgb, CodesAreAsDefinedForRandomBits) {
   }
 }
 
-// Every float from 0 to 1: four seconds on two cores.
+// Every float from 0 to 1; takes four seconds on two cores.
 TEST(Srgb, CodesAreAsDefinedForEveryFloat) {
   const unsigned parts = std::max(1u, std::thread::hardware_concurrency());
   const std::uint32_t end = std::bit_cast<std::uint32_t>(1.0f) + 1;
@@ -121,7 +121,7 @@ TEST(Srgb, CodesAreAsDefinedForEveryFloat) {
 TEST(Srgb, KnownCodes) {
   EXPECT_EQ(glint::encodeSrgb8(0.0f), 0);
   EXPECT_EQ(glint::encodeSrgb8(1.0f), 255);
-  EXPECT_EQ(glint::encodeSrgb8(0.5f), 188);  // a missing curve gives 128, a doubled one 223
+  EXPECT_EQ(glint::encodeSrgb8(0.5f), 188);  // without the curve 128, with it twice 223
   EXPECT_EQ(glint::encodeSrgb8(0.18f), 118);
   EXPECT_EQ(glint::encodeSrgb8(0.01f), 25);
   EXPECT_EQ(glint::encodeSrgb8(1 / 255.0f), 13);
@@ -142,7 +142,7 @@ TEST(Srgb, ValuesOutsideTheUnitIntervalAndNan) {
 }
 
 TEST(Srgb, RoundsAndDoesNotTruncate) {
-  // The code's own value minus half a code's width already belongs to the code.
+  // The code's own value minus half a code's width still belongs to the code.
   for (int k = 1; k <= 255; ++k) {
     const float half = static_cast<float>(linearOf(Decimal(k - 0.49) / 255));
     ASSERT_EQ(glint::encodeSrgb8(half), k);
@@ -161,7 +161,7 @@ TEST(Srgb, SixteenBitCodesAreTheRoundedCurve) {
   for (int i = 0; i < 2000; ++i) values.push_back(std::exp2(exponent(random)));
   for (const float x : values) {
     const Decimal exact = 65535 * encodedOf(Decimal(x));
-    // Half a code, and the documented 1e-10 of 65535 where the exact value is that near a tie.
+    // Half a code, and the documented 1e-10 of 65535 if the exact value is that near a tie.
     EXPECT_LE(abs(Decimal(glint::encodeSrgb16(x)) - exact), Decimal(0.5 + 65535e-10)) << x;
   }
 }

@@ -86,7 +86,7 @@ TEST(StabilityCommand, Refusals) {
   expectRefusal(stability({"--case", "H1", "--output", folder / "file"}),
                 "cannot make this folder");
   expectRefusal(stability({"--case", "H1", "--json", "/proc/none/r.json"}), "/proc/none");
-  // Nor is an empty folder left.
+  // No empty folder is left, either.
   expectRefusal(stability({"--glsl", "/nonexistent", "--output", folder / "new/page"}),
                 "not a folder");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});

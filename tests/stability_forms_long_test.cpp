@@ -1,4 +1,4 @@
-// Every form of lobe and reflectance in every hard case, held against its own formula in double.
+// Every form of lobe and reflectance in every hard case, compared with its own formula in double.
 
 #include <gtest/gtest.h>
 

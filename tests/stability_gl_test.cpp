@@ -1,4 +1,4 @@
-// The suite of hard cases on the software backends: all pass, and the textbook's forms fail where
+// The suite of hard cases on the software backends: all pass, and the textbook forms fail where
 // they must, so that a pass means something.
 
 #include <gmock/gmock.h>
@@ -28,8 +28,8 @@ TEST_P(Stability, EveryCasePasses) {
   EXPECT_TRUE(stability::allPassed(results)) << stability::summaryText(results);
 }
 
-// By section: C1 and C5 the peak, which the dot product of rounded vectors misses; D3 and D4 the
-// power at large exponents; K3 and K4 nearly equal indices; P10 hunts what D3 and D4 sample.
+// By section: C1 and C5, the peak, which the dot product of rounded vectors misses; D3 and D4, the
+// power at large exponents; K3 and K4, nearly equal indices; P10 searches what D3 and D4 sample.
 TEST(StabilityForms, TheTextbooksFailWhereTheyMust) {
   const auto context = openContext(Backend::osmesa);
   context->makeCurrent();
@@ -49,7 +49,7 @@ TEST_P(Stability, NothingIsNotANumber) {
   EXPECT_EQ(report.scenes, 20u);
 }
 
-// Every quality has a verdict and says what it touches, on any driver.
+// Every quality has a verdict and lists what it affects, on any driver.
 TEST_P(Stability, TheDriversProfileIsComplete) {
   stability::Bench bench(Look(), glslSources(), setParameter);
   std::set<std::string> names;

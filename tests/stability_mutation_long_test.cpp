@@ -1,4 +1,4 @@
-// Each guard of the shaders taken out, one at a time: a named case of the suite must fail.
+// Each guard of the shaders is removed, one at a time: a named case of the suite must fail.
 
 #include <gmock/gmock.h>
 
@@ -16,8 +16,8 @@ namespace glint::test::stability_mutation_long_test {
 
 struct Guard {
   const char *file, *text, *without;
-  const char* caught;  ///< the case that fails without it; empty: nothing can
-  const char* reason;  ///< what the guard is for, or why nothing can
+  const char* caught;  ///< the case that fails without the guard; empty: none can
+  const char* reason;  ///< what the guard is for, or why no case can fail
   const char *highlight = "exact", *fresnel = "exact";
 };
 

@@ -1,4 +1,5 @@
-"""The page of `glint stability --output`: what it shows of a run that passes and of one that fails."""
+"""The page of `glint stability --output`: what it shows for a run that passes and for one that
+fails."""
 
 import os
 import pathlib
@@ -31,7 +32,7 @@ def test_plots_and_cases(browser):
             "[...document.querySelectorAll('#plots polyline')].every(p => p.points.length > 1 &&"
             "[...p.points].every(q => q.x >= 0 && q.x <= 620 && q.y >= 0 && q.y <= 330))")
         assert browser.evaluate("document.querySelectorAll('#plots polyline').length") > 20
-        # A name hides its curve and shows it again.
+        # Clicking a name hides its curve and shows it again.
         hidden = ("[...document.querySelectorAll('#plots svg g')]"
                   ".filter(g => g.style.display === 'none').length")
         browser.click(".legend button")
@@ -40,7 +41,7 @@ def test_plots_and_cases(browser):
         assert browser.evaluate(hidden) == 0
         browser.hover("#plots svg")
         browser.wait_for("document.querySelector('.readout').textContent.includes('pow')")
-        # The cases: filter, and the checks of one.
+        # The cases: filters, and the checks of one.
         assert browser.evaluate("document.querySelectorAll('#cases details').length") == 11
         browser.click("#filter")
         browser.type("alpha")

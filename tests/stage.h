@@ -31,7 +31,7 @@ class Stage {
 
   Image draw(const Scene& scene, const Look& look) { return drawWith(*renderer_, scene, look); }
 
-  /// With shaders of one's own.
+  /// With the given shaders.
   Image draw(const GlslSources& sources, const Scene& scene, const Look& look) {
     Renderer renderer(sources);
     return drawWith(renderer, scene, look);
@@ -39,7 +39,7 @@ class Stage {
 
  private:
   static Image drawWith(Renderer& renderer, const Scene& original, const Look& look) {
-    Scene scene = original;  // decoding may take broken textures out
+    Scene scene = original;  // decoding may remove broken textures
     GpuScene gpu(scene, decodeImages(scene, look));
     return renderer.draw(gpu, boundsOf(scene), look);
   }
@@ -72,7 +72,7 @@ class StageKeeper : public testing::Environment {
 };
 
 inline StageKeeper& stageKeeper() {
-  // googletest owns it, and ends the context before drivers are torn down.
+  // googletest owns it and destroys the context before drivers are torn down.
   static StageKeeper& keeper =
       *static_cast<StageKeeper*>(testing::AddGlobalTestEnvironment(new StageKeeper));
   return keeper;
@@ -120,12 +120,12 @@ inline double largestDifference(const Image& a, const Image& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     const double d = std::abs(double(a.values[i]) - b.values[i]);
-    most = d <= most ? most : d;  // a NaN stays
+    most = d <= most ? most : d;  // keeps NaN
   }
   return most;
 }
 
-/// Pixels in which the images differ at all, by their bits.
+/// The number of pixels whose bits differ.
 inline std::size_t differingPixels(const Image& a, const Image& b) {
   EXPECT_EQ(a.values.size(), b.values.size());
   std::size_t count = 0;

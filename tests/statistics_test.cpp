@@ -27,8 +27,8 @@ TEST(Statistics, Spread) {
   EXPECT_EQ(spread.count, 5u);
 }
 
-// A share of three times, whose rounds are drawn together: the second half of the rounds is twice
-// as slow, and the share the same.
+// A ratio of three times whose rounds are resampled together: the second half of the rounds is
+// twice as slow, and the ratio is unchanged.
 TEST(Statistics, FunctionsOfQuartilesBearAChangeOfSpeed) {
   std::vector<double> whole, part, rest;
   for (int i = 0; i < 40; ++i) {

@@ -1,4 +1,4 @@
-// What a study advises, from times and errors that are given.
+// The advice of a study, from given times and errors.
 
 #include "glint/study/advice.h"
 
@@ -46,8 +46,8 @@ StudyHead headOf() {
   return head;
 }
 
-// Of those within the codes the most accurate that is as fast as the fastest, as far as can be
-// told.
+// Among those within the codes, the most accurate one whose time cannot be distinguished from the
+// fastest.
 TEST(StudyAdvice, NamesTheCheapestWithinSoManyCodes) {
   const StudyResult r = resultOf();
   const auto forms = advisedForms(headOf(), r);

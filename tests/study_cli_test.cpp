@@ -17,7 +17,7 @@ using testing::Not;
 
 const std::string sphere = GLINT_SOURCE_DIR "/models/sphere-series/sphere-3.glb";
 
-/// Three frames of a few pixels have a spread of any size.
+/// Three frames of a few pixels may have any spread.
 std::vector<std::string> tiny(std::vector<std::string> more) {
   more.insert(more.begin(), {"study", "--quick", "--resolution", "48,48", "--repetitions", "3"});
   if (std::find(more.begin(), more.end(), "--spread-limit") == more.end())
@@ -25,7 +25,7 @@ std::vector<std::string> tiny(std::vector<std::string> more) {
   return more;
 }
 
-// The exact forms alone, which leaves the series out; study_page_test.py has a whole study.
+// Only the exact forms, which omits the series; study_page_test.py has a whole study.
 TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   const std::string file = temporaryFolder() + "/results.md";
   const Ran ran = runGlint(
@@ -57,18 +57,18 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
     EXPECT_LE(e["p999"], e["max"]);
     // Each is on the front or dominated by one that is.
     EXPECT_TRUE(e["fronts"]["rmse"].is_boolean() || e["fronts"]["rmse"].is_string());
-    // What is exact differs by rounding alone, at most 1e-5 + 4e-6 sqrt(4 alpha) of accuracy.md.
+    // Exact forms differ only by rounding, at most 1e-5 + 4e-6 sqrt(4 alpha) in accuracy.md.
     if (v["shading"] != "flat" && v["shading"] != "gouraud") {
       EXPECT_LT(e["max"].get<double>(), 1e-5 + 4e-6 * std::sqrt(160));
     }
-    // The whole is at most the sum of its parts.
+    // The whole error is at most the sum of its parts.
     EXPECT_LE(e["max"].get<double>(), 1.0001 * (v["parts"]["shading"]["max"].get<double>() +
                                                 v["parts"]["interpolation"]["max"].get<double>()));
   }
   EXPECT_EQ(names, (std::set<std::string>{"flat exact", "gouraud exact", "phong exact",
                                           "blinn-phong exact", "environment exact"}));
   EXPECT_EQ(json["fronts"].size(), 15u);
-  // Against the supersampled picture, too: outlines add to what is off inside.
+  // Against the supersampled picture, too: outlines add to the error inside.
   EXPECT_EQ(json["wholeTruths"].size(), 3u);
   for (const Json& v : json["variants"]) {
     SCOPED_TRACE(v["name"]);
@@ -85,7 +85,7 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   EXPECT_TRUE(json["series"].empty());
 }
 
-// No spread is 0: nothing is concluded, and what to do is said in every output.
+// No spread is 0, so nothing is concluded, and every output says what to do.
 TEST(StudyCommand, MakesNoFrontOfWhatItCannotTell) {
   const Folder folder("study-no-front");
   const Ran ran =
@@ -116,7 +116,7 @@ TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
   EXPECT_EQ(json["variants"][0]["name"], "phong exact");
 }
 
-// A form that no list has, with any number: by every program that has it, and by no other.
+// A form that is in no list, with any parameter: by every program that has it, and by no other.
 TEST(StudyCommand, StudiesAnyFormThatIsAskedFor) {
   const Ran lobes = runGlint(tiny({"--highlight", "lyon:8"}));
   EXPECT_EQ(lobes.status, 0) << lobes.err;
@@ -138,7 +138,7 @@ TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
 
 TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
   const std::string folder = temporaryFolder() + "/interrupted";
-  // Ctrl-C after two seconds, long before so many frames are done.
+  // Ctrl-C after two seconds, long before all those frames are done.
   const std::string command = "timeout --foreground --preserve-status -s INT 2 " GLINT_EXECUTABLE
                               " study --resolution 64,64 --shading phong --highlight exact"
                               " --repetitions 100000 --output " +
@@ -147,7 +147,7 @@ TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
   const Json json = Json::parse(contents(folder + "/study.json"));
   EXPECT_FALSE(json["complete"].get<bool>());
   EXPECT_FALSE(json["missing"].empty());
-  // On a machine that is very busy not even its error.
+  // On a very busy machine there may not even be an error.
   for (const Json& v : json["variants"]) EXPECT_GT(v["errors"][0]["rmse"].get<double>(), 0);
   EXPECT_THAT(contents(folder + "/study.html"), HasSubstr("</html>"));
   EXPECT_THAT(contents(folder + "/study.svg"), HasSubstr("</svg>"));
@@ -175,7 +175,7 @@ TEST(StudyCommand, RefusesWhatItCannotDo) {
   refused({"--camera-position", "0,0,9", "--camera-focal-point", "0,0,20"}, "no pixel");
 }
 
-// A model without anything to compare: one line, though its warnings would be others.
+// A model with nothing to compare: one line, without the model's other warnings.
 TEST(StudyCommand, SaysOneLineOfAnEmptyModel) {
   const Folder folder("study-empty");
   std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
@@ -186,7 +186,7 @@ TEST(StudyCommand, SaysOneLineOfAnEmptyModel) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.gltf"});  // nor an empty folder
 }
 
-// What a budget chooses stands beside the others, within its bound.
+// The choice for a budget appears with the others, within its bound.
 TEST(StudyCommand, ShowsWhatABudgetChooses) {
   const Ran ran = runGlint(
       tiny({"--max-error", "0.01", "--highlight", "exact", "--fresnel", "exact", "--json", "-"}));
@@ -199,7 +199,7 @@ TEST(StudyCommand, ShowsWhatABudgetChooses) {
     ++chosen;
     EXPECT_THAT(v["name"].get<std::string>(), testing::StartsWith("max-error 0.01: "));
     EXPECT_LE(v["bound"].get<double>(), 0.01);
-    // Interpolation by the driver is not in the bound.
+    // The bound does not include the driver's interpolation.
     EXPECT_LE(v["parts"]["shading"]["max"].get<double>(), v["bound"].get<double>());
     EXPECT_EQ(v["times"]["wall"]["frames"], 3);
   }
@@ -213,7 +213,7 @@ TEST(StudyCommand, ShowsWhatABudgetChooses) {
 TEST(StudyCommand, TellsWhatHalfFloatsLose) {
   const Ran ran = runGlint({"study", "--half-precision", "-"});
   ASSERT_EQ(ran.status, 0) << ran.err;
-  // docs/approximations.md has this table; below it stands what the driver does.
+  // docs/approximations.md has this table, followed by the driver's behaviour.
   const std::size_t end = ran.out.find("\n\n");
   ASSERT_NE(end, std::string::npos);
   EXPECT_THAT(contents(GLINT_SOURCE_DIR "/docs/approximations.md"),

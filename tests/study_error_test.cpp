@@ -1,4 +1,4 @@
-// What a study says of the difference of two pictures, and the orders of its series.
+// The errors between two pictures in a study, and the orders of its series.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ TEST(StudyError, OfKnownDifferences) {
   EXPECT_DOUBLE_EQ(e.rmse, std::sqrt((0.25 * 0.25 + 0.125 * 0.125) / 3000));
   EXPECT_DOUBLE_EQ(e.relativeRmse, e.rmse / 0.5);
   EXPECT_DOUBLE_EQ(e.offByMore, 2.0 / 1000);
-  // Of 1000 values the 99.9th percentile lies between the last but one and the last: 0.001 * 999
-  // of the way back from the end.
+  // For 1000 values the 99.9th percentile lies between the last two: 0.001 * 999 of the way back
+  // from the last.
   EXPECT_NEAR(e.percentile999, 0.125 + 0.001 * 0.125, 1e-12);
   EXPECT_GT(e.levels, 20);
 }
@@ -43,7 +43,7 @@ TEST(StudyError, OfWhatIsNoNumberIsInfinite) {
   EXPECT_EQ(errorOf(truth, drawn).rmse, std::numeric_limits<double>::infinity());
 }
 
-// Exposure moves the codes and leaves linear differences alone.
+// Exposure changes the codes but not linear differences.
 TEST(StudyError, ExposureIsOfCodesOnly) {
   const Radiances truth(10, glm::dvec3(0.001)), drawn(10, glm::dvec3(0.00101));
   EXPECT_EQ(errorOf(truth, drawn).levels, 0);

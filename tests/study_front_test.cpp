@@ -1,4 +1,4 @@
-// The Pareto front of a study and the rule by which times differ.
+// The Pareto front of a study and the rule for when times differ.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace study_front_test {
 
 using Times = std::vector<double>;
 
-/// Frames around a time, with noise of a tenth.
+/// Frame times around a value, with a noise of a tenth.
 Times framesOf(double milliseconds, unsigned seed, double noise = 0.1) {
   std::mt19937 random(seed);
   Times times(40);
@@ -41,7 +41,7 @@ TEST(StudyStatistics, BootstrapIntervalHoldsTheMedianAndNarrowsWithTheNoise) {
   EXPECT_EQ(medianInterval({3, 3, 3}).low, 3);
 }
 
-// About 95 of 100 intervals hold the true median; 80 would be one in 1e8.
+// About 95 of 100 intervals contain the true median; 80 would have a probability of 1e-8.
 TEST(StudyStatistics, BootstrapIntervalCoversTheTrueMedian) {
   int covered = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
@@ -59,8 +59,8 @@ TEST(StudyStatistics, RatioIsThatOfTheLowerQuartilesOfTheRoundsThatBothHave) {
   EXPECT_EQ(timeRatio({}, a).value, 0);
 }
 
-// A machine that is away for one frame of four, and one of six builds that is a third slower: what
-// is added is not what is compared.
+// A machine that is interrupted in one frame of four, and one of six builds that is a third slower:
+// these additions are excluded from the comparison.
 TEST(StudyStatistics, RatioLeavesOutWhatIsAddedNowAndThen) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -76,8 +76,8 @@ TEST(StudyStatistics, RatioLeavesOutWhatIsAddedNowAndThen) {
   }
 }
 
-// Of 200 intervals for frames with noise some 190 hold the true ratio; of 95 % that hold it each,
-// fewer than 170 are one in 1e7.
+// About 190 of 200 intervals for noisy frames contain the true ratio; if each does with 95 %, fewer
+// than 170 have a probability of 1e-7.
 TEST(StudyStatistics, IntervalsOfRatiosHoldTheTrueOne) {
   int covered = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
@@ -87,7 +87,7 @@ TEST(StudyStatistics, IntervalsOfRatiosHoldTheTrueOne) {
   EXPECT_GE(covered, 170);
 }
 
-// A machine that becomes slower half way changes both.
+// A machine that becomes slower half way affects both.
 TEST(StudyStatistics, RatioBearsAChangeOfSpeed) {
   Times a = framesOf(5, 1, 0.02), b = framesOf(4, 2, 0.02);
   for (std::size_t i = a.size() / 2; i < a.size(); ++i) a[i] *= 1.25, b[i] *= 1.25;
@@ -125,8 +125,8 @@ TEST(StudyFront, ALargerErrorMustBePaidForByMoreThanNoise) {
   EXPECT_EQ(membersOf(paretoFront(candidates, 0.1)), (std::vector{0}));
 }
 
-// None is beyond the spread of its neighbour, but the last is of the first: it may be on the front,
-// and so may what lies between, but neither is for sure.
+// None is beyond the spread of its neighbour, but the last is beyond that of the first: it may be
+// on the front, and so may those in between, but none is certain.
 TEST(StudyFront, AChainOfSmallStepsHasItsBeginAlone) {
   const Times a = framesOf(4.0, 1, 0.01), b = framesOf(3.8, 2, 0.01), c = framesOf(3.5, 3, 0.01);
   const FrontCandidate candidates[] = {{1e-6, a}, {1e-5, b}, {1e-4, c}};
@@ -137,7 +137,7 @@ TEST(StudyFront, AChainOfSmallStepsHasItsBeginAlone) {
   EXPECT_FALSE(places[1].isSlower || places[2].isSlower);
 }
 
-// What is dominated by a member that is faster, and what cannot be told from it in time.
+// One that is dominated by a faster member, and one that cannot be distinguished from it in time.
 TEST(StudyFront, SaysWhetherItCanBeTold) {
   const Times fast = framesOf(2, 1, 0.01), alike = framesOf(2.02, 2, 0.01),
               slow = framesOf(4, 3, 0.01);
@@ -149,7 +149,7 @@ TEST(StudyFront, SaysWhetherItCanBeTold) {
   EXPECT_TRUE(places[2].isSlower);
 }
 
-// Who dominates for sure is named before who may be faster, and the fastest of those.
+// A certain dominator is named before one that may be faster, and the fastest of those.
 TEST(StudyFront, NamesTheFastestOfThoseThatAreFaster) {
   const Times slow = framesOf(4, 1, 0.01), alike = framesOf(4.01, 2, 0.01),
               fast = framesOf(3, 3, 0.01), fastest = framesOf(2, 4, 0.01);
@@ -170,7 +170,7 @@ TEST(StudyFront, OfTheSameErrorTheFasterStands) {
   }
 }
 
-// What is drawn once more by another name takes no place from what it is.
+// A variant drawn again under another name does not displace the original.
 TEST(StudyFront, WhatIsNoRivalTakesNoPlace) {
   const double errors[] = {1e-6, 1e-3, 1e-3}, times[] = {4, 2, 2};
   const auto places = paretoFront(
@@ -180,8 +180,8 @@ TEST(StudyFront, WhatIsNoRivalTakesNoPlace) {
   EXPECT_FALSE(places[2].isSlower);
 }
 
-/// A run of a machine that others use too: every round is slowed by what they take, one frame of
-/// five is late, and one of six builds of each program may be slower by a quarter.
+/// A run on a shared machine: every round is slowed by other work, one frame in five is late, and
+/// one of six builds of each program may be slower by a quarter.
 std::vector<Times> runOf(const std::vector<double>& milliseconds, unsigned seed, double noise) {
   std::mt19937 random(seed);
   const auto unit = [&] { return double(random()) / double(std::mt19937::max()); };
@@ -199,14 +199,14 @@ std::vector<Times> runOf(const std::vector<double>& milliseconds, unsigned seed,
   return runs;
 }
 
-/// Of two runs of the same candidates: how many are on the front for sure in one and dominated for
-/// sure in the other, how many stand alike, and how many are told of at all.
+/// For two runs of the same candidates: how many are certainly on the front in one and certainly
+/// dominated in the other, how many have the same status, and how many are decided at all.
 struct Agreement {
   int contradictions = 0, alike = 0, told = 0, all = 0;
 };
 
-// 40 candidates, steps from nothing to a tenth of a frame, once on a machine at rest and once on a
-// busy one: what one run says for sure the other never denies.
+// 40 candidates, with steps from zero to a tenth of a frame, once on an idle and once on a busy
+// machine: what is certain in one run is never contradicted by the other.
 TEST(StudyFront, TwoRunsNeverContradictEachOther) {
   Agreement agreement;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -237,12 +237,12 @@ TEST(StudyFront, TwoRunsNeverContradictEachOther) {
     }
   }
   EXPECT_EQ(agreement.contradictions, 0);
-  // And there is much that they do say.
+  // And many of them are decided.
   EXPECT_GT(agreement.told, agreement.all / 2);
   EXPECT_GT(agreement.alike, agreement.all / 2);
 }
 
-// Steps larger than the spread are told in every run.
+// Steps larger than the spread are found in every run.
 TEST(StudyFront, LargeStepsAreTheSameInEveryRun) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Times> times;
@@ -264,7 +264,7 @@ TEST(StudyFront, SpreadIsTheFarEndOfTheControls) {
   EXPECT_EQ(spreadOfControls({}), 0);
 }
 
-// Beyond the limit nothing is concluded, and a clock that can is named.
+// Beyond the limit nothing is concluded, and a clock that would work is named.
 TEST(StudyFront, IsNotMadeBeyondTheLimit) {
   std::array<ClockNoise, frameClocks> noise;
   noise[0].spread = 0.39;

@@ -1,4 +1,4 @@
-"""The page of `glint study --output`, driven as a person would: the plot, its points, the pictures
+"""The page of `glint study --output`, driven as by a user: the plot, its points, the pictures
 behind them, the table and the series."""
 
 import csv
@@ -51,7 +51,7 @@ def test_other_models_and_metrics_have_fronts_of_their_own(browser):
 
 def test_names_a_point_under_the_pointer(browser):
     browser.open(_page)
-    # Points lie on each other: the event goes to the one that is meant.
+    # Points overlap, so the event is sent to the one that is meant.
     browser.evaluate(_event("gouraud exact", "mousemove"))
     tip = browser.evaluate("$('tip').textContent")
     assert tip.startswith("gouraud exact\n") and " ms (" in tip and "RMSE" in tip, tip
@@ -65,7 +65,7 @@ def test_click_shows_picture_reference_and_error(browser):
     browser.wait_for("[...document.querySelectorAll('#pictures img')].every(i => i.complete)")
     sizes = browser.evaluate("[...document.querySelectorAll('#pictures img')].map(i => i.naturalWidth)")
     assert sizes == [64, 64, 64], sizes
-    # The error of flat shading shows: the middle of its map is lighter than rounding's black.
+    # The error of flat shading is visible: the middle of its map is lighter than rounding's black.
     light = """(() => { const c = document.createElement('canvas'), i = document.querySelectorAll('#pictures img')[2];
       c.width = c.height = 64; const x = c.getContext('2d'); x.drawImage(i, 0, 0);
       const p = x.getImageData(24, 24, 16, 16).data; let sum = 0; for (let k = 0; k < p.length; k += 4) sum += p[k]; return sum / 256; })()"""
@@ -96,8 +96,8 @@ def test_draws_the_series(browser):
     assert plots == [3, 2, 3, 2, 3, 2, 3, 3, 3, 3, 2], plots
     assert not browser.evaluate("document.body.innerHTML.includes('NaN')")
     assert browser.evaluate("document.querySelectorAll('#specialisation tr').length") == 5
-    # Exact and two cheap lobes of two models with and without the filter, the exact one of three
-    # with more samples.
+    # For two models, the exact lobe and two cheap ones with and without the filter; for three, the
+    # exact one with more samples.
     assert browser.evaluate("document.querySelectorAll('#ways tr').length") == 1 + 2 * 9 + 5
 
 

@@ -1,4 +1,4 @@
-// The series of a study against what is known of them, in small.
+// The series of a study compared with known results, on a small scale.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ class StudySeriesOnGl : public testing::Test {
 };
 
 // Flat shading converges with the first order, interpolated light and interpolated normals with the
-// second. The tolerances are what the pixels of this size leave: triangles of 4 pixels.
+// second. The tolerances allow for the small number of pixels: triangles of 4 pixels.
 TEST_F(StudySeriesOnGl, FinenessShowsTheOrders) {
   const SeriesTools small = tools();
   const StudySeries series = *finenessSeries(small);
@@ -69,8 +69,8 @@ TEST_F(StudySeriesOnGl, IncidenceShowsHowFarBlinnIsOff) {
     EXPECT_LT(line(series, "blinn-phong 4α cos θ").points[i].max, four[i].max);
 }
 
-// Each picture may be off the exact one by 1e-5 + 4e-6 sqrt(alpha) (docs/accuracy.md), alpha = 160
-// of Blinn-Phong.
+// Each picture may be off the exact one by 1e-5 + 4e-6 sqrt(alpha) (docs/accuracy.md), with
+// alpha = 160 for Blinn-Phong.
 TEST_F(StudySeriesOnGl, AShaderWithEverythingGivesTheSamePicture) {
   const SeriesTools small = tools();
   const auto all = specialisations(small);
@@ -81,7 +81,7 @@ TEST_F(StudySeriesOnGl, AShaderWithEverythingGivesTheSamePicture) {
   }
 }
 
-// What is far larger than the error of a form, and what the filter leaves of it. The truth is from
+// Aliasing far larger than the error of a form, and what the filter leaves of it. The truth has
 // 8 x 8 samples, whose own error is far below.
 TEST_F(StudySeriesOnGl, AliasingIsLargerThanAFormsErrorAndIsFilteredAway) {
   const SeriesTools small = tools();
@@ -91,9 +91,9 @@ TEST_F(StudySeriesOnGl, AliasingIsLargerThanAFormsErrorAndIsFilteredAway) {
   EXPECT_GT(at("one sample").max, 5 * at("lyon:8, the form").max);
   EXPECT_LT(at("kaplanyan").rmse, 0.8 * at("one sample").rmse);
   EXPECT_LT(at("ssaa:2").rmse, 0.7 * at("one sample").rmse);
-  // Multisampling shades once for each triangle of a pixel, and here most pixels have several.
+  // Multisampling shades once for each triangle in a pixel, and here most pixels have several.
   EXPECT_LT(at("msaa:4").rmse, at("one sample").rmse);
-  // A highlight of many pixels needs no filter, and is left as it is.
+  // A highlight of many pixels needs no filter, and is unchanged.
   const auto& broad = line(series, "kaplanyan").points.front();
   EXPECT_LT(broad.max, 0.05);
 }
@@ -112,11 +112,11 @@ TEST_F(StudySeriesOnGl, PartsOfAFrameAreSharesOfIt) {
   }
   EXPECT_EQ(names, (std::vector<std::string>{"vertices", "the target", "filling", "highlights",
                                              "other light"}));
-  // But for parts that came out below 0 and are told as 0.
+  // Except for parts that came out below 0 and are reported as 0.
   EXPECT_NEAR(sum, 1, 0.3);
 }
 
-// Smaller pictures of the same highlight are off by more, and more samples by less.
+// Smaller pictures of the same highlight have larger errors, and more samples smaller ones.
 TEST_F(StudySeriesOnGl, AliasingGrowsWithDistance) {
   look_.material[""].exponent = 1000;
   const StudySeries series = *distanceSeries(tools());
@@ -129,9 +129,9 @@ TEST_F(StudySeriesOnGl, AliasingGrowsWithDistance) {
     EXPECT_LT(line(series, "ssaa:2").points[i].rmse, 0.7 * one[i].rmse);
 }
 
-// Bumps smaller than a pixel: the normal map's lengths widen the highlight to what they make of it,
-// where neighbouring pixels' normals know nothing of them. There is no line of it for a model
-// without a normal map.
+// Bumps smaller than a pixel: the normal map's lengths widen the highlight correctly, while
+// neighbouring pixels' normals contain no information about them. A model without a normal map has
+// no such line.
 TEST_F(StudySeriesOnGl, BumpsAreWhatToksvigIsFor) {
   const StudySeries series = *bumpsSeries(tools());
   const auto at = [&](const char* name) { return line(series, name).points.back(); };
@@ -142,8 +142,8 @@ TEST_F(StudySeriesOnGl, BumpsAreWhatToksvigIsFor) {
   EXPECT_THROW(line(*distanceSeries(tools()), "toksvig"), Error);
 }
 
-// Of a model that moves by a part of a pixel the change is off by at most what both pictures are,
-// and by not much less where the highlight is small.
+// If a model moves by part of a pixel, the error of the change is at most the sum of both pictures'
+// errors, and not much less if the highlight is small.
 TEST_F(StudySeriesOnGl, MotionIsTheErrorOfTheChange) {
   look_.cameraOrthographic = true;
   const auto pointAt = [&](const StudySeries& series, double x) {
@@ -154,7 +154,7 @@ TEST_F(StudySeriesOnGl, MotionIsTheErrorOfTheChange) {
   const double change = pointAt(*motionSeries(tools()), 1000).max;
   look_.material[""].exponent = 1000;
   const double before = pointAt(*distanceSeries(tools()), 128).max;
-  // 2 halfHeight over 128 pixels, to the right and up: the camera to the left and down.
+  // 2 halfHeight over 128 pixels, to the right and up: the camera moves to the left and down.
   const Look still = definiteLook(look_, scene_->scene, scene_->bounds);
   const Camera camera = cameraFor(scene_->scene, scene_->bounds, still);
   const glm::dvec3 way =

@@ -1,4 +1,4 @@
-// How a study measures times: the clocks, turns, batches, without GL.
+// How a study measures times: the clocks, alternation, batches, without GL.
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ struct NoTimer : GpuTimer {
   double milliseconds() override { return 0; }
 };
 
-/// A GPU whose time is what draws add to it, told in whole steps from a running clock, as a counter
-/// does: a reading may be off by a step.
+/// A GPU whose time is what draws add to it, reported in whole steps of a running clock, like a
+/// counter: a reading may be off by a step.
 struct FakeTimer : GpuTimer {
   explicit FakeTimer(double step) : step(step) {}
   bool works() const override { return true; }
@@ -34,7 +34,7 @@ struct FakeTimer : GpuTimer {
   double step, now = 0.0123, from = 0, to = 0;
 };
 
-/// Computes until the thread has run for so long.
+/// Computes until the thread has used this much CPU time.
 void work(double milliseconds) {
   const auto run = [] {
     timespec t{};
@@ -46,8 +46,8 @@ void work(double milliseconds) {
   }
 }
 
-// CPU time is what runs, of every thread, whatever else the machine does meanwhile; a frame that
-// waits takes none.
+// CPU time covers every thread, and is independent of other work on the machine; a frame that waits
+// takes none.
 TEST(StudyTimes, CpuTimeIsOfAllThreadsAndOfWorkAlone) {
   const Draws draws{[] { work(20); },
                     [] {
@@ -72,9 +72,9 @@ TEST(StudyTimes, CpuTimeIsOfAllThreadsAndOfWorkAlone) {
   EXPECT_GE(least(times[2].wall), 20);
 }
 
-// A timer that counts in steps of a fiftieth of a frame, or of twenty frames: batches are drawn
-// until the step is lost in the noise. Each reading is off by a step at most, and each frame takes
-// a hundredth more or less than the other, as frames do.
+// A timer with steps of a fiftieth of a frame, or of twenty frames: batches are enlarged until the
+// step is lost in the noise. Each reading is off by at most a step, and frame times differ by a
+// hundredth, as real ones do.
 TEST(StudyTimes, BatchesAreAsLongAsTheGpusTimerNeeds) {
   constexpr double frames[] = {0.05, 0.0503};
   for (const double step : {1e-6, 0.001, 1.0}) {
@@ -92,14 +92,14 @@ TEST(StudyTimes, BatchesAreAsLongAsTheGpusTimerNeeds) {
       for (const double t : times[i].query) EXPECT_NEAR(t / frames[i], 1, most + 0.01) << step;
     }
     if (step < 1e-5) {
-      EXPECT_EQ(drawn, 2 * 30);  // fine enough as it is
+      EXPECT_EQ(drawn, 2 * 30);  // fine enough already
     } else {
       EXPECT_GE(times[0].batch, 10) << step;
     }
   }
 }
 
-// A timer that does not decide changes nothing.
+// A timer that is not the deciding clock changes nothing.
 TEST(StudyTimes, WithoutAGpuAFrameIsMeasuredByItself) {
   FakeTimer timer(1.0);
   const Draws draws{[&] { timer.now += 0.05; }};

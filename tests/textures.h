@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures for textures, with every code known.
+// Pictures for textures, with known codes.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,7 @@
 
 namespace glint::test {
 
-/// An RGBA PNG of 8 bits with these codes, stored without compression; at most 65,535 bytes of
-/// them.
+/// An 8-bit RGBA PNG with these codes, stored without compression; at most 65,535 bytes of them.
 inline std::vector<std::byte> png(int width, int height,
                                   const std::function<glm::ivec4(int x, int y)>& code) {
   std::vector<std::uint8_t> file;

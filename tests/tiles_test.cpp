@@ -54,7 +54,7 @@ TEST(Tiles, FitOneBufferOfTheFirstTilesSize) {
           EXPECT_LE(tile.height, layout.bandHeight);
         }
       EXPECT_LE(layout.tileWidth * layout.scale, 8192);
-      // One row of a tile is the least that can be drawn, whatever it holds.
+      // One row of a tile is the minimum, whatever its number of samples.
       const long samples =
           long(layout.tileWidth) * layout.bandHeight * layout.scale * layout.scale * layout.samples;
       EXPECT_TRUE(samples <= 1 << 21 || layout.bandHeight == 1) << samples;
@@ -71,7 +71,7 @@ TEST(Tiles, HoldTheSamplesThatWereAskedFor) {
   }
 }
 
-// The layout is part of what a picture is: a change changes every picture's last bits.
+// Pictures depend on the layout: changing it changes every picture's last bits.
 TEST(Tiles, AreTheDocumentedOnes) {
   const auto heights = [](glm::ivec2 resolution, const AntiAliasing& antiAliasing) {
     const TileLayout layout = tilesFor(resolution, antiAliasing);
@@ -80,9 +80,9 @@ TEST(Tiles, AreTheDocumentedOnes) {
   // 1024 x 1024 x 4 samples are two bands of 2 Mi.
   EXPECT_EQ(heights({1024, 1024}, antiAliasings[1]), std::pair(std::size_t(2), 512));
   EXPECT_EQ(heights({1024, 1024}, antiAliasings[0]), std::pair(std::size_t(1), 1024));
-  // 1080 rows in at most 1092 a band (2 Mi / 1920): one band.
+  // 1080 rows, with at most 1092 per band (2 Mi / 1920): one band.
   EXPECT_EQ(heights({1920, 1080}, antiAliasings[0]), std::pair(std::size_t(1), 1080));
-  // With 4 samples 273 rows a band at most: four even ones of 270.
+  // With 4 samples at most 273 rows per band: four equal ones of 270.
   EXPECT_EQ(heights({1920, 1080}, antiAliasings[1]), std::pair(std::size_t(4), 270));
 }
 

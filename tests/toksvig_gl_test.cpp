@@ -1,5 +1,5 @@
 // Highlights widened by the lengths of a normal map's normals: the function in GLSL, a closed case,
-// and pictures against the reference.
+// and pictures compared with the reference.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace toksvig_gl_test {
 
 class GlslToksvig : public GlslTest {};
 
-// The exponent is off by two products, a sum and a division (8 u), the peak by two sums and a
-// division more (15 u).
+// The exponent is off by two products, a sum and a division (8 u), the peak by two more sums and a
+// division (15 u).
 TEST_P(GlslToksvig, IsThatInDouble) {
   Column exponents, variances;
   for (double n = 0; n < 4e6; n = 1.3 * n + 0.1)
@@ -57,8 +57,8 @@ class Toksvig : public OnStage {};
 
 constexpr int texels = 64, across = 35;
 
-/// A square that shows a map of ridges: columns that lean by one angle to the right and to the
-/// left.
+/// A square with a map of ridges: columns that lean by one angle alternately to the right and to
+/// the left.
 Scene ridges(double specular, double exponent, double normalScale = 1) {
   Mesh mesh = quad({0, 0, 1}, 1);
   mesh.tangents.assign(4, {1, 0, 0, 1});
@@ -74,13 +74,13 @@ Scene ridges(double specular, double exponent, double normalScale = 1) {
   return scene;
 }
 
-// A pixel of two texels' width shows the first of the smaller levels, each of whose texels is the
-// mean of a column to the right and one to the left: it points to the viewer but for half a code,
-// and says how far both are apart. The lobe is then known: of n' = n / (1 + n v) about that normal.
-// Rounding: of the exact form at 1e-6 (bounds.h), its 1 - N.H by 6.5e-7 times its slope.
+// A pixel two texels wide shows the first mip level, each of whose texels is the mean of a column
+// leaning to the right and one to the left: it points to the viewer except for half a code, and
+// stores their spread. So the lobe is known: n' = n / (1 + n v) about that normal. Rounding: that
+// of the exact form, 1e-6 (bounds.h), and an error of 6.5e-7 in 1 - N.H times the lobe's slope.
 TEST_P(Toksvig, RidgesHaveAKnownLobe) {
-  // 2 texel - 1 in 255ths: of the base +-(2 across + 1), 1, 245; of the mean of 163 and 92, 127.5,
-  // which rounds to 128: 1, 1, 245.
+  // 2 texel - 1 in 255ths: for the base +-(2 across + 1), 1, 245; for the mean of 163 and 92,
+  // 127.5, which rounds to 128: 1, 1, 245.
   const glm::dvec3 base(2 * across + 1, 1, 245), normal = glm::normalize(glm::dvec3(1, 1, 245));
   const double length = std::hypot(base.y, base.z) / glm::length(base);
   for (const double scale : {1.0, 0.5}) {
@@ -117,7 +117,7 @@ TEST_P(Toksvig, RidgesHaveAKnownLobe) {
   }
 }
 
-// Magnified, where texels are the normals themselves, nothing is widened.
+// Under magnification, where texels are the normals themselves, nothing is widened.
 TEST_P(Toksvig, NothingIsWidenedUnderMagnification) {
   const Scene scene = ridges(0.5, 40);
   Look look = parallelLook({0, 0, 1}, 2 * texels);
@@ -127,8 +127,8 @@ TEST_P(Toksvig, NothingIsWidenedUnderMagnification) {
   EXPECT_LE(largestDifference(draw(scene, look), plain), 2e-6);
 }
 
-// Without a normal map there is nothing to say how far normals are apart, and without smaller
-// levels neither; nothing changes, not even the shader.
+// Without a normal map there is no information about spread, nor without mip levels; nothing
+// changes, not even the shader.
 TEST_P(Toksvig, ChangesNothingWithoutSmallerLevels) {
   Scene scene = ridges(0.5, 40);
   Look look = parallelLook({0, 0, 1}, texels / 2);
@@ -145,7 +145,7 @@ TEST_P(Toksvig, ChangesNothingWithoutSmallerLevels) {
   same();
 }
 
-// A scene whose textures are there gets the lengths when a look needs them.
+// A scene with textures already loaded gets the lengths when a look needs them.
 TEST_P(Toksvig, TexturesThatAreThereAreReplaced) {
   Scene scene = ridges(0.5, 40);
   Look look = parallelLook({0, 0, 1}, texels / 2);
@@ -163,10 +163,10 @@ TEST_P(Toksvig, TexturesThatAreThereAreReplaced) {
   EXPECT_EQ(stage().renderer().draw(gpu, bounds, look).values, plain.values);
 }
 
-// What the driver samples is off by some 1e-7 of a code's 0 to 1, in the width w by as much: n' by
-// 2 n w / (1 + n w^2), at most sqrt(n), of it. Its normal is off likewise, and moves the lobe by
-// 0.61 sqrt(n) of that; a level of detail by 2^-21, which is less. So within the bound of the exact
-// form and 4e-7 sqrt(n) for each light, but for edges.
+// The driver's samples are off by some 1e-7 of the range 0 to 1, the width w by as much, and so
+// n' by 2 n w / (1 + n w^2) times that, at most sqrt(n) times. Its normal is off likewise, and
+// moves the lobe by 0.61 sqrt(n) times that; a level of detail by 2^-21, which is less. So the
+// tolerance is the bound of the exact form and 4e-7 sqrt(n) for each light, except at edges.
 TEST_P(Toksvig, AgreesWithTheReference) {
   const Scene scene = bumpySphereScene(materialOf(0.5, 0.5, 0.4, 20).shading);
   const DecodedImages images = bumpyImages();

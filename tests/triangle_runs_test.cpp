@@ -1,4 +1,4 @@
-// What the renderer leaves out must be what nobody can see: judged triangle by triangle, in double.
+// What the renderer skips must be invisible: checked triangle by triangle, in double.
 
 #include "glint/render/triangle_runs.h"
 
@@ -32,7 +32,7 @@ Mesh bumpySphere(int rows, double bump) {
 
 struct Clipped {
   glm::dvec4 corners[3];
-  // All corners beyond one side of the picture.
+  // Whether all corners are beyond one side of the picture.
   bool beside() const {
     for (const int axis : {0, 1})
       for (const double sign : {1.0, -1.0}) {
@@ -42,7 +42,7 @@ struct Clipped {
       }
     return false;
   }
-  // The sign of its area on the screen, however many corners lie behind the eye.
+  // The sign of its area on the screen, with any number of corners behind the eye.
   double orientation() const {
     const auto part = [](const glm::dvec4& c) { return glm::dvec3(c.x, c.y, c.w); };
     return glm::determinant(glm::dmat3(part(corners[0]), part(corners[1]), part(corners[2])));
@@ -97,11 +97,11 @@ TEST(TriangleRuns, HideOnlyWhatNobodySees) {
           << "round " << round << ", triangle " << i / 3;
     }
   }
-  // Half of a sphere shows its back, and half of the pictures show half of it.
+  // Half of a sphere is back faces, and half of the pictures show half of it.
   EXPECT_GT(left, whole / 4);
 }
 
-// Nothing may be left out for want of a number.
+// Triangles with positions that are not numbers must not be skipped.
 TEST(TriangleRuns, ShowWhatCannotBePlaced) {
   const Mesh mesh = bumpySphere(8, 0);
   const double nan = std::nan("");

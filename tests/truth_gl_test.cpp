@@ -1,5 +1,5 @@
-// Whole pictures of the driver against closed forms, and against the reference where that has what
-// they need: pictures of the environment, textures, multisampling.
+// Whole pictures of the driver compared with closed forms, and with the reference where it supports
+// what they need: environment pictures, textures, multisampling.
 
 #include <gmock/gmock.h>
 
@@ -25,7 +25,7 @@ namespace glint::test::truth_gl_test {
 
 class Truth : public OnStage {
  protected:
-  /// Where the driver's samples lie, from the pixel's middle.
+  /// The positions of the driver's samples, relative to the pixel's centre.
   std::vector<glm::dvec2> samples(int count) {
     std::vector<glm::dvec2> all;
     for (const glm::vec2& place : RenderTarget(4, 4, count).samplePositions())
@@ -44,7 +44,7 @@ class Truth : public OnStage {
 
 using Radiance = std::function<glm::dvec3(const glm::dvec3&)>;
 
-// Linear and quadratic in direction; no two axes alike.
+// Linear and quadratic in direction, with no two axes alike.
 glm::dvec3 linear(const glm::dvec3& d) {
   return 0.6 + glm::dvec3(0.3 * d.x + 0.1 * d.y, 0.3 * d.y - 0.1 * d.z, 0.3 * d.z + 0.15 * d.x);
 }
@@ -55,7 +55,7 @@ glm::dvec3 quadratic(const glm::dvec3& d) {
 constexpr int pictureRows = 256;
 constexpr double texel = std::numbers::pi / pictureRows;
 
-// Written once: what was read is not written anew.
+// Written once, because files that were read must not be overwritten.
 std::string pictureOf(const std::string& name, const Radiance& radiance) {
   const std::string path = temporaryFolder() + "/" + name + ".pfm";
   static std::set<std::string> written;
@@ -74,7 +74,7 @@ std::string pictureOf(const std::string& name, const Radiance& radiance) {
   return path;
 }
 
-// What the environment turned by an angle about +Y shows.
+// The direction that an environment rotated by an angle about +Y shows.
 glm::dvec3 turnedBack(const glm::dvec3& d, double angle) {
   const double s = std::sin(-angle * degrees), c = std::cos(-angle * degrees);
   return {c * d.x + s * d.z, d.y, -s * d.x + c * d.z};
@@ -89,9 +89,10 @@ Look mirrorLook(const glm::dvec3& toViewer, const std::string& picture, double t
   return look;
 }
 
-// A mirror and a pane that are looked up at the picture's full size. Bilinear texels are off by h^2
-// / 8 of the second derivatives along both axes, which are at most 0.32 and 1.2; across a pole too,
-// where rows meet those of the other side. Floats add 2e-6 (direction, place and filter).
+// A mirror and a pane with the environment looked up at its full size. Bilinear texels are off by
+// h^2 / 8 times the second derivatives along both axes, which are at most 0.32 and 1.2; also across
+// a pole, where rows meet those of the other side. Floats add 2e-6 (direction, position and
+// filter).
 TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
   const std::pair<Radiance, double> radiances[] = {{linear, 0.32}, {quadratic, 1.2}};
   std::vector<glm::dvec3> directions{{0, 1, 0},         {0, -1, 0}, {1e-4, 1, 0},  {0, 1, -2e-3},
@@ -133,7 +134,7 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
           const glm::dvec3 shown = middle(draw(sceneOf(mesh, mirror), look));
           expectColor(shown, radiance(turnedBack(seen, turn)), tolerance, "mirror");
           mirrored = std::max(mirrored, apart(shown, radiance(turnedBack(seen, turn))));
-          // Glass: the same direction by reflection, another by refraction.
+          // Glass: the same direction by reflection, another one by refraction.
           Material glass = materialOf(0, 0, 0, 1);
           glass.shading.transmission = 1;
           const double r = reflectance(cosine, 1, 1.5);
@@ -153,8 +154,8 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
   }
 }
 
-// A ball of water in glass, part of which reflects totally: the reference and the driver agree in
-// every pixel, whatever its neighbours do.
+// A ball of water in glass with total reflection in part of it: reference and driver agree in every
+// pixel, whatever happens in its neighbours.
 TEST_P(Truth, NeighboursInTotalReflection) {
   Scene scene = loadGltf(GLINT_SOURCE_DIR "/models/sphere.glb");
   for (Material& m : scene.materials) m.shading.transmission = 0.9, m.shading.ior = 1.33;
@@ -176,7 +177,7 @@ TEST_P(Truth, NeighboursInTotalReflection) {
       off += std::max({d.x, d.y, d.z}) > 2e-3;
     }
   EXPECT_GT(covered, 5000);
-  // At the outline, and where the square root at the critical angle takes a rounding's root.
+  // At the outline, and where the square root at the critical angle takes the root of a rounding.
   EXPECT_LE(off, covered / 500);
 }
 
@@ -196,7 +197,7 @@ std::vector<std::byte> png(const std::string& name, int size,
   return readFile(path);
 }
 
-// Of an odd size: its levels have weights that are no halves.
+// With an odd size, so that the levels have weights other than a half.
 Scene texturedQuad(Sampler sampler, double repeats) {
   Material m;
   m.unlit = true;
@@ -214,10 +215,10 @@ Scene texturedQuad(Sampler sampler, double repeats) {
   return scene;
 }
 
-// Noise, enlarged and made smaller, seen straight and aslant, by every pair of filters and every
-// way to wrap: the driver's picture and the reference's agree to 1e-5, and to what the coordinates,
-// floats of at most `repeats` that two roundings have moved, are off by in texels of which
-// neighbours differ by 1.
+// Noise, magnified and minified, frontal and oblique, with every pair of filters and every wrap
+// mode. The driver's and the reference's picture agree to 1e-5, plus the error of the coordinates,
+// which are floats of at most `repeats` with two roundings, in texels, whose neighbours differ by
+// 1.
 TEST_P(Truth, TexturesAreFilteredByTheRule) {
   constexpr std::pair<Filter, Filter> filters[] = {{Filter::nearest, Filter::nearest},
                                                    {Filter::linear, Filter::linear},
@@ -248,7 +249,7 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
             for (int x = 1; x < 63; ++x) {
               const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
               const double most = std::max({d.x, d.y, d.z});
-              // A nearest texel, or a nearest level, may be either of two where both are as near.
+              // A nearest texel, or a nearest level, may be either of two that are equally near.
               const bool jump = (magnify == Filter::nearest || minify == Filter::nearest ||
                                  mip == MipFilter::nearest || color(drawn, x, y) == glm::dvec3(0) ||
                                  color(truth, x, y) == glm::dvec3(0)) &&
@@ -272,8 +273,8 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
   for (const auto& [what, most] : largestOf) std::printf("| %s | %.2e |\n", what.c_str(), most);
 }
 
-// A pixel that one triangle covers as a whole looks as without anti-aliasing: to 1e-6, and as much
-// again where the direction so interpolated is looked up in a picture.
+// A pixel fully covered by one triangle looks the same as without anti-aliasing: to 1e-6, and twice
+// that if the interpolated direction is looked up in a picture.
 TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
   for (const Shading shading :
        {Shading::gouraud, Shading::phong, Shading::blinnPhong, Shading::environment}) {
@@ -286,7 +287,7 @@ TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
     Look plain = look;
     plain.antiAliasing = {AntiAliasing::Mode::none, 1};
     const Image multi = draw(scene, look), single = draw(scene, plain);
-    // Whole: all of the pixel's corners lie in the triangle of its middle.
+    // Fully covered: all of the pixel's corners lie in the triangle at its centre.
     const ReferenceRenderer renderer(scene, {}, boundsOf(scene), plain, 1);
     const auto seen = renderer.attributes(0, 256);
     int whole = 0;
@@ -309,7 +310,8 @@ double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// What pixels differ by from the reference, and at most by how much of what they may.
+/// The number of pixels that differ from the reference, and the largest difference relative to the
+/// allowed one.
 struct Deviation {
   int pixels = 0;
   double most = 0, ofBound = 0;
@@ -320,13 +322,13 @@ struct Deviation {
   }
 };
 
-// Against the reference at the driver's own sample positions, every pixel. One that a single
-// triangle covers is within the bound without anti-aliasing, 1e-5 + 4e-6 sqrt(exponent) (reference_
-// gl_test.cpp). Where edges cross it, the driver rounds vertices to 1/256 of a pixel, by up to
-// 1/512 along either axis, and so every edge: a sample that near to an edge may fall on its other
-// side. The pictures that the reference draws with all samples moved to a corner of that square
-// tell what this changes; the sum over the four corners counts edges that move differently. The
-// rows of docs/accuracy.md.
+// Compared with the reference at the driver's own sample positions, for every pixel. A pixel
+// covered by a single triangle is within the bound without anti-aliasing,
+// 1e-5 + 4e-6 sqrt(exponent) (reference_gl_test.cpp). Where edges cross it, the driver rounds
+// vertices to 1/256 of a pixel, by up to 1/512 along either axis, and so moves every edge: a sample
+// that close to an edge may fall on its other side. Pictures by the reference with all samples
+// moved to a corner of that square show the effect; the sum over the four corners accounts for
+// edges that move differently. The rows of docs/accuracy.md.
 TEST_P(Truth, MultisampledPicturesAgreeWithTheReference) {
   constexpr int size = 128;
   const auto places = samples(4);

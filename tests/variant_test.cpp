@@ -1,4 +1,4 @@
-// Variants: each feature for its reason, and for no other.
+// Shader variants: each feature is used for its reason, and for no other.
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ bool computesPixels(Shading s) {
   return s == Shading::phong || s == Shading::blinnPhong || s == Shading::environment;
 }
 
-// What plainInputs need: one directional light, diffuse and specular, V at each pixel.
+// The variant for plainInputs: one directional light, diffuse and specular, V at each pixel.
 Variant plainVariant(Shading program) {
   Variant v;
   v.program = program;
@@ -487,7 +487,7 @@ const Case cases[] = {
      }},
     {"metal",
      [](VariantInputs& in) {
-       in.look.fresnel = glint::Fresnel::schlick;  // a metal has no index to use it with
+       in.look.fresnel = glint::Fresnel::schlick;  // metals have no index, so this has no effect
        in.material.shading.metalness = 1;
      },
      [](Variant& v, Shading s) {
@@ -515,7 +515,7 @@ TEST(Variants, SwitchEachFeatureForItsReasonAlone) {
       c.change(in);
       Variant expected = plainVariant(program);
       c.expect(expected, program);
-      if (expected.unlit) expected.program = in.variant().program;  // any will do
+      if (expected.unlit) expected.program = in.variant().program;  // any program
       EXPECT_EQ(in.variant(), expected) << c.name << " under " << glint::shadingName(program);
     }
 }
@@ -530,7 +530,7 @@ TEST(Variants, OfUnlitThingsAreTheSameUnderEveryProgram) {
   }
 }
 
-// Numbers, colours, the camera and the picture's size are uniforms: no variant of their own.
+// Numbers, colours, the camera and the resolution are uniforms and do not change the variant.
 TEST(Variants, DoNotDependOnNumbers) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(0.01, 0.99);
@@ -596,7 +596,7 @@ TEST(Similarity, IsRotationAndOneScaleToAMillionth) {
   for (double scale : {1e-300, 1e-20, 1.0, 1e20, 1e300}) {
     EXPECT_TRUE(glint::isSimilarity(turned * scale)) << scale;
     EXPECT_TRUE(glint::isSimilarity(-turned * scale)) << scale;
-    // A scale off by e changes the Gram matrix by 2e of itself: the limit is e = 5e-7.
+    // A relative scale error e changes the Gram matrix by 2e: the limit is e = 5e-7.
     EXPECT_TRUE(
         glint::isSimilarity(glm::dmat3(glint::test::scaling({scale, scale, scale * (1 + 4e-7)}))));
     EXPECT_FALSE(
@@ -612,7 +612,7 @@ TEST(ImagesRead, AreThoseOfTheVariants) {
   material.emissionTexture = glint::Texture{3, 0, {}};
   glint::Scene scene = glint::test::sceneOf(plainInputs().mesh, material);
   scene.images.resize(5);
-  EXPECT_THAT(glint::imagesRead(scene, {}), testing::ElementsAre(1));  // no emission to multiply
+  EXPECT_THAT(glint::imagesRead(scene, {}), testing::ElementsAre(1));  // no emission factor
   scene.materials[0].emission = glm::dvec3(1);
   EXPECT_THAT(glint::imagesRead(scene, {}), testing::ElementsAre(1, 3));
   scene.materials[0].unlit = true;

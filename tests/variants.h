@@ -1,6 +1,6 @@
 #pragma once
 
-// A broad sample of the variants that scenes can ask for.
+// A broad sample of the shader variants that scenes can need.
 
 #include <set>
 
@@ -19,7 +19,7 @@ struct VariantInputs {
   Variant variant() const { return variantFor(mesh, material, world, look, orthographic); }
 };
 
-/// A lit triangle mesh under the default light in perspective, without anything special.
+/// A lit triangle mesh under the default light in perspective, without special features.
 inline VariantInputs plainInputs(Shading program = Shading::phong) {
   VariantInputs in;
   in.mesh = quad();
@@ -40,7 +40,7 @@ inline Light lightOf(Light::Type type) {
   return light;
 }
 
-/// Single features and pairs of neighbours, under each program: some hundred variants.
+/// Single features and some pairs of them, under each program: some hundred variants.
 inline std::set<Variant> sampledVariants() {
   using Change = void (*)(VariantInputs&);
   static constexpr Change changes[] = {
@@ -154,7 +154,7 @@ inline std::set<Variant> sampledVariants() {
         changes[(i + step) % count](in);
         variants.insert(in.variant());
       }
-  // Everything at once.
+  // All features at once.
   for (Shading program : everyShading) {
     VariantInputs in = plainInputs(program);
     for (std::size_t i = 5; i < count; ++i) changes[i](in);

@@ -85,7 +85,7 @@ TEST(ReferenceTask, AResizeWhileOneIsDrawnStartsAgain) {
   EXPECT_NE(task.picture(), abandoned);
   waitFor([&] { return task.picture()->done(); });
   EXPECT_EQ(task.picture()->linear.values, drawn(second).values);
-  EXPECT_LT(abandoned->rows, first.resolution.y);  // given up
+  EXPECT_LT(abandoned->rows, first.resolution.y);  // cancelled
   const auto kept = task.picture();
   task.want(teapot(), second);
   EXPECT_EQ(task.picture(), kept);  // nothing has changed
@@ -110,9 +110,9 @@ TEST(ReferenceTask, DrawsTheExactFormsWithoutMultisampling) {
   EXPECT_EQ(task.picture(), nullptr);
 }
 
-// Two squares one behind the other, seen along the view without perspective. The nearer one ends so
-// close to the right of a column's pixel centres that vertices snapped to 1/256 of a pixel may
-// cover them. What is seen there is the square behind, far from any edge of its own.
+// Two squares, one behind the other, seen along the view without perspective. The nearer one ends
+// so close to the right of a column's pixel centres that vertices snapped to 1/256 of a pixel may
+// cover them. The visible surface there is the square behind, far from any edge of its own.
 std::shared_ptr<const Model> squares(double left) {
   auto model = std::make_shared<Model>();
   model->scene = test::sceneOf(test::quad());
@@ -154,7 +154,7 @@ TEST(ReferenceTask, KnowsWhereANearerSurfaceMayReachASample) {
   }
 }
 
-// A surface is not left out for being steep or finely divided.
+// A surface is not left out for being steep or finely tessellated.
 TEST(ReferenceTask, LeavesOutFewPixelsOfASmoothSurface) {
   Look look = scenes::plainLook(200, 200, Shading::gouraud);
   ReferenceTask task;
@@ -164,8 +164,8 @@ TEST(ReferenceTask, LeavesOutFewPixelsOfASmoothSurface) {
   waitFor([&] { return task.picture()->done(); });
   std::size_t edges = 0;
   for (const std::uint8_t e : task.picture()->edges) edges += e;
-  // 5040 triangles, half of them seen, on a disc of radius 90: each has about 10 pixels and 17 of
-  // outline, of which 1/128 to either side is left out, shared with its neighbours: about 1.3 %.
+  // 5040 triangles, half of them visible, on a disc of radius 90: each has about 10 pixels and 17
+  // of outline, of which 1/128 to either side is left out, shared with its neighbours: about 1.3 %.
   EXPECT_LT(edges, std::size_t(0.03 * 3.14159 * 90 * 90));
 }
 
@@ -177,9 +177,9 @@ TEST(ReferenceTask, KnowsWhereAnotherRasteriserMayShowSomethingElse) {
   const ReferencePicture& p = *task.picture();
   std::size_t edges = 0;
   for (const std::uint8_t e : p.edges) edges += e;
-  EXPECT_GT(edges, 40u);  // about the outline
+  EXPECT_GT(edges, 40u);  // at the outline
   EXPECT_LT(edges, 64u * 48 / 4);
-  EXPECT_FALSE(p.edges[0]);             // background far from anything
+  EXPECT_FALSE(p.edges[0]);             // background far from the model
   EXPECT_FALSE(p.edges[64 * 27 + 30]);  // the middle of the body
 }
 
@@ -225,7 +225,7 @@ TEST(Pace, FindsTheSizeThatIsFastEnough) {
   EXPECT_FALSE(pace.tooSlow());
   pace.drewWhole(400, true);
   EXPECT_TRUE(pace.tooSlow());
-  // Pictures that take 160 ms a million pixels, and 2 ms besides.
+  // Pictures that take 160 ms per million pixels, plus 2 ms.
   double last = 0;
   for (int i = 0; i < 20; ++i) {
     const glm::dvec2 size(pace.faster(look).resolution);
@@ -240,7 +240,7 @@ TEST(Pace, FindsTheSizeThatIsFastEnough) {
 TEST(Pace, DoesNotMakeSmallerWhatThatDoesNotMakeFaster) {
   Pace pace;
   pace.drewWhole(400, false);
-  for (int i = 0; i < 20; ++i) pace.drewFaster(300);  // vertices
+  for (int i = 0; i < 20; ++i) pace.drewFaster(300);  // limited by vertices
   EXPECT_EQ(pace.division(), 1);
 }
 
@@ -249,7 +249,7 @@ TEST(Pace, IsNotMisledByOnePictureThatWasHeldUp) {
   pace.drewWhole(400, false);
   pace.drewFaster(200);
   EXPECT_EQ(pace.division(), 2);
-  pace.drewFaster(220);  // 50, but for another process
+  pace.drewFaster(220);  // 50 without another process
   pace.drewFaster(50);
   EXPECT_EQ(pace.division(), 3);
   pace.drewFaster(24);
@@ -269,10 +269,10 @@ TEST(Pace, GrowsAgainWhereMostOfTheTimeIsNotThePixels) {
   };
   drag(20, 400e-6);
   EXPECT_GT(pace.division(), 3);
-  pace.learnAnew();  // the coarse scene is there
+  pace.learnAnew();  // the coarse scene is ready
   drag(16, 12e-6);
   EXPECT_EQ(pace.division(), 1);
-  drag(16, 40e-6);  // too slow by one division less: tried once, not again and again
+  drag(16, 40e-6);  // one division less is too slow: tried once, not repeatedly
   const int found = pace.division();
   EXPECT_GT(found, 1);
   for (int i = 0; i < 10; ++i) {

@@ -127,7 +127,7 @@ TEST(CameraControl, APivotStaysWhereItIsSeen) {
   setPose(turned, orbited(pose, 40, 25, pivot));
   expectNear(seenAt(turned), first, 1e-12);
   EXPECT_GT(glm::length(*turned.cameraPosition - *look.cameraPosition), 1);
-  // About the focal point it is the same as without.
+  // About the focal point the result is the same as without a pivot.
   setPose(turned, orbited(pose, 40, 25, pose.focalPoint));
   setPose(look, orbited(pose, 40, 25));
   expectNear(*turned.cameraPosition, *look.cameraPosition, 1e-12);
@@ -166,7 +166,7 @@ TEST(Picker, PassesThroughWhatIsNotDrawn) {
   EXPECT_TRUE(both->backFace);
   scene.materials[0].doubleSided = true;
   EXPECT_TRUE(Picker(scene).pick(scene, fromBehind, false));
-  // A mirrored instance turns its faces round.
+  // Mirroring an instance reverses its faces.
   scene = square();
   scene.instances[0].world[2][2] = -1;
   EXPECT_TRUE(Picker(scene).pick(scene, fromBehind, false));

@@ -7,7 +7,7 @@
 namespace glint::viewer {
 namespace viewer_choice_test {
 
-// A ball whose picture is round enough for gouraud without a highlight.
+// A ball whose picture is accurate enough with gouraud if there is no highlight.
 struct Ball {
   Scene scene = test::sceneOf(test::sphere(48, 24), test::materialOf(0.1, 0.8, 0.5, 20));
   Bounds bounds = boundsOf(scene);
@@ -60,7 +60,7 @@ TEST(ViewerChoice, OfAnotherCameraServesWhileSomethingMoves) {
   ball.look.cameraAzimuthAngle = 30;
   EXPECT_EQ(ball.choose(true), first);
   EXPECT_NE(ball.choose(false), first);
-  // An edit is chosen for at once, and for the size of the whole picture.
+  // An edit triggers a choice at once, and for the size of the whole picture.
   ball.look.material[""].diffuse = 0.3;
   const auto edited = ball.choose(true);
   EXPECT_NE(edited, first);

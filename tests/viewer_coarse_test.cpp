@@ -14,7 +14,8 @@ using std::numbers::pi;
 
 const std::atomic<bool> goOn = false;
 
-// A unit sphere of rows x 2 rows x 2 triangles, every vertex its own normal and texture coordinate.
+// A unit sphere of rows x 2 rows x 2 triangles; each vertex has its own normal and texture
+// coordinate.
 Mesh ball(int rows, int material) {
   Mesh mesh;
   mesh.material = material;
@@ -82,11 +83,11 @@ TEST(Coarse, IsTheSameSceneOfFewerTriangles) {
     ASSERT_FALSE(mesh.indices.empty());
     for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
     for (std::size_t k = 0; k < mesh.positions.size(); ++k)
-      ASSERT_EQ(mesh.positions[k], mesh.normals[k]);  // vertices stay together with what they have
+      ASSERT_EQ(mesh.positions[k], mesh.normals[k]);  // vertices keep their attributes
   }
-  EXPECT_EQ(coarse->meshes[1].indices, scene.meshes[1].indices);  // so few stay as they are
-  // Still a closed ball: an inscribed polyhedron of 2,000 triangles has 99.7 % of its area; what
-  // is clustered, not fitted, loses some.
+  EXPECT_EQ(coarse->meshes[1].indices, scene.meshes[1].indices);  // small meshes are unchanged
+  // Still a closed ball: an inscribed polyhedron of 2,000 triangles has 99.7 % of its area;
+  // clustering, which does not fit the surface, loses some.
   EXPECT_NEAR(areaOf(coarse->meshes[0]) / (4 * pi), 1, 0.05);
   const Bounds a = boundsOf(scene), b = boundsOf(*coarse);
   EXPECT_NEAR(a.radius, b.radius, 0.05);
@@ -124,11 +125,11 @@ TEST(FewerLights, BringAsMuchLightFromAsManyWays) {
     way += light.direction;
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(before[c], after[c], 1e-12);
-  EXPECT_LT(std::hypot(way.x, way.y) / 8, 0.3);  // from all around, as before
+  EXPECT_LT(std::hypot(way.x, way.y) / 8, 0.3);  // from all directions, as before
   EXPECT_EQ(fewer.shading, look.shading);
 }
 
-// Equal ways, whose cosine rounds to above 1, and intensities that make that much.
+// Equal directions, whose cosine rounds to above 1, and intensities for which that matters.
 TEST(FewerLights, MayAllShineFromOnePlace) {
   const Scene scene = balls();
   for (int i = 0; i < 100; ++i) {
@@ -151,7 +152,7 @@ TEST(FewerLights, MayAllShineFromOnePlace) {
 TEST(FewerLights, CountWhatArrives) {
   const Scene scene = balls();
   const Bounds bounds = boundsOf(scene);
-  // Far away and strong, near and weak: both bring 1 from the same side. And a weak one between.
+  // Far and strong, near and weak: both bring 1 from the same side. And a weak one between them.
   Light far, near, dim;
   for (Light* light : {&far, &near, &dim}) {
     light->type = Light::Type::point;
@@ -174,7 +175,7 @@ TEST(FewerLights, CountWhatArrives) {
     arriving += light.intensity.r / (distance * distance);
   }
   EXPECT_NEAR(arriving, 2.5, 1e-9);
-  EXPECT_EQ((*two.light)[1], dim);  // from the other side, so it stays itself
+  EXPECT_EQ((*two.light)[1], dim);  // on the other side, so it is kept
   const Look one = withFewerLights(scene, bounds, look, 1);
   EXPECT_EQ(one.light->size(), 1u);
 }

@@ -65,7 +65,7 @@ TEST(History, EachEditWhileAnAnimationPlaysIsAStepAndTimeIsNone) {
     frames(10);
     EXPECT_EQ(history.undoSteps(), std::size_t(edit));
   }
-  // It plays on while edits are taken back.
+  // Playing continues while edits are undone.
   ASSERT_TRUE(history.undo(now, true));
   EXPECT_EQ(now.a.material["paint"].exponent, 2);
   EXPECT_EQ(now.a.animationTime, time);
@@ -73,7 +73,7 @@ TEST(History, EachEditWhileAnAnimationPlaysIsAStepAndTimeIsNone) {
   ASSERT_TRUE(history.redo(now, true));
   EXPECT_EQ(now.a.material["paint"].exponent, 3);
   EXPECT_EQ(now.a.animationTime, time);
-  // That it has played is one step, when it stops.
+  // When it stops, the playing becomes one step.
   history.settle(now, false);
   EXPECT_EQ(history.undoSteps(), 4u);
   ASSERT_TRUE(history.undo(now));
@@ -140,7 +140,7 @@ TEST(InputQueue, PressAndReleaseComeInFramesOfTheirOwn) {
     for (const InputEvent& e : frame) presses += e.kind == InputEvent::Kind::button && e.down;
     ASSERT_EQ(frame.size(), 1u);
   }
-  EXPECT_EQ(sizes.size(), 7u);  // the two motions are one
+  EXPECT_EQ(sizes.size(), 7u);  // the two motions become one
   EXPECT_EQ(presses, 3);
 }
 

@@ -1,5 +1,5 @@
-"""A viewer in a real window under Xvfb, with the hands and eyes of a person: xdotool and the X server's
-pixels. Nothing is waited for by time alone: the machine may be busy."""
+"""A viewer in a real window under Xvfb, operated with xdotool and observed through the X server's
+pixels. No wait relies on time alone, because the machine may be busy."""
 
 import json
 import os
@@ -33,7 +33,7 @@ def pixels_of(png):
 
 
 def pfm_pixel(data, x, y):
-    """The colour at a place of a PFM, whose rows begin at the bottom."""
+    """The colour at a position in a PFM, whose rows start at the bottom."""
     kind, size, scale, values = data.split(b"\n", 3)
     assert kind == b"PF" and float(scale) < 0
     width, height = map(int, size.split())
@@ -41,7 +41,7 @@ def pfm_pixel(data, x, y):
 
 
 class Viewer:
-    """A display, a window on it, and a folder of its own with a copy of the model."""
+    """A display, a window on it, and a separate folder with a copy of the model."""
 
     screen = (1400, 840)
     top = 20     # pixels at scale 1: the menu, below which the picture begins
@@ -115,11 +115,11 @@ class Viewer:
             self.process.wait()
 
     def told(self):
-        """What it has written to the terminal."""
+        """The terminal output so far."""
         with open(self.errors) as file:
             return file.read()
 
-    # Hands and eyes.
+    # Input and screen.
 
     def xdotool(self, *arguments, check=True):
         done = subprocess.run(["xdotool", *arguments], env=self.environment, capture_output=True,
@@ -169,7 +169,7 @@ class Viewer:
         return last
 
     def shows(self, size, expected, what):
-        """Waits until the picture is `expected`."""
+        """Waits until the window shows the picture `expected`."""
         shown = []
 
         def same():
@@ -186,10 +186,10 @@ class Viewer:
         return b"".join(screen[y * across:y * across + 3 * size[0]]
                         for y in range(self.top, self.top + size[1]))
 
-    # What a person can ask for.
+    # User actions.
 
     def save_look(self):
-        """Ctrl+S; the first time the name that is offered is taken."""
+        """Ctrl+S; the first time, accepts the name that is offered."""
         path = os.path.join(self.folder, os.path.splitext(os.path.basename(self.model))[0]
                             + "_1.json")
         before = os.stat(path).st_mtime_ns if os.path.exists(path) else None
@@ -205,7 +205,8 @@ class Viewer:
             return json.load(file), path
 
     def render(self, *options, ending="png"):
-        """What glint render draws with these options: bytes of RGB for a PNG, else the file's."""
+        """What glint render draws with these options: RGB bytes for a PNG, otherwise the file's
+        bytes."""
         out = os.path.join(self.folder, "offscreen." + ending)
         subprocess.run([GLINT, "render", self.model, *options, "-o", out], check=True,
                        cwd=self.folder)
@@ -215,8 +216,8 @@ class Viewer:
         return pixels_of(out)
 
     def picture(self):
-        """The window's picture, checked against glint render of the saved look. Returns its bytes
-        and the look."""
+        """Checks the window's picture against glint render of the saved look. Returns its bytes and
+        the look."""
         look, path = self.save_look()
         self.move(20, 20)
         drawn = self.render("--look", path)
@@ -240,9 +241,9 @@ ROW = {"ambient": 340, "diffuse": 365, "specular": 390, "exponent": 415, "metaln
 SLIDER = (PANEL_LEFT + 172, PANEL_LEFT + 352)
 
 
-# Rows of other tabs at scale 1, as in the panel: where a slider of theirs stands.
-TIME = 240           # tab Picture, of a model that is animated
-INTENSITY = 249      # tab Lights, three lights of which a directional one is selected
+# Rows in other tabs at scale 1, as in the panel: the height of a slider there.
+TIME = 240           # tab Picture, for an animated model
+INTENSITY = 249      # tab Lights, for three lights of which a directional one is selected
 
 
 def drag_slider(viewer, name, start, end):
@@ -257,9 +258,9 @@ def columns(picture, size, first, last, top=40, bottom=40):
 
 
 def run(tests):
-    """Runs the functions test_... of a module's globals, given GLINT GLINT_VIEWER MODELS [TEST...] on
-    the command line: all, or those named. Returns the exit status: 77 (skipped) if Xvfb, xdotool or
-    ImageMagick are missing."""
+    """Runs the functions test_... in a module's globals, given GLINT GLINT_VIEWER MODELS [TEST...]
+    on the command line: all, or those named. Returns the exit status: 77 (skipped) if Xvfb, xdotool
+    or ImageMagick is missing."""
     global GLINT, VIEWER
     GLINT, VIEWER, models = (os.path.abspath(path) for path in sys.argv[1:4])
     tests.update(GLINT=GLINT, VIEWER=VIEWER, MODELS=models,

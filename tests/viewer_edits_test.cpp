@@ -33,7 +33,7 @@ TEST(Actions, EachHasAKeyOfItsOwn) {
     ++keys[keyText(info)];
   }
   for (const auto& [key, uses] : keys) EXPECT_EQ(uses, 1) << key;
-  // Those that do the same as another, and what closes.
+  // Synonyms of other keys, and the key that closes.
   for (const char* taken : {"H", "F1", "Ctrl+Y"}) EXPECT_FALSE(keys.contains(taken)) << taken;
   EXPECT_FALSE(std::ranges::any_of(actions(), [](const ActionInfo& i) { return i.key == 256; }));
 }
@@ -55,7 +55,7 @@ Session session(const char* model = "preview.glb") {
   return s;
 }
 
-// Every action that edits the look changes it, or says why it does not.
+// Every action that edits the look changes it, or reports why it does not.
 TEST(Edits, EachDoesSomethingOrSaysWhyNot) {
   int edits = 0;
   for (const char* model : {"preview.glb", "bend.glb", "lights.glb"})
@@ -114,13 +114,14 @@ TEST(Edits, MaterialsAreSelectedInTurn) {
     seen.insert(s.material);
     edit(s, Action::nextMaterial);
   }
-  EXPECT_EQ(seen.size(), count + 1);  // and all of them
+  EXPECT_EQ(seen.size(), count + 1);  // plus the entry for all materials
   edit(s, Action::previousMaterial);
   edit(s, Action::nextMaterial);
   EXPECT_EQ(s.material, -1);
 }
 
-// Each file has animations of its own; nor does what a look says of one hold for another.
+// Each file has its own animations, and a look's animation settings do not carry over to another
+// file.
 TEST(Session, AnotherModelBeginsAtRest) {
   Session s = session("bend.glb");
   s.document.a.animation = "0";
@@ -144,7 +145,8 @@ TEST(Session, WhatTheModelDoesNotHaveIsTold) {
   EXPECT_EQ(s.document.a, Look());
 }
 
-// Somebody saves the look while it is being edited here: theirs comes, ours stays and is not saved.
+// Another program saves the look while it is being edited here: its changes apply; ours stay,
+// unsaved.
 TEST(Session, EditsStayWhenTheLookChangesOnDisk) {
   const std::string path = testing::TempDir() + "glint-look-" + std::to_string(getpid()) + ".json";
   const auto write = [&](const Look& look) { std::ofstream(path) << saveLook(look); };
@@ -168,7 +170,7 @@ TEST(Session, EditsStayWhenTheLookChangesOnDisk) {
   EXPECT_TRUE(s.unsaved());
   EXPECT_THAT(s.status, HasSubstr("your edits stay"));
 
-  // What was changed in both places stays as it is here; without edits all of it is theirs.
+  // Values changed in both places stay as here; without edits the file's look applies entirely.
   disk.ambientLight = glm::dvec3(0.25);
   write(disk);
   s.reloadLook();
@@ -180,7 +182,7 @@ TEST(Session, EditsStayWhenTheLookChangesOnDisk) {
   EXPECT_FALSE(s.unsaved());
   EXPECT_EQ(s.document.a, disk);
 
-  // A file that is being written, or broken, changes nothing.
+  // A file that is incomplete or broken changes nothing.
   std::ofstream(path) << "{";
   EXPECT_THROW(s.reloadLook(), InputError);
   EXPECT_EQ(s.document.a, disk);
@@ -197,7 +199,7 @@ TEST(Edits, TimeStaysWithinTheAnimation) {
   EXPECT_EQ(*s.document.a.animationTime, animationDuration(s.model->scene, s.document.a));
 }
 
-// The picture stays: intensities, fall-off and all, and so it is after saving.
+// The picture is unchanged, including intensities and fall-off, and also after saving.
 TEST(LightEdit, TheFilesLightsBecomeOwnAsTheyAre) {
   Session s = session("lights.glb");
   Look& look = s.document.a;

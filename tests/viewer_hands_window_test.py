@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Drives glint-viewer in a real window under Xvfb: the palette and the menu, the keyboard alone, typed
-numbers, the wheel, files that are dropped or deleted.
+"""Drives glint-viewer in a real window under Xvfb: the palette and the menu, keyboard-only use,
+typed numbers, the wheel, and files that are dropped or deleted.
 
     viewer_hands_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
 """
@@ -20,12 +20,12 @@ MATERIAL = "Glazed ceramic"
 
 
 def values(viewer):
-    """What the look that is saved says of the teapot's material."""
+    """The teapot material's entries in the saved look."""
     return viewer.save_look()[0].get("material", {}).get(MATERIAL, {})
 
 
 def type_at(viewer, row, text):
-    """Ctrl+click on a slider and a text in place of what stands there."""
+    """Ctrl+clicks a slider and types a text over its value."""
     viewer.move(SLIDER[0] + 60, ROW[row])
     viewer.xdotool("keydown", "ctrl", "click", "1", "keyup", "ctrl")
     viewer.settled()
@@ -48,7 +48,7 @@ def test_the_palette_finds_and_does():
         viewer.key("ctrl+p")
         viewer.settled()
         viewer.xdotool("type", "--delay", "20", "first view again")
-        viewer.key("Escape")  # does nothing
+        viewer.key("Escape")  # has no effect
         assert viewer.picture()[0] == top
         assert viewer.alive()
 
@@ -73,10 +73,10 @@ def test_the_menu_is_worked_by_keys_and_mouse():
 
 def test_tab_never_opens_a_text():
     with Viewer(TEAPOT) as viewer:
-        viewer.key("b", "shift+a")  # B is kept, A alone is shown
+        viewer.key("b", "shift+a")  # B is kept, only A is shown
         drag_slider(viewer, "diffuse", 0.4, 0.9)
         a, _ = viewer.picture()
-        viewer.key("Tab")  # B in place of A
+        viewer.key("Tab")  # B instead of A
         wait_for("B", lambda: viewer.crop(viewer.capture(), (1000, 700)) != a[:3000 * 700])
         viewer.key("Tab", "7", "Return", "p")
         _, look = viewer.picture()
@@ -90,7 +90,7 @@ def test_numbers_as_people_type_them():
             type_at(viewer, "diffuse", text)
             viewer.key("Return")
             assert abs(values(viewer)["diffuse"] - value) < 1e-15, (text, values(viewer))
-        type_at(viewer, "diffuse", "1e9")  # above what the table allows
+        type_at(viewer, "diffuse", "1e9")  # above the allowed maximum
         viewer.key("Return")
         shown = viewer.settled()
         at = 3 * (viewer.screen[0] * ROW["diffuse"] + SLIDER[1] - 8)
@@ -99,7 +99,7 @@ def test_numbers_as_people_type_them():
         viewer.key("Escape")
         assert values(viewer)["diffuse"] == 2.5, "a value out of range was taken"
         type_at(viewer, "exponent", "abc")
-        viewer.click(400, 700)  # elsewhere: what cannot be read is told, and leaves the value
+        viewer.click(400, 700)  # elsewhere: an invalid text is reported, and the old value stays
         wait_for("the message", lambda: "'abc'" in viewer.told())
         assert "exponent" not in values(viewer)
 
@@ -112,7 +112,7 @@ def test_by_the_keyboard_alone():
         assert turned != first and "camera-position" in look
         viewer.key("Return")
         assert viewer.picture()[0] == first
-        # From the slider that was touched last the ring goes on to the next one.
+        # From the slider touched last, the ring moves on to the next one.
         viewer.click(int(SLIDER[0] + 0.2 * (SLIDER[1] - SLIDER[0])), ROW["exponent"])
         viewer.key("Down")
         viewer.settled()
@@ -128,7 +128,7 @@ def test_by_the_keyboard_alone():
         viewer.settled()
         viewer.key("BackSpace")
         assert "metalness" not in values(viewer), (before, values(viewer))
-        viewer.key("Escape")  # the ring goes, the window stays
+        viewer.key("Escape")  # the ring disappears, the window stays
         viewer.settled()
         viewer.key("7")
         assert viewer.picture()[0] != first and viewer.alive()
@@ -157,11 +157,11 @@ def test_a_background_click_keeps_the_selection_and_double_click_sets_the_pivot(
         viewer.picture()
         viewer.click(520, 430)
         time.sleep(0.6)
-        viewer.click(520, 430, repeat=2)  # the point to turn about
+        viewer.click(520, 430, repeat=2)  # sets the pivot
         viewer.settled()
         viewer.drag(300, 300, 360, 300)
         turned = viewer.save_look()[0]
-        viewer.key("Return")  # the pivot goes too
+        viewer.key("Return")  # removes the pivot, too
         viewer.drag(300, 300, 360, 300)
         middle = viewer.save_look()[0]
         assert math.dist(turned["camera-focal-point"], middle["camera-focal-point"]) > 1e-3
@@ -177,7 +177,7 @@ def test_environments_and_measured_materials_are_dropped():
         viewer.x.drop(viewer.window, ["file://" + hdr], 400, 300)
         viewer.settled()
         assert viewer.save_look()[0]["hdri-file"].endswith("room.EXR")
-        # A measured material that is diffuse with a highlight (cos of the half vector)^400.
+        # A measured material: diffuse with a highlight (cos of the half vector)^400.
         bins = (90, 10, 12)
         channels = []
         for scale, color in ((1 / 1500, 0.5), (1.15 / 1500, 0.25), (1.66 / 1500, 0.125)):
@@ -193,7 +193,7 @@ def test_environments_and_measured_materials_are_dropped():
         viewer.key("p", "shift+f")  # Blinn's lobe, fitted
         viewer.settled()
         found = values(viewer)
-        assert 60 < found["exponent"] < 140, found  # Blinn's is four times that
+        assert 60 < found["exponent"] < 140, found  # Blinn's is four times this
         red, green, blue = (found["diffuse"] * c for c in found["color"])
         assert abs(red - 0.5) < 0.1 and abs(green - 0.25) < 0.06 and abs(blue - 0.125) < 0.04, found
 
@@ -204,7 +204,7 @@ def test_a_light_is_dragged_switched_off_and_on():
         assert "light" not in look
         viewer.key("o")  # handles
         viewer.settled()
-        # The default light at (-0.5, 0.7, 1) of the eye, on the ball about the model.
+        # The default light at (-0.5, 0.7, 1) in eye space, on the ball around the model.
         length = math.sqrt(0.25 + 0.49 + 1)
         x, y, z = -0.5 / length, 0.7 / length, 1 / length
         angle = math.radians(15)
@@ -235,7 +235,7 @@ def test_a_preset_of_ones_own_is_kept_shown_and_taken():
         viewer.key("m")
         metal, _ = viewer.picture()
         assert metal != first
-        viewer.click(PANEL_LEFT + 30, ROW["preset"])  # the list of presets, whose first row is that one
+        viewer.click(PANEL_LEFT + 30, ROW["preset"])  # the list of presets, the user's own first
         viewer.settled()
         viewer.move(PANEL_LEFT + 40, ROW["preset"] - 367)
         viewer.shows(size, first, "the picture with the preset under the pointer")

@@ -1,4 +1,4 @@
-"""A window on a model that is made for it, with what a person does again and again."""
+"""A window with a model made for it, and the actions that users repeat."""
 
 import os
 import shutil
@@ -6,7 +6,7 @@ import tempfile
 
 from viewer_driver import ROW, SLIDER, Viewer, wait_for
 
-LINE = 19  # pixels at scale 1, of a list
+LINE = 19  # height of a list line, pixels at scale 1
 
 
 class Job(Viewer):
@@ -17,11 +17,11 @@ class Job(Viewer):
             super().__init__(path, *options, **others)
         finally:
             shutil.rmtree(folder)
-        # The list of materials has a line for all, and one for each up to five.
+        # The list of materials has a line for all, and one for each, up to five.
         self.below = LINE * (min(materials + 1, 6) - 2)
 
     def say(self, *words):
-        """Has the palette do something."""
+        """Runs palette commands."""
         for each in words:
             self.key("ctrl+p")
             self.settled()
@@ -38,7 +38,7 @@ class Job(Viewer):
         self.settled()
 
     def set(self, row, text):
-        """Types a value of the selected material."""
+        """Types a value for a parameter of the selected material."""
         self.move(SLIDER[0] + 60, ROW[row] + self.below)
         self.xdotool("keydown", "ctrl", "click", "1", "keyup", "ctrl")
         self.settled()
@@ -48,7 +48,7 @@ class Job(Viewer):
         self.settled()
 
     def answer(self, text=None):
-        """Enter in a dialog, with a name if one is given."""
+        """Presses Enter in a dialog, after typing a name if one is given."""
         self.settled()
         if text is not None:
             self.key("ctrl+a")

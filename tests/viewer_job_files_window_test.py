@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whole jobs of a working day in a real window under Xvfb, as in viewer_jobs_window_test.py: those
-about files.
+"""Complete tasks of a user in a real window under Xvfb, like viewer_jobs_window_test.py: those with
+files.
 
     viewer_job_files_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
 """
@@ -83,7 +83,7 @@ def test_job_damaged_files():
             wait_for("a message about " + name, lambda: job.told().count("\n") > told or
                      name == "noise.hdr")
             job.settled()
-            if name == "noise.hdr":  # becomes the environment, which phong does not read
+            if name == "noise.hdr":  # becomes the environment, which phong does not use
                 job.key("ctrl+z")
                 told = job.told().count("\n")
                 continue

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whole jobs of a working day in a real window under Xvfb, each from opening a model to its
-result: materials, lights, comparisons, animations, models of all sizes. Those about files are in
+"""Complete tasks of a user in a real window under Xvfb, each from opening a model to its result:
+materials, lights, comparisons, animations, models of all sizes. Those with files are in
 viewer_job_files_window_test.py.
 
     viewer_jobs_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
@@ -18,7 +18,7 @@ import viewer_models
 from viewer_driver import PANEL_LEFT, wait_for
 from viewer_job import Job
 
-TEXTURE = 610  # the row of a material's first texture, where there are two materials
+TEXTURE = 610  # the row of a material's first texture in a model with two materials
 
 
 def test_job_a_helmet_is_painted():
@@ -32,7 +32,7 @@ def test_job_a_helmet_is_painted():
         assert visor != first
         assert look["material"] == {"Visor": {"exponent": 200, "specular": 0.75}}, look["material"]
         job.select("shell")
-        job.key("m")  # gold: times the colours of the picture, until that is switched off
+        job.key("m")  # gold: multiplied by the texture's colours until it is switched off
         tinted, look = job.picture()
         assert look["material"]["Shell"]["metalness"] == 1, look["material"]
         job.say("next preset")
@@ -56,11 +56,11 @@ def test_job_lights_are_set():
         two, look = job.picture()
         dark = [text for text in look["light"] if text.endswith(":0,0,0")]
         assert len(dark) == 1, look["light"]
-        job.key("z", "shift+z")  # it alone
+        job.key("z", "shift+z")  # solo
         _, look = job.picture()
         dark = [text for text in look["light"] if text.endswith(":0,0,0")]
         assert len(dark) == 2, look["light"]
-        job.key("shift+z", "l")  # all, brighter
+        job.key("shift+z", "l")  # all on, brighter
         bright, look = job.picture()
         assert len(set((first, two, bright))) == 3
         assert not [text for text in look["light"] if text.endswith(":0,0,0")], look["light"]
@@ -84,7 +84,7 @@ def test_job_two_looks_are_compared():
         middle = lambda whole: viewer_driver.columns(whole, size, 0, size[0])
         wait_for("the difference, 32 times", lambda: middle(
             job.crop(job.capture(), size)) == middle(expected))
-        job.key("shift+b", "shift+a")  # exchanged: A is what it was
+        job.key("shift+b", "shift+a")  # swapped: A is as before
         assert job.picture()[0] == a
 
 
@@ -102,7 +102,7 @@ def test_job_an_animation_is_looked_through():
         with open(job.path("offscreen.png"), "rb") as file:
             assert still == file.read()
         job.key("shift+b")
-        assert job.picture()[0] == bent  # B's moment
+        assert job.picture()[0] == bent  # B's time
 
 
 def test_job_glass_in_an_environment():
@@ -169,7 +169,7 @@ def many_parts(path):
 
 def test_job_a_model_of_many_parts():
     with Job(many_parts, materials=120) as job:
-        job.below += 25  # the button that finds a material
+        job.below += 25  # the height of the button that finds a material
         first, _ = job.picture()
         job.select("#37")
         job.set("specular", "2")
@@ -193,7 +193,7 @@ def test_job_a_model_of_many_parts():
 
 
 def test_job_a_heavy_model_is_turned():
-    """Faster than its triangles are drawn, and exact where the hand rests."""
+    """Dragging is faster than drawing all triangles, and the picture at rest is exact."""
     def sphere(path):
         folder = os.path.dirname(path)
         os.rename(viewer_models.scale_models.sphere_model(folder, 2000000), path)
@@ -203,7 +203,7 @@ def test_job_a_heavy_model_is_turned():
         first, look = job.picture()
 
         def cost(*options):
-            """Seconds of processor time that glint render takes."""
+            """The processor time of glint render, in seconds."""
             before = os.times()
             subprocess.run([GLINT, "render", job.model, "--look", job.path("model_1.json"),
                             "--anti-aliasing", "none", "-o", job.path("{frame}.pfm"), *options],
@@ -220,7 +220,7 @@ def test_job_a_heavy_model_is_turned():
         job.xdotool("mousedown", "1")
 
         def light():
-            """Whether a picture that is seen takes well less than that."""
+            """Whether a frame on the screen takes well below that."""
             begin, seen, pictures, i = ticks(), None, 0, 0
             end = time.monotonic() + 2
             while time.monotonic() < end or pictures < 5:
@@ -272,7 +272,7 @@ def test_job_everything_is_taken_back_and_done_again():
         for act in acts:
             act()
             job.move(20, 20)
-            # The whole picture comes up to 0.6 s after the hand rests.
+            # The whole picture appears up to 0.6 s after the drag rests.
             seen.append(job.crop(job.settled(quiet=0.8), (900, 700)))
         last, look = job.picture()
         for _ in acts:

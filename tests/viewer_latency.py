@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Measures glint-viewer under Xvfb: how long from its start to the first picture, beside a whole `glint
-render` of the same; how long from a move of a slider to the changed picture on the screen, from a move
-of the camera and of an animation's time likewise; how many pictures a second follow a dragged camera;
-and what the window takes of a core at rest.
+"""Measures glint-viewer under Xvfb: the time from its start to the first picture, compared with a
+whole `glint render` of the same; the time from moving a slider, the camera or the animation's time
+to the changed picture on the screen; how many pictures per second follow a dragged camera; and the
+share of a core used at rest.
 
     viewer_latency.py GLINT GLINT_VIEWER MODELS [MODEL.glb [ANIMATED.glb]]
 
-A move is put into the X server at one moment (XTest); then the pixels are read again and again until
-they differ. What is measured so holds everything: event, panel, drawing, read-back, upload, X.
+A move is sent to the X server at a known time (XTest); then the pixels are polled until they
+differ. So the measurement includes everything: event, panel, drawing, read-back, upload, X.
 """
 
 import ctypes
@@ -75,7 +75,7 @@ def measure_time(tester, model):
 
 
 def pictures_a_second(viewer, tester, region, seconds=6):
-    """While the camera is dragged in a circle without a pause."""
+    """Pictures per second while the camera is dragged in a circle without a pause."""
     display = ctypes.c_void_p(viewer.x.display)
 
     def move(angle):
@@ -98,7 +98,7 @@ def pictures_a_second(viewer, tester, region, seconds=6):
     finally:
         tester.XTestFakeButtonEvent(display, 1, 0, 0)
         viewer.x.x.XSync(viewer.x.display, 0)
-    half = [t for t in changes if t > begin + seconds / 3]  # the first ones find the pace
+    half = [t for t in changes if t > begin + seconds / 3]  # the first frames adapt the pace
     gaps = sorted(b - a for a, b in zip(half, half[1:]))
     print(f"pictures a second while the camera is dragged: {(len(half) - 1) / (half[-1] - half[0]):.1f}"
           f" (gaps: median {1000 * statistics.median(gaps):.0f} ms, longest {1000 * gaps[-1]:.0f} ms)",
@@ -106,7 +106,8 @@ def pictures_a_second(viewer, tester, region, seconds=6):
 
 
 def measure_first(viewer, rounds=5):
-    """Seconds from the start of a process to its first picture, and of glint render, in turn."""
+    """Seconds from the start of a process to its first picture, and of glint render,
+    alternating."""
     viewer.kill()
     size = (viewer.screen[0] - viewer.panel, viewer.screen[1] - 60)
     out = os.path.join(viewer.folder, "first.png")
@@ -120,7 +121,7 @@ def measure_first(viewer, rounds=5):
         process = subprocess.Popen([window.VIEWER, viewer.model], cwd=viewer.folder,
                                    env=viewer.environment, stderr=subprocess.DEVNULL)
         try:
-            while len(set(viewer.x.capture(450, 440, 60, 60))) < 9:  # below what is told there
+            while len(set(viewer.x.capture(450, 440, 60, 60))) < 9:  # below the messages there
                 assert time.perf_counter() - begin < 60, "no picture"
                 time.sleep(0.002)
             shown.append(time.perf_counter() - begin)
@@ -156,7 +157,7 @@ def main():
         camera = [(400 + 4 * i, 350 + 2 * (i % 2)) for i in range(1, 60)]
         tell("camera to picture", moves(viewer, tester, (400, 350), camera, body))
         pictures_a_second(viewer, tester, body)
-        if one_material(model):  # the row is that of such a model
+        if one_material(model):  # the row is valid only for such a model
             viewer.key("Return")
             tell("slider to picture", moves(viewer, tester, (left + span * 0.35, row), slider, body))
         viewer.move(20, 20)

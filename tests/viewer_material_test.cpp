@@ -108,7 +108,7 @@ TEST(Presets, TheFitGivesAGreySpecularColourBack) {
   for (const Preset& preset : presets()) {
     if (preset.name != "jade") continue;
     const ShadingParameters jade = presetParameters(preset);
-    // A grey highlight has no part of the colour; 0.316228 in sRGB is 0.0815 in linear light.
+    // A grey highlight contains nothing of the colour; 0.316228 in sRGB is 0.0815 in linear light.
     EXPECT_NEAR(jade.metalness, 0, 1e-4);
     EXPECT_NEAR(jade.specular, 0.0815, 1e-4);
   }

@@ -24,7 +24,7 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
-// The light from a bin's middle, as the format has it: written apart from the code that reads it.
+// The light at a bin's centre, as in the format; written independently of the code that reads it.
 void directions(glm::ivec3 bins, int h, int d, int p, glm::dvec3& L, glm::dvec3& V) {
   const double low = double(h) / bins.x, high = double(h + 1) / bins.x;
   const double a = pi / 2 * (low * low + high * high) / 2, t = pi / 2 * (d + 0.5) / bins.y,
@@ -36,7 +36,7 @@ void directions(glm::ivec3 bins, int h, int d, int p, glm::dvec3& L, glm::dvec3&
   V = place(-std::sin(t) * std::cos(f), -std::sin(t) * std::sin(f), std::cos(t));
 }
 
-// A measured material that is a model's own, in a file of few bins.
+// Writes a measured material computed from a model, in a file with few bins.
 fs::path written(const fs::path& path, const ShadingParameters& s, const FitForm& form) {
   const glm::ivec3 bins(90, 30, 36);
   const double scale[3] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
@@ -92,9 +92,9 @@ TEST(Measured, ReadsWhatStandsInTheFile) {
         directions(m.bins(), h, d, p, L, V);
         if (L.z < 0.01 || V.z < 0.01) continue;
         const glm::dvec3 light = m.light(L, V), expected = modelLight(s, {}, L, V);
-        // Floats are kept.
+        // The file stores the values to float precision.
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], expected[c], 1e-6 * (1 + expected[c]));
-        // Reciprocal but for the cosine, as the format is: the half vector is the same.
+        // Reciprocal except for the cosine, like the format: the half vector is the same.
         const glm::dvec3 back = m.light(V, L) / V.z * L.z;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], light[c], 0.05 * light[c] + 1e-9);
         ++compared;
@@ -103,7 +103,7 @@ TEST(Measured, ReadsWhatStandsInTheFile) {
   EXPECT_TRUE(std::isnan(m.light({0, 0, -1}, {0, 0, 1}).x));
 }
 
-// A model's own light gives the model back, by either lobe; the other lobe comes less near.
+// Fitting a model's own light recovers the model, with either lobe; the other lobe fits less well.
 TEST(Measured, TheFitFindsTheModelAgain) {
   const Folder folder;
   for (const FitForm form : {FitForm{false, 4}, FitForm{true, 4}})

@@ -1,4 +1,4 @@
-"""Models and files that the window's tests work on, made in code."""
+"""Generated models and files for the window's tests."""
 
 import json
 import math
@@ -25,8 +25,8 @@ def png(width, height, pixel):
 
 
 def helmet(path):
-    """A shell and a visor before it, each a bumpy sphere; the shell has pictures for colour,
-    normals and metallic-roughness, the visor glows where its picture says so."""
+    """A shell with a visor in front, each a bumpy sphere. The shell has textures for colour,
+    normals and metallic-roughness; the visor has an emission texture."""
     positions, normals, indices = scale_models.sphere(10000)
     columns = 2 * max(2, round(math.sqrt(10000 / 4)))
     rows = columns // 2
@@ -74,7 +74,7 @@ def helmet(path):
 
 
 def chunks(path):
-    """The JSON of a .glb and the bytes behind it."""
+    """The JSON of a .glb and its binary chunk."""
     with open(path, "rb") as file:
         data = file.read()
     length = int.from_bytes(data[12:16], "little")
@@ -82,8 +82,8 @@ def chunks(path):
 
 
 def measured(path, diffuse, specular, exponent, bins=(60, 10, 12)):
-    """A file of a measured reflectance: a diffuse colour, and specular times the cosine of the half
-    vector to a power, as Blinn-Phong has it."""
+    """A file of a measured reflectance: a diffuse colour, and specular times a power of the cosine
+    of the half vector, as in Blinn-Phong."""
     channels = []
     for scale, color in zip((1 / 1500, 1.15 / 1500, 1.66 / 1500), diffuse):
         for h in range(bins[0]):
@@ -96,7 +96,7 @@ def measured(path, diffuse, specular, exponent, bins=(60, 10, 12)):
 
 
 def room(path, width=64, height=32):
-    """A picture of an environment in the format of Radiance: dim walls, two bright windows."""
+    """An environment picture in the Radiance format: dim walls, two bright windows."""
     def texel(x, y):
         bright = 8 < y < 16 and (10 < x < 18 or 40 < x < 44)
         return (128, 120, 100, 132) if bright else (60 + x, 90, 90 + 3 * y, 127)

@@ -45,13 +45,12 @@ TEST(LobeSurface, StandsAroundTheMirrorDirection) {
       const double a = 40 * std::acos(-1.0) / 180;
       const glm::dvec3 R(std::sin(a), 0, std::cos(a));
       for (std::size_t i = 0; i < rows; ++i) {
-        if (exponent == 0) break;  // a lobe that breaks off, at the horizon too: by rounding
+        if (exponent == 0) break;  // a lobe with a jump, also at the horizon: depends on rounding
         for (std::size_t j = 0; j < surface.columns; ++j) {
           const glm::dvec3 p = surface.points[surface.columns * i + j];
           ASSERT_GE(p.z, 0);
           ASSERT_LE(glm::length(p), 1 + 1e-12);
-          // Nothing tells the two sides of the plane of incidence apart: a row begins at y, and
-          // goes on over x.
+          // The two sides of the plane of incidence are symmetric: a row begins at y and passes x.
           const std::size_t mirrored = (surface.columns - 1) / 2 + surface.columns - 1 - j;
           const glm::dvec3 q =
               surface.points[surface.columns * i + mirrored % (surface.columns - 1)];
@@ -60,7 +59,7 @@ TEST(LobeSurface, StandsAroundTheMirrorDirection) {
         }
       }
       EXPECT_NEAR(glm::length(surface.points[0] - R), 0, 1e-7);  // the peak, in every column
-      // In the outermost row what is left above the horizon is at most 1 %, but for exponent 0,
+      // In the outermost row the part above the horizon is at most 1 %, except for exponent 0,
       // whose lobe is 1 everywhere (Blinn-Phong: narrower across the plane than in it).
       const glm::dvec3 last = surface.points[surface.columns * (rows - 2)];
       EXPECT_EQ(surface.points.back(), glm::dvec3(0.0));

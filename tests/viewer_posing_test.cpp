@@ -15,7 +15,7 @@ std::shared_ptr<const Model> model(const char* name, const PoseRequest& pose = {
   return loadModel(pathOf(name), pose);
 }
 
-// What is drawn, in order: places and vertices.
+// Compares what is drawn, in order: positions and vertices.
 void expectSameScene(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(Posing, IsWhatReadingInThatPoseGives) {
       now = posed(now, {time, ""});
       const auto fresh = model(name, {time, ""});
       expectSameScene(now->scene, fresh->scene);
-      expectSameScene(before->scene, copy);  // is as it was: others may be drawing it
+      expectSameScene(before->scene, copy);  // unchanged: others may be drawing it
       EXPECT_EQ(now->bounds.center, fresh->bounds.center);
       EXPECT_EQ(now->bounds.radius, fresh->bounds.radius);
       EXPECT_EQ(now->images, before->images);

@@ -10,9 +10,9 @@
 namespace glint::viewer {
 namespace viewer_probe_test {
 
-// Every pixel's probe against the whole picture by the reference, which draws all triangles. Where
-// an edge passes a pixel's centre the ray may find its neighbour: those are left out by the rest of
-// what they see. Returns how many pixels of the model were compared.
+// Compares every pixel's probe with the whole picture by the reference, which draws all triangles.
+// If an edge passes a pixel's centre, the ray may find its neighbour, so a few pixels may differ.
+// Returns how many pixels of the model were compared.
 int compareAll(const Scene& scene, const DecodedImages& images, const Look& look) {
   const Bounds bounds = boundsOf(scene);
   ReferenceRenderer renderer(scene, images, bounds, look, 1);
@@ -25,8 +25,8 @@ int compareAll(const Scene& scene, const DecodedImages& images, const Look& look
           probePixel({scene, images, bounds, picker, renderer.list()}, look, exact, &exact, {x, y});
       if (!probe.hit) continue;
       ++compared;
-      // The reference's own picture is rounded to float once: half a unit of the last place. The
-      // triangle alone has the same numbers as in the mesh, but a ray's hit may lie behind an edge.
+      // The reference's own picture is rounded to float once: half a unit of the last place. A
+      // single triangle has the same values as in the mesh, but a ray's hit may lie behind an edge.
       double largest = 0;
       for (const double ulps : probe.ulps) largest = std::max(largest, std::abs(ulps));
       off += !(largest <= 0.5);
@@ -66,7 +66,7 @@ TEST(ViewerProbe, SurfacesThatAreSeenThroughOneAnother) {
   const Probe probe = probePixel({scene, {}, bounds, picker, list}, look, black, nullptr, {24, 24});
   EXPECT_EQ(probe.layers, 4);  // two sides of two spheres
   EXPECT_FALSE(probe.center);
-  look.shading = Shading::environment;  // refracts in place of blending
+  look.shading = Shading::environment;  // refracts instead of blending
   EXPECT_GT(compareAll(scene, {}, look), 400);
 }
 
@@ -89,7 +89,7 @@ TEST(ViewerProbe, TexturedAndMaskedSurfaces) {
   EXPECT_GT(compareAll(scene, images, look), 300);
 }
 
-// They are told, too, at every pixel that shows one, by material and colour.
+// They are probed, too, at every pixel that shows one, by material and colour.
 TEST(ViewerProbe, PointsAndLines) {
   Mesh lines;
   lines.topology = Topology::lines;
@@ -116,7 +116,7 @@ TEST(ViewerProbe, PointsAndLines) {
       drawn += std::abs(double(exact.row(y)[4 * x]) - look.backgroundColor.r) > 1e-6;
   EXPECT_GT(drawn, 40);
   EXPECT_EQ(compareAll(scene, {}, look), drawn);
-  // The mouse need not be on the very pixel.
+  // The mouse need not be exactly on the pixel.
   const Picker picker(scene);
   const Camera camera = cameraFor(scene, bounds, look);
   int named = 0;
@@ -149,7 +149,7 @@ TEST(ViewerProbe, TermsAddUp) {
   const Image black{64, 48, std::vector<float>(64 * 48 * 4)};
   const Probe p = probePixel({scene, {}, bounds, picker, list}, look, black, nullptr, {30, 26});
   ASSERT_TRUE(p.hit);
-  ASSERT_EQ(p.lights.size(), 2u);  // a light of intensity 0 is none
+  ASSERT_EQ(p.lights.size(), 2u);  // a light of intensity 0 is not counted
   EXPECT_EQ(p.lights[0].name, "spot");
   EXPECT_EQ(p.lights[1].name, "directional");
   glm::dvec3 sum = p.ambient;

@@ -36,7 +36,7 @@ Look edited(double exponent) {
   return look;
 }
 
-// A process that keeps edits and ends without a word, as if it had crashed.
+// A process that keeps edits and ends without cleanup, as in a crash.
 void crash(const fs::path& folder, const Look& look, const fs::path& model) {
   const pid_t child = fork();
   if (child == 0) {
@@ -125,7 +125,7 @@ TEST_F(SettingsTest, ComeBackFromTheirFile) {
   unsetenv("XDG_CONFIG_HOME");
 }
 
-// Kept, listed by name, pasted again, and replaced though they have been read.
+// Saved, listed by name, pasted again, and overwritten even though they have been read.
 TEST_F(SettingsTest, OwnPresetsAreTextFiles) {
   setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
   EXPECT_TRUE(ownPresets().empty());
@@ -159,7 +159,7 @@ TEST_F(SettingsTest, WrongOnesAreDefaults) {
 TEST_F(SettingsTest, FoldersAreThoseOfXdg) {
   setenv("XDG_STATE_HOME", "/somewhere", 1);
   EXPECT_EQ(stateFolder(), "/somewhere/glint");
-  setenv("XDG_STATE_HOME", "relative", 1);  // counts as not set
+  setenv("XDG_STATE_HOME", "relative", 1);  // must be ignored
   const std::string home = getenv("HOME") ? getenv("HOME") : "";
   setenv("HOME", "/home/somebody", 1);
   EXPECT_EQ(stateFolder(), "/home/somebody/.local/state/glint");

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A session at the window, for builds with sanitizers: first everything that its threads do beside
-each other (drawing, reading, references, recovery, saving, shaders), then keys and mouse at random.
+"""A session at the window, for sanitizer builds: first everything that its threads do concurrently
+(drawing, reading, references, recovery, saving, shaders), then random keys and mouse input.
 
     viewer_session.py GLINT GLINT_VIEWER MODELS [SECONDS [SEED [MODEL.glb...]]]
 
-Fails if the window ends by itself or by another status than 0.
+Fails if the window ends by itself or with a status other than 0.
 """
 
 import os
@@ -30,7 +30,7 @@ def all_threads(viewer, glsl):
         viewer.key("F2")
         window.drag_slider(viewer, "diffuse", 0.2, 0.8)
         viewer.drag(400, 300, 520, 340)
-        viewer.key("r")  # a reference, given up
+        viewer.key("r")  # starts a reference and cancels it
         time.sleep(0.2)
         viewer.drag(400, 300, 430, 310)
         viewer.key("d")
@@ -42,7 +42,7 @@ def all_threads(viewer, glsl):
             viewer.move(x, 400)
         viewer.key("r", "Right", "Right", "Right", "shift+b", "space")
         time.sleep(1)
-        viewer.key("space", "F12", "Up", "F12")  # saved while it is read
+        viewer.key("space", "F12", "Up", "F12")  # saves during loading
         viewer.key("shift+p")
         viewer.drag(400, 300, 420, 320)
         viewer.key("shift+p")
@@ -83,7 +83,7 @@ def at_random(viewer, generator, seconds):
 
 
 def close(viewer):
-    """By the window's own question, whatever stands open; nothing is saved."""
+    """Quits through the window's own question, whatever is open; nothing is saved."""
     for _ in range(20):
         viewer.key("Escape")
         viewer.key("ctrl+z", "ctrl+z", "ctrl+z", "ctrl+z", "ctrl+z")

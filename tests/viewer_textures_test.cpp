@@ -19,7 +19,7 @@ Scene scene() {
   m.colorTexture.emplace().image = 2;
   m.parameterTextures.metallicRoughness.emplace().image = 1;
   m.parameterTextures.occlusion.emplace().image = 1;
-  m.parameterTextures.transmission.emplace().image = 3;  // of a material that lets nothing through
+  m.parameterTextures.transmission.emplace().image = 3;  // in a material without transmission
   m.textured = textured::exponent | textured::metalness | textured::ambient;
   return s;
 }
@@ -49,7 +49,7 @@ TEST(MaterialTextures, AreSwitchedOffByNumbersAndOnAgain) {
   EXPECT_EQ(look, Look{});
 }
 
-// A preset's colour is seen as it is, and what the file switches off can be switched on.
+// A preset's colour is shown unchanged, and textures that the file switches off can be switched on.
 TEST(MaterialTextures, OfColourNormalAndEmissionAreSwitchedToo) {
   Scene s = scene();
   Look look;

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Drives glint-viewer in a real window under Xvfb: comparing, the probe, animations, lights, presets,
-plots and sizes.
+"""Drives glint-viewer in a real window under Xvfb: comparisons, the probe, animations, lights,
+presets, plots and sizes.
 
     viewer_views_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
 
-What the window shows is taken from the X server and compared, byte for byte, with what `glint
-render` draws of the look that the viewer saves by Ctrl+S.
+The window's picture is read from the X server and compared, byte for byte, with what `glint render`
+draws from the look that the viewer saves with Ctrl+S.
 """
 
 import json
@@ -130,7 +130,7 @@ def test_animation_time_by_slider_and_keys():
         viewer.key("Right", "Right", "Right")
         later, look = viewer.picture()
         assert later != bent
-        viewer.key("b")  # B keeps its moment
+        viewer.key("b")  # B keeps its time
         kept = look["animation-time"]
         viewer.key("Left", "Left", "Left", "Left", "Left", "Left")
         a = viewer.render("--look", viewer.save_look()[1])
@@ -141,7 +141,7 @@ def test_animation_time_by_slider_and_keys():
             return columns(shown, size, 0, half - 3) == columns(a, size, 0, half - 3) and \
                 columns(shown, size, half + 3, size[0]) == columns(later, size, half + 3, size[0])
         wait_for("A's moment at the left and B's at the right", split)
-        viewer.key("shift+b")  # exchanged: A is at B's moment
+        viewer.key("shift+b")  # swapped: A is at B's time
         viewer.key("shift+a")
         back, look = viewer.picture()
         assert look["animation-time"] == kept and back == later
@@ -162,7 +162,7 @@ def test_an_animation_plays():
         wait_for("pictures that move", moved)
         viewer.key("space")
         viewer.picture()
-        viewer.key("ctrl+z")  # one step
+        viewer.key("ctrl+z")  # undoes one step
         assert viewer.picture()[0] == first
 
 
@@ -178,7 +178,7 @@ def test_the_files_lights_become_own_ones_with_their_fall_off():
         kinds = [text.split(":")[0] for text in look["light"]]
         assert kinds == ["directional", "point", "spot"], look["light"]
         assert ":falloff," in look["light"][1] and look["light"][2].endswith(":falloff")
-        # But for what was edited, the picture is that of the file's lights.
+        # Except for the edit, the picture is that of the file's lights.
         info = subprocess.run([GLINT, "info", viewer.model], capture_output=True, text=True).stdout
         scale = float(info.split("multiplied by ")[1].split(")")[0])
         sun = look["light"][0].rsplit(":", 1)[0] + ":" + ",".join([repr(0.3 * scale)] * 3)
@@ -186,7 +186,7 @@ def test_the_files_lights_become_own_ones_with_their_fall_off():
         with open(path, "w") as file:
             json.dump({**look, "light": [sun, *look["light"][1:]]}, file)
         assert viewer.render("--look", path) == first
-        viewer.key("g", "Delete")  # the point
+        viewer.key("g", "Delete")  # removes the point light
         two, look = viewer.picture()
         assert len(look["light"]) == 2 and two != brighter
         viewer.key("shift+Delete")
@@ -289,11 +289,12 @@ def test_other_sizes_and_scales():
 
 
 def test_a_fine_screen_is_seen_to_be_one():
-    """At 192 dots an inch text and panel are twice as large, a pixel of the picture is a pixel."""
+    """At 192 dpi, text and panel are twice as large, but a pixel of the picture is still one
+    pixel."""
     with Viewer(TEAPOT, screen=(1900, 1000), dpi=192) as viewer:
         _, look = viewer.picture()
         assert abs(look["resolution"][0] - (1900 - 2 * viewer.panel)) <= 2, look["resolution"]
-        # The slider of the diffuse part stands twice as far from the panel's corner.
+        # The slider of the diffuse part is twice as far from the panel's corner.
         left, y = 1900 - 2 * (1372 - SLIDER[0]), 2 * ROW["diffuse"]
         viewer.drag(left + 120, y, left + 240, y)
         changed, look = viewer.picture()

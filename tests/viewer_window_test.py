@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Drives glint-viewer in a real window under Xvfb with xdotool, as a person would: editing and files.
+"""Drives glint-viewer in a real window under Xvfb with xdotool, as a user would: editing and files.
 
     viewer_window_test.py GLINT GLINT_VIEWER MODELS [TEST...]
 
-What the window shows is taken from the X server and compared, byte for byte, with what `glint
-render` draws of the look that the viewer saves by Ctrl+S.
+The window's picture is read from the X server and compared, byte for byte, with what `glint render`
+draws from the look that the viewer saves with Ctrl+S.
 """
 
 import json
@@ -30,7 +30,8 @@ def test_the_window_shows_what_glint_render_draws():
 
 
 def test_what_a_budget_chooses_is_what_glint_render_draws():
-    # Without highlight vertices come near enough, so that auto is another program than phong.
+    # Without highlights, vertex shading is accurate enough for auto to choose a program other than
+    # phong.
     with Viewer(SPHERE, "--max-error", "0.02", screen=(1000, 640)) as viewer:
         drawn, look = viewer.picture()
         assert look["max-error"] == 0.02
@@ -105,7 +106,7 @@ def test_fast_clicks_are_all_taken():
 
 def test_a_click_picks_the_material():
     with Viewer(TEAPOT) as viewer:
-        viewer.click(20, 40)  # the background: what is selected stays
+        viewer.click(20, 40)  # the background: the selection stays
         drag_slider(viewer, "diffuse", 0.4, 0.7)
         assert list(viewer.picture()[1]["material"]) == ["Glazed ceramic"]
         viewer.key("ctrl+z")
@@ -126,11 +127,11 @@ def test_saved_into_the_model_and_opened_again():
         edited, look = viewer.picture()
         viewer.key("ctrl+m")
         viewer.settled()
-        viewer.key("Return")  # asks before it writes into the file
+        viewer.key("Return")  # asks before writing to the file
         wait_for("the model to be saved", lambda: open(viewer.model, "rb").read() != original)
         viewer.key("q")
         assert viewer.left() == 0
-        # The binary chunk and all but the material stay as they were.
+        # The binary chunk and everything except the material are unchanged.
         with open(viewer.model, "rb") as file:
             saved = file.read()
         length = int.from_bytes(original[12:16], "little")
@@ -222,7 +223,7 @@ def test_a_changed_model_is_read_again_and_edits_stay():
         with open(viewer.model, "wb") as file:
             file.write(sphere)
         wait_for("the sphere", lambda: viewer.crop(viewer.capture(), size) != first)
-        # What the sphere does not have is gone; the camera is as it was.
+        # Edits that the sphere has no use for are gone; the camera is unchanged.
         with open(viewer.model, "wb") as file:
             file.write(original)
         viewer.shows(size, viewer.render("--resolution", "%d,%d" % size), "the teapot")
@@ -274,7 +275,7 @@ def test_edits_survive_a_crash():
         viewer.move(20, 20)
         edited = viewer.crop(viewer.settled(), (1000, 776))
 
-        def all_kept():  # not as they were in the middle of the drag
+        def all_kept():  # not those from the middle of the drag
             values = []
             for name in kept():
                 with open(os.path.join(state, name)) as file:
@@ -282,10 +283,10 @@ def test_edits_survive_a_crash():
             return values and values[0] > 1.7
         wait_for("the edits to be kept", all_kept)
         viewer.kill()
-        viewer.start()  # asks, and stands still
+        viewer.start()  # asks, and waits
         viewer.key("Return")  # restore
         viewer.shows((1000, 740), edited[:3000 * 740], "the edits")
-        picture, look = viewer.picture()  # saved: nothing is kept any more
+        picture, look = viewer.picture()  # saved: nothing more is kept for recovery
         assert look["material"]["Glazed ceramic"]["diffuse"] > 1
         wait_for("nothing to be kept", lambda: not kept())
         viewer.key("q")

@@ -31,7 +31,7 @@ TEST(Palette, FindsEveryActionByItsWordsAndItsKey) {
   }
   EXPECT_EQ(findings("", {}).size(), actions().size());
   EXPECT_TRUE(findings("no such words", {}).empty());
-  // In any order, as parts too, and what begins with the word first.
+  // In any order, also as parts of words; texts that begin with the word come first.
   EXPECT_EQ(findings("view front", {}).front().action, Action::front);
   EXPECT_TRUE(finds(findings("ompar diff", {}), Action::compareDifference));
 }
@@ -58,19 +58,19 @@ TEST(Menu, HoldsEveryActionOnce) {
 TEST(Theme, EveryTextHasContrast) {
   EXPECT_NEAR(contrast({1, 1, 1}, {0, 0, 0}), 21, 1e-9);
   EXPECT_NEAR(contrast({0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}), 1, 1e-12);
-  // #767676 on white is WCAG's own example of just enough.
+  // #767676 on white is WCAG's own example of just enough contrast.
   const double grey = 0x76 / 255.0;
   EXPECT_NEAR(contrast({grey, grey, grey}, {1, 1, 1}), 4.54, 0.005);
   EXPECT_GE(themePairs().size(), 20u);
   for (const ThemePair& pair : themePairs())
     EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << pair.where;
-  // What is no text needs 3 (WCAG 2.1, 1.4.11): boxes that are not ticked.
+  // Elements other than text need 3 (WCAG 2.1, 1.4.11): boxes that are not ticked.
   EXPECT_GE(contrast(theme::edge, theme::window), 3);
   EXPECT_GE(contrast(theme::edge, theme::popup), 3);
 }
 
-// What is said to be without effect does not change what the picture is made of; what the program
-// environment reads has an effect there.
+// A parameter reported as having no effect does not change the inputs of the picture; parameters
+// that the program environment uses have an effect there.
 TEST(Effects, SayWhyAParameterDoesNothing) {
   Look look;
   for (const char* name : {"fresnel", "medium-ior", "schlick-exponent", "ior", "transmission",
@@ -102,7 +102,7 @@ TEST(Differences, AreToldInWords) {
   b.material["Gold"].exponent = 20;
   b.material[""].color = glm::dvec3(1, 0, 0);
   a.exposure = 1;
-  b.resolution = {17, 19};  // no difference of pictures
+  b.resolution = {17, 19};  // not a difference between pictures
   const auto all = differences(a, b);
   ASSERT_EQ(all.size(), 3u);
   const auto named = [&](const std::string& what) {
@@ -131,7 +131,7 @@ TEST(LightSwitches, GoBackToWhatWas) {
   soloLight(lights, 2, off);
   EXPECT_EQ(lights[0].intensity, glm::dvec3(0.0));
   EXPECT_EQ(lights[2], first[2]);
-  soloLight(lights, 0, off);  // another one alone
+  soloLight(lights, 0, off);  // solo for another one
   EXPECT_EQ(lights[0], first[0]);
   EXPECT_EQ(lights[2].intensity, glm::dvec3(0.0));
   soloLight(lights, 0, off);

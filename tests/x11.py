@@ -1,5 +1,5 @@
-"""What the window's tests ask of the X server beyond xdotool: the bytes on the screen, the
-clipboard, and files dropped on a window as a file manager drops them (XDND version 5)."""
+"""What the window's tests need from the X server beyond xdotool: the pixels on the screen, the
+clipboard, and files dropped on a window as by a file manager (XDND version 5)."""
 
 import ctypes
 import time
@@ -57,14 +57,14 @@ class Server:
         return self.x.XInternAtom(self.display, name.encode(), 0)
 
     def set_dpi(self, dpi):
-        """As a desktop says how fine the screen is: a resource of the root window."""
+        """Sets the screen's resolution as a desktop does, in a resource of the root window."""
         text = f"Xft.dpi: {dpi}\n".encode()
         self.x.XChangeProperty(self.display, self.root, self.atom("RESOURCE_MANAGER"),
                                self.atom("STRING"), 8, 0, text, len(text))
         self.x.XSync(self.display, 0)
 
     def capture(self, left, top, width, height):
-        """The bytes of a part of the screen, RGB, rows from the top."""
+        """The bytes of a region of the screen, RGB, rows from the top."""
         image = self.x.XGetImage(self.display, self.root, left, top, width, height, 0xFFFFFFFF, 2)
         assert image and image.contents.bits_per_pixel == 32
         size = image.contents.bytes_per_line * height

@@ -199,7 +199,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// 0: a word does not occur; 1: all do; 2: each begins a word.
+// 0: a word does not occur; 1: all occur; 2: each is the beginning of a word.
 int match(const std::vector<std::string>& words, const std::string& text) {
   int best = 2;
   for (const std::string& word : words) {

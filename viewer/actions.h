@@ -8,8 +8,8 @@
 
 namespace glint::viewer {
 
-/// What keys, menus, buttons and the palette do. The one table of actions() gives each its key and
-/// its help, in this order.
+/// The commands of keys, menus, buttons and the palette. The table of actions() gives each its key
+/// and help, in this order.
 enum class Action {
   help,
   palette,
@@ -110,20 +110,20 @@ enum class Action {
   clipped,
   outline,
   lightHandles,
-  count,  ///< none: how many there are
+  count,  ///< not an action: the number of actions
 };
 
 struct ActionInfo {
   Action command;
   std::string_view section, help;
-  int key = 0;  ///< GLFW's key code
+  int key = 0;  ///< GLFW key code
   bool control = false, shift = false;
-  bool repeats = false;  ///< while the key is held
+  bool repeats = false;  ///< while the key is held down
 };
 
 std::span<const ActionInfo> actions();
 
-/// A menu of the bar, with the sections of the table that stand in it, in this order.
+/// A menu of the bar, with the sections of the table that it contains, in this order.
 struct MenuInfo {
   std::string_view name;
   std::span<const std::string_view> sections;
@@ -135,15 +135,15 @@ const ActionInfo& infoOf(Action);
 /// "Ctrl+Shift+S".
 std::string keyText(const ActionInfo&);
 
-/// What the palette lists: an action, or a material to be selected.
+/// An entry of the palette: an action, or a material to select.
 struct Finding {
   std::optional<Action> action;
-  int material = -1;       ///< an index of those searched; of a material alone
+  int material = -1;       ///< an index into the searched list; only for a material
   std::string text, keys;  ///< "Camera: front view", "1"
 };
 
-/// The actions and materials in whose text, section and keys each of the words occurs, in either
-/// case; those in which a word of the text begins so come first. No words: all.
+/// The actions and materials whose text, section and keys contain all the words, ignoring case;
+/// those with words that begin with the searched ones come first. No words: all.
 std::vector<Finding> findings(std::string_view words, std::span<const std::string> materials,
                               bool materialsAlone = false);
 

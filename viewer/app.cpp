@@ -48,7 +48,7 @@ App::~App() {
   if (loading_.valid()) loading_.wait();
 }
 
-// The animation goes on; at its end it begins again.
+// Advances the animation; it loops.
 void App::advance(double passed) {
   if (!session_.playing) return;
   const double duration =
@@ -60,7 +60,7 @@ void App::advance(double passed) {
   double& time = session_.document.a.animationTime.emplace(
       session_.document.a.animationTime.value_or(0) + std::min(passed, 0.25));
   time = std::round(std::fmod(time, duration) * 1000) / 1000;
-  lastPlayed_ = Clock::now();  // moves, as under a hand
+  lastPlayed_ = Clock::now();  // so that it counts as motion
 }
 
 bool App::gestureActive() const {
@@ -95,7 +95,7 @@ void App::setTitle() {
   window_.setTitle(title + " - glint");
 }
 
-// The log is also for who started the window from a terminal.
+// The log also goes to the terminal that the window was started from.
 void App::tellLog() {
   for (; told_ < session_.log.size(); ++told_) {
     std::string line = session_.log[told_];
@@ -105,7 +105,7 @@ void App::tellLog() {
   }
 }
 
-// Whether a frame is called for by anything else than input.
+// Whether anything other than input calls for a frame.
 bool App::somethingDue() {
   bool due = false;
   const auto now = Clock::now();
@@ -147,7 +147,7 @@ void App::run() {
   auto lastFrame = Clock::now(), lastAdvance = lastFrame;
   const auto frame = [&](bool draw) {
     const auto now = Clock::now();
-    // A first arrow in a window that has the focus puts the ring on its first widget.
+    // The first arrow key in a focused window puts the ring on its first widget.
     if (ringWanted_ > 0) {
       if (!panelFocused_) ImGui::SetWindowFocus("panel");
       imgui::setKey(GLFW_KEY_DOWN, --ringWanted_ % 2 == 1);
@@ -176,8 +176,8 @@ void App::run() {
 
     const auto start = Clock::now();
     layout();
-    // Each group of events in a frame of its own, then one more, as ImGui places what has just
-    // appeared only then; the last one is drawn.
+    // Each group of events gets its own frame. One more follows, because only then does ImGui place
+    // what has just appeared. The last frame is drawn.
     do {
       auto events = window_.input().take();
       for (InputEvent& event : events) {
@@ -263,7 +263,7 @@ void App::statusBar() {
   ImGui::End();
 }
 
-// The panel's left edge, by which it is made wider.
+// The panel's left edge, which can be dragged to resize it.
 void App::panelEdge() {
   const ImGuiIO& io = ImGui::GetIO();
   const float s = widgets::style().scale, width = 6 * s;

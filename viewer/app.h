@@ -30,23 +30,23 @@ inline double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
-/// What glint-viewer was started with.
+/// How glint-viewer was started.
 struct AppOptions {
   std::filesystem::path model;  ///< empty: none yet
-  std::filesystem::path look;   ///< the file the look was read from, watched; may be empty
+  std::filesystem::path look;   ///< the file that the look came from, watched; may be empty
   std::filesystem::path glsl;   ///< folder of shader files, watched; may be empty
-  double scale = 0;             ///< of text and widgets; 0: the settings' or the screen's
+  double scale = 0;             ///< of text and widgets; 0: from the settings or the screen
   Settings settings;
 };
 
-/// The window at work: takes input, lets the panel edit the session, shows what has changed.
-/// Pictures come from the painter, references from their task; neither holds up a frame.
+/// The running window: takes input, lets the panel edit the session and shows the result. Pictures
+/// come from the painter, references from their task; neither blocks a frame.
 class App {
  public:
   App(Window&, Look, AppOptions);
   ~App();
 
-  /// Until the window is closed.
+  /// Runs until the window is closed.
   void run();
 
  private:
@@ -63,39 +63,39 @@ class App {
   void advance(double passed);
   bool gestureActive() const;
 
-  // app_keys.cpp: who takes a key, and what the table's keys do
+  // app_keys.cpp: who gets a key, and what the keys of the table do
   bool isForWidgets(const InputEvent&) const;
   bool pressesLikeSpace(const InputEvent&) const;
   void applyInput(const std::deque<InputEvent>& events);
   void key(const InputEvent& event);
   void paletteKey(int code);
 
-  // app_menu.cpp: the menu, the palette and the help, which stand on the table of actions
+  // app_menu.cpp: the menu, the palette and the help, all made from the table of actions
   void menuBar();
   void openPalette(bool materialsAlone);
   void paletteWindow();
   void take(const Finding&);
   void helpWindow();
 
-  // app_view.cpp: the picture as a thing to touch
+  // app_view.cpp: interaction with the picture
   void pictureArea();
   void handlePicture(glm::dvec2 mouse, bool hovered, bool active);
   void turnEnvironment(double degrees);
   void dragPicture(glm::dvec2 mouse);
   void moveCamera(const std::function<Pose(const Pose&)>& move);
-  /// Nearer to the surface at a pixel, or the point of the focal plane there, by a factor.
+  /// Scales the distance to the surface at a pixel, or to the focal plane there, by a factor.
   void dolly(glm::dvec2 pixel, double factor);
   std::optional<Hit> hitAt(glm::dvec2 pixel) const;
   void setPivot(glm::dvec2 pixel);
   void drawPivot();
   void drawProgress();
-  /// Where a point of the world is seen, in window coordinates; empty if behind the camera.
+  /// Where a world-space point is seen, in window coordinates; empty if behind the camera.
   std::optional<glm::dvec2> placeOf(const glm::dvec3& world) const;
 
-  // app_lights.cpp: lights as things to drag in the picture
+  // app_lights.cpp: light handles that can be dragged in the picture
   struct LightHandle {
     std::size_t light = 0;
-    bool aim = false;       ///< of a spot: what it shines at
+    bool aim = false;       ///< of a spot: the point it shines at
     glm::dvec2 place{0.0};  ///< window coordinates
     bool behind = false;    ///< it points to a light behind the model
   };
@@ -122,7 +122,7 @@ class App {
   glm::dmat3 cameraAxes() const;
   void setCompare(CompareMode, bool exact);
   void pick(glm::dvec2 pixel);
-  /// Runs something; an error goes to the log.
+  /// Runs an action; an error goes to the log.
   void attempt(const std::function<void()>& action);
 
   // app_files.cpp: models, looks, shaders and pictures
@@ -139,7 +139,7 @@ class App {
   void finishLoading();
   void offerRecovered();
   void restore(const Recovered&);
-  bool watch();  ///< true if a look was read, or could not be
+  bool watch();  ///< true if a look was read, or failed to be read
   void quit();
 
   Window& window_;
@@ -152,11 +152,11 @@ class App {
 
   std::future<std::unique_ptr<Model>> loading_;
   std::filesystem::path loadingPath_, nextPath_;  ///< nextPath_: to be read after that
-  std::optional<Recovered> restoring_;            ///< once its model is there
+  std::optional<Recovered> restoring_;            ///< to be restored once its model is loaded
   bool offered_ = false;
 
   PaintResult shownResult_;     ///< what the screen is composed from
-  std::optional<Look> failed_;  ///< could not be drawn; not tried again until it changes
+  std::optional<Look> failed_;  ///< could not be drawn; not retried until it changes
   std::optional<PaintRequest> requested_;
   Pace pace_;
   bool screenStale_ = true;
@@ -165,7 +165,7 @@ class App {
   Overlay shownOverlay_ = Overlay::none;
   int shownRows_ = -1;  ///< of the reference
   std::vector<std::uint8_t> exactCodes_;
-  const ReferencePicture* encoded_ = nullptr;  ///< what exactCodes_ are of
+  const ReferencePicture* encoded_ = nullptr;  ///< what exactCodes_ was encoded from
   int encodedRows_ = 0;
   ErrorNumbers errors_;
   CompareNumbers difference_;
@@ -176,36 +176,36 @@ class App {
   double ratio_ = 1;                                          ///< pixels per window coordinate
   float panelWidth_ = 0, statusHeight_ = 0, menuHeight_ = 0;  ///< window coordinates
   bool helpShown_ = false, menuWanted_ = false, quitting_ = false;
-  float helpScroll_ = 0;  ///< lines, to be scrolled next
+  float helpScroll_ = 0;  ///< lines still to scroll
   std::optional<Clock::time_point> tooltipDue_;
-  bool panelFocused_ = false;  ///< the panel has the focus of ImGui, be the ring seen or not
-  int ringWanted_ = 0;  ///< frames in which the keyboard's ring is still to be put on the panel
+  bool panelFocused_ = false;  ///< the panel has ImGui's focus, whether or not the ring is visible
+  int ringWanted_ = 0;         ///< frames left for putting the keyboard's ring on the panel
   Clock::time_point
-      hintUntil_{};  ///< the first hint is shown till then, and till something is done
+      hintUntil_{};  ///< the first hint is shown until then or, if sooner, until the first action
   bool acted_ = false;
   struct Palette {
     bool open = false, appearing = false, materialsAlone = false;
     std::string words;
-    int at = 0;  ///< of the findings
+    int at = 0;  ///< an index into `found`
     std::vector<Finding> found;
   } palette_;
-  std::optional<glm::dvec3> pivot_;   ///< that drags turn about; empty: the focal point
-  std::optional<glm::dvec2> cursor_;  ///< over the picture, its pixels
+  std::optional<glm::dvec3> pivot_;   ///< drags turn about it; empty: the focal point
+  std::optional<glm::dvec2> cursor_;  ///< where it is over the picture, pixels
   std::optional<Probe> probe_;
   bool probeStale_ = true, probeShown_ = false;
   bool dragged_ = false, draggingDivider_ = false;
   std::optional<LightHandle> draggedLight_;
-  bool wasBeyond_ = false;  ///< the ball's rim, in a drag of a direction
+  bool wasBeyond_ = false;  ///< beyond the ball's rim, while dragging a direction
   glm::dvec2 pressedAt_{0};
-  std::optional<glm::dvec3> pressedPoint_;  ///< that a drag of the right button goes to
-  std::size_t told_ = 0;                    ///< lines of the log
+  std::optional<glm::dvec3> pressedPoint_;  ///< target of a drag with the right button
+  std::size_t told_ = 0;                    ///< log lines already reported
 
   FileState modelState_, lookState_, glslState_;
-  std::optional<Clock::time_point> missingSince_;  ///< the model's file
+  std::optional<Clock::time_point> missingSince_;  ///< when the model's file was first missing
   bool toldMissing_ = false;
-  std::set<std::filesystem::path> mayReplace_;  ///< without asking again
+  std::set<std::filesystem::path> mayReplace_;  ///< files that may be replaced without asking again
 
-  // Last: their threads end before what they report to.
+  // Last, so that their threads end before the members that they report to.
   std::unique_ptr<Painter> painter_;
   std::unique_ptr<ReferenceTask> reference_;
 };

@@ -12,7 +12,7 @@
 namespace glint::viewer {
 namespace {
 
-// A press of a key moves the camera by so much.
+// How far one key press moves the camera.
 constexpr double turnStep = 5, shiftStep = 0.05,
                  nearerStep = 0.9;  // degrees; of the picture's height; factor
 
@@ -241,7 +241,7 @@ void App::execute(Action command) {
     case Action::outline:
       overlay(Overlay::outline);
       break;
-    default:  // those of the camera
+    default:  // camera commands
       break;
   }
 }

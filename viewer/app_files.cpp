@@ -32,7 +32,7 @@ FileState stateOfFolder(const fs::path& folder) {
 }  // namespace
 
 void App::load(const fs::path& path) {
-  if (loading_.valid()) {  // cannot be broken off; the window goes on meanwhile
+  if (loading_.valid()) {  // loading cannot be cancelled; the window goes on meanwhile
     nextPath_ = path;
     return;
   }
@@ -64,7 +64,8 @@ void App::finishLoading() {
     session_.say("read " + session_.model->path.string() +
                  (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
   });
-  // A file that could not be read is tried again when it changes; another one is forgotten.
+  // A model that could not be reloaded is retried when its file changes; another file that could
+  // not be read is forgotten.
   if (session_.model && session_.model->path != loadingPath_)
     modelState_ = stateOf(session_.model->path);
   if (!nextPath_.empty()) load(std::exchange(nextPath_, fs::path()));
@@ -72,7 +73,7 @@ void App::finishLoading() {
   offerRecovered();
 }
 
-// Once, at the start: edits that an earlier window left behind.
+// Called once, at the start: offers edits that an earlier window left behind.
 void App::offerRecovered() {
   if (std::exchange(offered_, true)) return;
   const auto left = recovery_.left(options_.model);
@@ -108,7 +109,7 @@ bool App::watch() {
   bool tried = false;
   if (session_.model && !loading_.valid()) {
     const FileState now = stateOf(session_.model->path);
-    // A file that is gone is being replaced; it is read when it is back.
+    // A missing file is probably being replaced; it is read when it is back.
     if (now != modelState_ && now != FileState{}) {
       load(session_.model->path);
       missingSince_.reset();
@@ -152,7 +153,7 @@ bool App::watch() {
   return tried;
 }
 
-// In lower case: cameras and other systems write .HDR.
+// In lower case, because cameras and other systems write .HDR.
 std::string App::endingOf(const fs::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
@@ -228,7 +229,7 @@ void App::keepPresetAt(const std::string& path, bool sure) {
 }
 
 void App::saveModelTo(const std::string& path, bool sure) {
-  // What it was allowed to replace once it may write again.
+  // A file whose replacement was confirmed may be written again without asking.
   sure = sure || mayReplace_.contains(fs::weakly_canonical(path));
   if (!sure && fs::exists(path)) {
     dialogs_.ask("Replace?",
@@ -264,7 +265,7 @@ void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transpare
   });
 }
 
-// Beside the model, as it was given.
+// A path next to the model, relative if the model's is.
 std::string App::freeName(const std::string& stem, const std::string& ending) const {
   const fs::path folder = session_.model ? session_.model->path.parent_path() : fs::path();
   const fs::path name = nextFreeName(folder.empty() ? "." : folder, stem, ending).filename();

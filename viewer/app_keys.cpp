@@ -8,7 +8,7 @@
 namespace glint::viewer {
 namespace {
 
-// What a ring, a list or a menu is moved and worked with.
+// Keys that move and operate the ring, a list or a menu.
 bool isMove(int code) {
   switch (code) {
     case GLFW_KEY_LEFT:
@@ -32,7 +32,7 @@ bool popupOpen() {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
-// Ctrl with these edits the text that has the caret.
+// With Ctrl, these edit the text that has the caret.
 bool editsText(int code) {
   switch (code) {
     case 'A':
@@ -57,9 +57,9 @@ bool editsText(int code) {
 
 }  // namespace
 
-// A key does what the table says wherever the focus is, but for what a text with a caret needs and,
-// where the ring is seen or something has popped up, for the keys that work there. ImGui gets no
-// other keys: Tab, which would open the next text, least of all.
+// A key does what the table says wherever the focus is. The exceptions are keys that a text with a
+// caret needs and, where the ring is visible or a popup is open, keys that work there. ImGui gets
+// no other keys, least of all Tab, which would open the next text.
 bool App::isForWidgets(const InputEvent& e) const {
   if (e.kind != InputEvent::Kind::key || !e.down) return true;
   if (e.code >= GLFW_KEY_LEFT_SHIFT && e.code <= GLFW_KEY_RIGHT_SUPER) return true;
@@ -82,7 +82,7 @@ bool App::isForWidgets(const InputEvent& e) const {
   return e.code != GLFW_KEY_ESCAPE || ImGui::IsAnyItemActive();
 }
 
-// Enter presses a button, a menu's entry or a tick as Space does; at a number it types.
+// Enter presses a button, a menu entry or a checkbox as Space does; at a number it starts typing.
 bool App::pressesLikeSpace(const InputEvent& e) const {
   return e.kind == InputEvent::Kind::key && e.down && e.forWidgets && !dialogs_.open() &&
          (e.code == GLFW_KEY_ENTER || e.code == GLFW_KEY_KP_ENTER) &&
@@ -135,10 +135,10 @@ void App::key(const InputEvent& e) {
     return execute(Action::help);
   if (control && !shift && e.code == GLFW_KEY_Y) return execute(Action::redo);
   for (const ActionInfo& info : actions()) {
-    if (info.command == Action::help) continue;  // comes as a character, on any keyboard
+    if (info.command == Action::help) continue;  // arrives as a character, on any keyboard
     if (info.key == e.code && info.control == control && info.shift == shift) {
       if (!e.repeated || info.repeats) execute(info.command);
-      // As under a hand: one step of undo.
+      // As for a drag: one undo step.
       if (e.repeated && info.repeats) lastScroll_ = Clock::now();
       return;
     }

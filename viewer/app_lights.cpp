@@ -16,7 +16,7 @@ bool hasPlace(const Light& light) {
   return light.type == Light::Type::point || light.type == Light::Type::spot;
 }
 
-// To the light, world space.
+// The direction to the light, world space.
 glm::dvec3 towards(const Light& light, const glm::dmat3& axes) {
   const glm::dvec3 d = light.type == Light::Type::camera ? axes * light.direction : light.direction;
   const double length = glm::length(d);
@@ -27,8 +27,8 @@ glm::dvec3 tidyVector(const glm::dvec3& v) { return glm::round(v * 1e4) / 1e4; }
 
 }  // namespace
 
-// A point or spot light has its handle where it is, a spot another one where it shines; a direction
-// on a ball about the model.
+// A point or spot light has a handle at its position, and a spot another where it shines; a
+// directional light has one on a ball around the model.
 std::vector<App::LightHandle> App::lightHandles() const {
   std::vector<LightHandle> handles;
   if (!session_.lightHandles || !session_.model || !shownResult_.a) return handles;
@@ -109,7 +109,7 @@ void App::dragLight(glm::dvec2 mouse) {
     const glm::dvec3 way = at - light.position;
     if (glm::length(way) > 1e-9 * reach) light.direction = tidyVector(glm::normalize(way));
   } else if (hasPlace(light)) {
-    // In the plane through it that faces the camera.
+    // In the plane through the light that faces the camera.
     const glm::dvec3 ahead = -camera.axes[2];
     const double along = glm::dot(ray.direction, ahead);
     const double t = glm::dot(light.position - ray.origin, ahead) / along;
@@ -127,7 +127,7 @@ void App::dragLight(glm::dvec2 mouse) {
     const double r = glm::length(off);
     if (r > 1) off /= r;
     const double z = std::sqrt(std::max(0.0, 1 - glm::dot(off, off)));
-    // A drag to the rim goes on around to the other side.
+    // A drag past the rim continues on the other side.
     if (r > 1) draggedLight_->behind = !wasBeyond_ ? !draggedLight_->behind : draggedLight_->behind;
     wasBeyond_ = r > 1;
     const glm::dvec3 eye(off, draggedLight_->behind ? -z : z);

@@ -34,7 +34,7 @@ void App::menuBar() {
   }
   ImGui::EndMainMenuBar();
   if (!chosen) return;
-  ImGui::SetWindowFocus(nullptr);  // else keys would work in what had the focus before
+  ImGui::SetWindowFocus(nullptr);  // otherwise keys would go to what had the focus before
   execute(*chosen);
 }
 
@@ -99,7 +99,7 @@ void App::paletteWindow() {
   }
   shown = palette_.at;
   ImGui::EndChild();
-  // A click elsewhere closes it.
+  // A click elsewhere closes the palette.
   const bool away = !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
                     ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   ImGui::End();

@@ -13,9 +13,9 @@
 namespace glint::viewer {
 namespace {
 
-// So long a frame waits for the picture that it asks for; longer ones come in a later frame.
+// A frame waits this long, in seconds, for its picture; slower ones are shown in a later frame.
 constexpr double patience = 0.05;
-// Finding programs takes less than this, compiling one more; ms.
+// Looking up programs takes less than this, compiling one more; ms.
 constexpr double compiling = 5;
 
 CodePicture codesOf(const DrawnPicture& picture) {
@@ -24,8 +24,8 @@ CodePicture codesOf(const DrawnPicture& picture) {
 
 }  // namespace
 
-// Whether the pixel under the cursor shows B. A look in another pose of the model has no surfaces
-// here to be asked.
+// Whether the pixel under the cursor shows B. Without a common pose, the probe has no surfaces for
+// B.
 bool App::probesB(const Document& document) const {
   if (!cursor_ || !comparesLooks(document) ||
       !samePose(glint::poseOf(document.a), glint::poseOf(*document.b)))
@@ -35,7 +35,7 @@ bool App::probesB(const Document& document) const {
           cursor_->x >= std::lround(document.divider * resolution_.x));
 }
 
-// What the window wants to show now.
+// The pictures that the window needs now.
 PaintRequest App::wanted(bool& moving) {
   const auto now = Clock::now();
   const Document& document = session_.document;
@@ -63,7 +63,7 @@ PaintRequest App::wanted(bool& moving) {
   }
   want.overlay = session_.overlay;
   want.outlined = want.overlay == Overlay::outline ? session_.material : -1;
-  // Once the picture itself is there.
+  // Only after the picture itself.
   if (probeShown_ && isWhole) {
     const Look& probed = probesB(document) && want.b ? *want.b : want.a;
     if (probed.antiAliasing.mode != AntiAliasing::Mode::none) {
@@ -79,7 +79,8 @@ void App::updatePicture() {
   bool moving = false;
   const PaintRequest want = wanted(moving);
   bool asked = false;
-  // A picture that follows a hand is not given up for the next one, else none would ever be done.
+  // A picture that follows a drag is not cancelled for the next one, or none would ever be
+  // completed.
   const bool waits = painter_->pending() && requested_ && requested_->preview && want.preview;
   if (requested_ != want && !waits && !(failed_ && *failed_ == want.a)) {
     painter_->request(want);
@@ -97,7 +98,7 @@ void App::receive(PaintResult result) {
   const PaintRequest& request = result.request;
   if (!result.error.empty()) {
     session_.fail(result.error);
-    if (result.a) {  // it is B that cannot be drawn
+    if (result.a) {  // B cannot be drawn
       session_.document.compare = CompareMode::off;
     } else {
       failed_ = request.a;
@@ -142,7 +143,7 @@ void App::composeScreen() {
                     shownOverlay_ == session_.overlay && shownRows_ == rows;
   if (same) return;
   if (exact && (encoded_ != reference.get() || rows < encodedRows_ || screenStale_)) {
-    exactCodes_ = a.codes;  // rows that are still to come show A
+    exactCodes_ = a.codes;  // rows still to come show A
     encoded_ = reference.get();
     encodedRows_ = 0;
   }
@@ -203,7 +204,7 @@ void App::updateProbe() {
     const Image* plain = shownResult_.plain ? &shownResult_.plain->linear : nullptr;
     Look withoutSamples = a.asked;
     withoutSamples.antiAliasing = {AntiAliasing::Mode::none, 1};
-    if (plain && shownResult_.plain->asked != withoutSamples) plain = nullptr;  // of the other side
+    if (plain && shownResult_.plain->asked != withoutSamples) plain = nullptr;  // of the other look
     if (a.look.antiAliasing.mode == AntiAliasing::Mode::none) plain = &a.linear;
     probe_ = probePixel({model.scene, *model.images, model.bounds, *model.picker, a.list}, a.look,
                         a.linear, plain, at);

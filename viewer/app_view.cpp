@@ -137,14 +137,15 @@ std::optional<Hit> App::hitAt(glm::dvec2 pixel) const {
 
 void App::dolly(glm::dvec2 pixel, double factor) {
   if (!session_.model) return;
-  // A drag goes on to what was under the pointer when it began.
+  // A drag keeps going to what was under the pointer when it began.
   std::optional<glm::dvec3> surface =
       ImGui::IsMouseDown(ImGuiMouseButton_Right) ? pressedPoint_ : std::optional<glm::dvec3>();
   if (!surface)
     if (const auto hit = hitAt(pixel)) surface = hit->position;
   const double height = std::max(1.0, double(resolution_.y));
   const glm::dvec2 cursor = (pixel - glm::dvec2(resolution_) / 2.0) * glm::dvec2(2, -2) / height;
-  // The near plane comes as near as 1e-5 of the far one (cameraFor), twice the radius away or less.
+  // The near plane can be as near as 1e-5 of the far one (cameraFor), which is then at most twice
+  // the radius away.
   const double nearest = 1e-4 * session_.model->bounds.radius;
   bool tooNear = false;
   moveCamera([&](const Pose& p) {
@@ -176,7 +177,7 @@ std::optional<glm::dvec2> App::placeOf(const glm::dvec3& world) const {
   return glm::dvec2(at.x * size.x, double(menuHeight_) + (1 - at.y) * size.y);
 }
 
-// A ring and a dot where the pivot is seen.
+// Draws a ring and a dot at the pivot.
 void App::drawPivot() {
   if (!pivot_) return;
   const auto at = placeOf(*pivot_);
@@ -189,7 +190,7 @@ void App::drawPivot() {
   draw->AddCircleFilled(place, 2 * s, IM_COL32(255, 214, 120, 255));
 }
 
-// "exact reference: ..." or the difference of the 8-bit values, where both pictures are there.
+// "exact reference: ..." or the difference of the 8-bit values, if both pictures are there.
 std::string App::comparisonText() const {
   const Document& document = session_.document;
   const SharedPicture& a = shownResult_.a;
@@ -233,7 +234,7 @@ void App::drawOverPicture() {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 white = IM_COL32(255, 255, 255, 255);
   const float top = menuHeight_;
-  // In lines as long as the picture is wide; the last one stands at y if `upwards`.
+  // Wraps lines at the picture's width; with `upwards` the last line is at y.
   const auto write = [&](float x, float y, const std::string& text, bool upwards = false) {
     const float room = std::max(size.x - x - 10 * s, 1.0f);
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
@@ -253,7 +254,7 @@ void App::drawOverPicture() {
                   held ? IM_COL32(255, 214, 120, 255) : IM_COL32(255, 255, 255, 150), s);
     const std::vector<Difference> all =
         exact ? std::vector<Difference>{} : differences(document.a, *document.b);
-    // As much as there is room for.
+    // As much as fits.
     const auto side = [&](bool isA, float room) {
       std::string text = isA ? "A: " : "B: ";
       for (std::size_t most = 3; most-- > 0;) {
@@ -302,7 +303,7 @@ void App::drawOverPicture() {
   drawProgress();
 }
 
-// In the middle of the picture: what is read, or is drawn for the first time.
+// In the middle of the picture: what is being loaded, or drawn for the first time.
 void App::drawProgress() {
   std::string text;
   if (loading_.valid())

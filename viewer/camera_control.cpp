@@ -56,14 +56,14 @@ Pose poseOf(const Scene& scene, const Bounds& bounds, const Look& look) {
   if (!camera.orthographic) {
     pose.viewAngle = 2 * std::atan(camera.halfHeight) / radians;
   } else {
-    // The half height of a parallel projection is the distance times the tangent; the eye may stand
-    // anywhere along the view.
+    // The half height of a parallel projection is the distance times the tangent; the eye may be
+    // anywhere along the viewing direction.
     pose.viewAngle = look.cameraViewAngle.value_or(30);
     distance = camera.halfHeight / std::tan(pose.viewAngle * radians / 2);
   }
   pose.position = pose.focalPoint + back * distance;
   pose.up = look.cameraViewUp.value_or(glm::dvec3(0, 1, 0));
-  // A camera of the file or turned by angles may be rolled, or look along its way up.
+  // A camera from the file or turned by angles may be rolled, or look along its up vector.
   const Axes axes = axesOf(pose);
   if (glm::dot(axes.up, camera.axes[1]) < 1 - 1e-12) pose.up = camera.axes[1];
   return pose;
@@ -75,7 +75,7 @@ void setPose(Look& look, const Pose& pose) {
   look.cameraFocalPoint = pose.focalPoint;
   if (pose.up != glm::dvec3(0, 1, 0)) look.cameraViewUp = pose.up;
   look.cameraOrthographic = pose.orthographic;
-  if (look.cameraIntrinsics) return;  // they say what the angle would
+  if (look.cameraIntrinsics) return;  // they determine the angle
   if (pose.viewAngle != 30 || look.cameraViewAngle) look.cameraViewAngle = pose.viewAngle;
 }
 
@@ -94,7 +94,7 @@ Pose orbited(const Pose& pose, double right, double upwards, std::optional<glm::
     moved.position = pose.focalPoint + glm::normalize(back) * axes.distance;
     return moved;
   }
-  // The camera's axes turn from (right, up, back) to these; so does what stands about the pivot.
+  // The camera's axes turn from (right, up, back) to these; points relative to the pivot turn too.
   const glm::dmat3 was(axes.right, axes.up, axes.back);
   const glm::dmat3 is(side, glm::cross(back, side), back);
   const auto carried = [&](const glm::dvec3& p) {
@@ -189,7 +189,7 @@ Ray rayThrough(const Camera& camera, glm::dvec2 pixel, glm::ivec2 resolution) {
   const glm::dvec2 offset = (glm::dvec2(at.x, -at.y) + camera.shift) * reach;
   const double width = 2 * camera.halfHeight / resolution.y;
   if (camera.orthographic) {
-    // From far enough back that the whole scene lies ahead.
+    // Start far enough back that the whole scene is ahead.
     const glm::dvec3 eye = camera.eye + camera.axes[2] * (camera.far - camera.near);
     return {eye + camera.axes[0] * offset.x + camera.axes[1] * offset.y, -camera.axes[2], width, 0};
   }

@@ -8,9 +8,9 @@
 namespace glint::viewer {
 namespace {
 
-constexpr std::size_t most = 4;  // A and B, each as it was and as it is
+constexpr std::size_t most = 4;  // A and B, each before and now
 
-// A choice is about light at one sample, before exposure: none of these has a part in it.
+// A choice concerns light at one sample before exposure; none of these affects it.
 Look withoutRest(Look look) {
   const Look plain;
   look.antiAliasing = plain.antiAliasing;

@@ -18,9 +18,9 @@ namespace {
 
 #if GLINT_MESHOPT
 
-constexpr std::size_t fewestPrimitives = 32;  // a mesh of so few stays as it is
+constexpr std::size_t fewestPrimitives = 32;  // smaller meshes stay unchanged
 
-// Every n-th point or line, so that about `most` remain.
+// Keeps every n-th point or line, about `most` in all.
 std::vector<std::uint32_t> thinned(const Mesh& mesh, std::size_t most) {
   const std::size_t corners = cornersOf(mesh.topology), count = mesh.indices.size() / corners;
   const std::size_t step = (count + most - 1) / most;
@@ -30,12 +30,12 @@ std::vector<std::uint32_t> thinned(const Mesh& mesh, std::size_t most) {
   return kept;
 }
 
-// Simplifying edge by edge takes seconds for millions of triangles, and does not get far where they
-// do not hang together; clustering vertices is fast and always does, but coarser. So the first does
-// what the second leaves.
+// Simplifying edge by edge takes seconds for millions of triangles, and does not get far if they
+// are not connected. Clustering vertices is fast and always works, but is coarser. So clustering
+// comes first and edge collapse continues from its result.
 std::vector<std::uint32_t> simplified(const Mesh& mesh, std::size_t most) {
   constexpr float anyError = 1e9f;
-  constexpr std::size_t left = 8;  // times what is wanted in the end
+  constexpr std::size_t left = 8;  // times the final count
   const auto clustered = [&](std::size_t count) {
     std::vector<std::uint32_t> kept(mesh.indices.size());
     kept.resize(meshopt_simplifySloppy(kept.data(), mesh.indices.data(), mesh.indices.size(),
@@ -62,7 +62,7 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<std
   return result;
 }
 
-// The mesh with these of its indices and the vertices that they need.
+// The mesh with only these indices and the vertices that they use.
 Mesh withIndices(const Mesh& mesh, const std::vector<std::uint32_t>& indices) {
   constexpr std::uint32_t none = ~std::uint32_t(0);
   std::vector<std::uint32_t> from, place(mesh.positions.size(), none);
@@ -91,11 +91,11 @@ Mesh withIndices(const Mesh& mesh, const std::vector<std::uint32_t>& indices) {
 
 #endif
 
-// Of a light, what arrives at a point that faces it, and from where.
+// A light's contribution at a point that faces it, and its direction.
 struct Arriving {
   glm::dvec3 light{0.0};
-  glm::dvec3 way{0.0};   ///< unit, to the light; 0 where it has none
-  double weakening = 1;  ///< what its intensity was multiplied by
+  glm::dvec3 way{0.0};   ///< unit, to the light; 0 if it has no direction
+  double weakening = 1;  ///< its intensity was multiplied by this
 };
 
 Arriving arrivingOf(const Light& light, const Bounds& bounds, const Camera& camera) {
@@ -115,7 +115,7 @@ Arriving arrivingOf(const Light& light, const Bounds& bounds, const Camera& came
     case Light::Type::spot: {
       const glm::dvec3 way = light.position - bounds.center;
       a.way = unit(way);
-      // Of one within the model the surface is about as far as the model is large.
+      // For a light inside the model, the surface is about a model radius away.
       const double square = std::max(glm::dot(way, way), bounds.radius * bounds.radius);
       if (light.fallsOff && square > 0) a.weakening = 1 / square;
       break;
@@ -185,12 +185,12 @@ Look withFewerLights(const Scene& scene, const Bounds& bounds, const Look& look,
     lights.push_back((*all.light)[i]);
     arriving.push_back(arrivingOf(lights.back(), bounds, camera));
   }
-  // Of each light the nearest of those taken, by the way to it.
+  // For each light, the nearest selected light by direction.
   std::vector<std::size_t> nearest(lights.size(), 0);
-  std::vector<double> cosine(lights.size(), -1);  // 1 of those taken
+  std::vector<double> cosine(lights.size(), -1);  // 1 for selected ones
   std::vector<std::size_t> taken;
   while (taken.size() < most) {
-    std::size_t next = lights.size();  // one that is not taken; there are more than `most`
+    std::size_t next = lights.size();  // not selected yet; there are more than `most` lights
     double best = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::dvec3& l = arriving[i].light;
@@ -206,7 +206,7 @@ Look withFewerLights(const Scene& scene, const Bounds& bounds, const Look& look,
       cosine[i] = here;
       nearest[i] = taken.size();
     }
-    cosine[next] = 2;  // is not asked again
+    cosine[next] = 2;  // never selected again
     nearest[next] = taken.size();
     taken.push_back(next);
   }

@@ -63,7 +63,7 @@ void Dialogs::close() {
 void Dialogs::draw() {
   if (kind_ == Kind::none) return;
   const std::string id = title_ + "###dialog";
-  // What the answer does may open the next dialog: the flags are this one's no more then.
+  // The action of an answer may open the next dialog, so reset the flags first.
   const bool appearing = std::exchange(appearing_, false);
   if (appearing) ImGui::OpenPopup(id.c_str());
   const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
@@ -181,7 +181,7 @@ void Dialogs::drawPicture(bool enter, bool escape) {
   }
 }
 
-// Enter at the keyboard's ring presses what is there.
+// Enter at the keyboard's ring presses the focused button.
 bool Dialogs::pressedAtRing(bool enter) {
   return enter && ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
 }

@@ -7,7 +7,7 @@
 
 namespace glint::viewer {
 
-/// One modal dialog at a time: asks for a path, or for one of a few answers. Enter takes the first
+/// One modal dialog at a time: asks for a path, or offers a few answers. Enter chooses the first
 /// answer, Escape the last.
 class Dialogs {
  public:
@@ -19,16 +19,16 @@ class Dialogs {
     std::function<void()> action;
   };
 
-  /// Asks for a file name. `existing`: one that is there, offered in a list.
+  /// Asks for a file name. `existing`: offers existing files in a list.
   void askPath(std::string title, std::string path, bool existing, PathAction action);
-  /// Asks what picture is saved: name, size and whether its background is transparent.
+  /// Asks how to save the picture: name, size and whether its background is transparent.
   void askPicture(std::string path, glm::ivec2 size, bool transparent, PictureAction action);
   void ask(std::string title, std::string question, std::vector<Answer> answers);
 
   bool open() const { return kind_ != Kind::none; }
   void draw();
 
-  /// Keys of ImGui's frame that a dialog takes.
+  /// Passes a key of the current ImGui frame to the dialog.
   void pressEnter() { enter_ = true; }
   void pressEscape() { escape_ = true; }
 
@@ -40,7 +40,7 @@ class Dialogs {
   /// True if a file was double-clicked.
   bool drawFiles(float width);
   static bool pressedAtRing(bool enter);
-  /// The buttons at the end: 1 to go on, -1 to give up, else 0.
+  /// The buttons at the end: 1 to proceed, -1 to cancel, otherwise 0.
   int drawButtons(const char* text, bool entered, bool escape);
   void drawQuestion(bool enter, bool escape);
 

@@ -9,35 +9,35 @@ namespace glint::viewer {
 
 enum class CompareMode { off, split, blink, difference };
 
-/// What a person edits in the window, as a value: everything that undo brings back.
+/// The state that the user edits in the window, as a value: everything that undo restores.
 struct Document {
-  Look a;                 ///< what is drawn; its resolution is that of the window, not this one
+  Look a;                 ///< what is drawn, but at the window's resolution instead of its own
   std::optional<Look> b;  ///< the look kept for comparison
   CompareMode compare = CompareMode::off;
-  bool exact = false;           ///< compares with the exact reference of A in place of B
-  double divider = 0.5;         ///< of the split: share of the picture's width that shows A
+  bool exact = false;           ///< compares with the exact reference of A instead of B
+  double divider = 0.5;         ///< of the split: the fraction of the picture's width that shows A
   double amplification = 16.0;  ///< of the difference
   bool operator==(const Document&) const = default;
 };
 
-/// Whether the document compares A with the kept look, and there is one.
+/// Whether the document compares A with B, and there is a B.
 bool comparesLooks(const Document&);
-/// Whether it compares A with its exact reference.
+/// Whether the document compares A with its exact reference.
 bool comparesExact(const Document&);
 
-/// Undo and redo without limit. It is not told of edits: it sees them by comparison, so that none
-/// can be forgotten, and takes all that happens in one gesture (a drag, a typed number) as one
-/// step. While an animation plays, its time is no edit and stays as it is.
+/// Unlimited undo and redo. Edits are detected by comparison, so that none can be forgotten. All
+/// changes during one gesture (a drag, a typed number) become one step. While an animation plays,
+/// its time is neither an edit nor restored.
 class History {
  public:
   explicit History(Document start = {}) : settled_(std::move(start)) {}
 
-  /// To be called after every frame. While `gesture` is true nothing becomes a step yet.
+  /// Call this after every frame. While `gesture` is true, no step is recorded.
   void settle(const Document& now, bool gesture, bool playing = false);
 
   std::size_t undoSteps() const { return undo_.size(); }
 
-  /// Takes back the last step; an edit that is not settled yet is one. False if there is none.
+  /// Undoes the last step, including edits not settled yet. False if there is none.
   bool undo(Document& now, bool playing = false);
   bool redo(Document& now, bool playing = false);
 
@@ -48,8 +48,8 @@ class History {
   std::vector<Document> undo_, redo_;
 };
 
-/// The look without what only moves the camera, and without the resolution: what counts as an edit
-/// when the window is closed.
+/// The look without the options that only move the camera and without the resolution: what counts
+/// as an edit when the window is closed.
 Look withoutCamera(const Look&);
 
 }  // namespace glint::viewer

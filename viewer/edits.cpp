@@ -45,7 +45,7 @@ void sayFlag(Session& session, const std::string& what, bool& flag) {
 
 void selectMaterial(Session& session, int step) {
   const std::vector<int> drawn = drawnMaterials(session.model->scene);
-  const int count = int(drawn.size()) + 1;  // and all of them
+  const int count = int(drawn.size()) + 1;  // plus the entry for all materials
   const auto found = std::ranges::find(drawn, session.material);
   const int place = found == drawn.end() ? 0 : int(found - drawn.begin()) + 1;
   const int next = (place + step + count) % count;
@@ -64,7 +64,7 @@ void takePreset(Session& session, int step) {
   session.say(materialLabel(scene, session.material) + ": " + std::string(preset.name));
 }
 
-// All lights by a factor. Those of the file stay the file's: their scale is the look's.
+// Scales all lights. Those of the file are not copied; the look's light scale changes instead.
 void scaleLights(Session& session, double factor) {
   Look& look = session.document.a;
   const Scene* scene = session.model ? &session.model->scene : nullptr;
@@ -100,7 +100,7 @@ void editLights(Session& session, Action command, const glm::dmat3& axes) {
                              : ": off") +
                        (became.empty() ? "" : "; " + became));
   }
-  if (command != Action::nextLight) session.lightsOff.clear();  // their places change
+  if (command != Action::nextLight) session.lightsOff.clear();  // their indices change
   if (command == Action::addLight) {
     if (count >= maxLights) return session.say("no more lights than these are possible");
     Light sun;
@@ -126,7 +126,7 @@ void moveTime(Session& session, double step) {
   Look& look = session.document.a;
   const double duration = animationDuration(session.model->scene, look);
   const double now = look.animationTime.value_or(0);
-  // To the hundredth, so that steps come back to where they were.
+  // Rounded to hundredths, so that steps back and forth return to the same time.
   look.animationTime = std::clamp(std::round((now + step) * 100) / 100, 0.0, duration);
   session.say("animation at " + numberText(*look.animationTime) + " of " + numberText(duration) +
               " s");
@@ -276,7 +276,7 @@ bool edit(Session& session, Action command, const glm::dmat3& axes) {
       session.say("anti-aliasing " + antiAliasingText(look.antiAliasing));
       return true;
     default:
-      // The rest needs a model.
+      // The remaining actions need a model.
       return session.model && (editMaterial(session, command) || editAnimation(session, command));
   }
 }

@@ -18,7 +18,7 @@ bool isOneOf(std::string_view name, std::initializer_list<std::string_view> any)
   return std::ranges::find(any, name) != any.end();
 }
 
-// Whether a form with Schlick's exponent may be drawn.
+// Whether a form with Schlick's exponent may be used.
 bool usesSchlick(const Look& look) {
   const auto schlick = [](Fresnel form) {
     return form == Fresnel::schlick || form == Fresnel::schlickExp2;

@@ -25,7 +25,7 @@ ErrorNumbers errorNumbers(const Image& picture, const Image& exact,
       double largest = 0, square = 0;
       for (int c = 0; c < 3; ++c) {
         const double d = std::abs(double(a[c]) - double(b[c]));
-        largest = d <= largest ? largest : d;  // NaN stays
+        largest = d <= largest ? largest : d;  // keeps NaN
         square += d * d;
       }
       if (!std::isfinite(square)) {

@@ -1,4 +1,4 @@
-// The rows of the panel: labels, tooltips, sliders and numbers that are typed.
+// The rows of the panel: labels, tooltips, sliders and number fields.
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double tooltipAfter = 0.6;  // seconds
 
-// The label drawn last belongs to the widget that follows.
+// The label drawn last belongs to the next widget.
 struct LabelState {
   bool hovered = false, doubleClicked = false;
 };
@@ -43,18 +43,18 @@ int ringAtNumber = -10;  // the last frame in which it was
 
 bool ringHere() { return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible; }
 
-// Of a number.
+// For a number field: whether Enter starts typing.
 bool entersAtRing() {
   if (!ringHere()) return false;
   ringAtNumber = ImGui::GetFrameCount();
   return imgui::enterPressed();
 }
 
-// The one number that is being typed.
+// The one number field being typed in.
 struct Typing {
   ImGuiID id = 0;
   std::string first, text, error;
-  int begins = 0;  ///< frames in which the field still has to get the caret
+  int begins = 0;  ///< frames left to give the field the caret
 };
 Typing typing;
 std::string problem;
@@ -64,8 +64,8 @@ void beginTyping(ImGuiID id, double value) {
   ImGui::ClearActiveID();
 }
 
-// A text beside the panel; where there is no room, above what it belongs to, or below the row that
-// follows. As bright in a row that is grey.
+// Shows a text beside the panel; without room there, above the item or below the next row. Keeps
+// full brightness in a disabled row.
 void showBeside(const std::string& text, const ImVec4& color) {
   const ImVec2 corner = ImGui::GetItemRectMin(), screen = ImGui::GetIO().DisplaySize;
   const float gap = 8 * style().scale, font = ImGui::GetFontSize();
@@ -93,7 +93,7 @@ void showBeside(const std::string& text, const ImVec4& color) {
 
 using Reading = std::function<TypedNumber(const std::string&)>;
 
-// The field while something is typed in it. Nothing unless a number was taken.
+// The field while it is being typed in. Empty unless a number was entered.
 std::optional<double> typed(ImGuiID id, const Reading& read) {
   if (typing.begins > 0) {
     ImGui::SetKeyboardFocusHere();
@@ -120,7 +120,7 @@ std::optional<double> typed(ImGuiID id, const Reading& read) {
     return {};
   }
   if (!now.value && entered) {
-    typing.begins = 10;  // stays, to be mended
+    typing.begins = 10;  // stays open to be corrected
     return {};
   }
   if (!now.value) problem = "'" + typing.text + "': " + now.error + "; it stays as it was";
@@ -140,9 +140,9 @@ bool numberBy(const char* id, double& value, const Reading& read) {
     value = *taken;
     return true;
   }
-  // Looks like a field, and becomes one when it is clicked or entered.
+  // Looks like a field, and becomes one when it is clicked or Enter is pressed.
   char text[40];
-  std::snprintf(text, sizeof text, "%.5g###%s", value + 0.0, id);  // no -0
+  std::snprintf(text, sizeof text, "%.5g###%s", value + 0.0, id);  // avoids -0
   ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgHovered));
   ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(0, 0.5f));
@@ -159,7 +159,7 @@ double toSrgb(double x) {
 
 double toLinear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
 
-// Three numbers side by side.
+// Three number fields side by side.
 bool three(glm::dvec3& v, float width, const Reading& read) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float each = std::max(1.0f, (width - 2 * gap) / 3);
@@ -242,7 +242,7 @@ bool slider(const char* id, double& value, const SliderRange& range, double min,
   }
   if (!moved) return false;
   v = std::isfinite(v) ? std::clamp(v, min, max) : value;
-  // A slider that is moved within its range keeps a value beyond it until the mouse does.
+  // A value beyond the slider's range is kept until the slider is moved.
   if (v == value) return false;
   value = v;
   return true;

@@ -11,7 +11,7 @@
 namespace glint::viewer::imgui {
 namespace {
 
-// 1.87 brought a queue of events, and another name for this key.
+// 1.87 introduced an event queue, and renamed this key.
 #if IMGUI_VERSION_NUM >= 18700
 constexpr ImGuiKey keypadEnter = ImGuiKey_KeypadEnter;
 #else
@@ -52,7 +52,7 @@ constexpr int buttons = 5;
 #if IMGUI_VERSION_NUM >= 18700
 
 void beginInput() {
-  // Every frame gets events only up to the one that would hide another (InputQueue): ImGui need not
+  // Every frame gets events only up to one that would hide another (InputQueue), so ImGui need not
   // spread them over further frames.
   ImGui::GetIO().ConfigInputTrickleEventQueue = false;
 }
@@ -161,7 +161,7 @@ ImTextureID idOf(unsigned texture) {
 #if IMGUI_VERSION_NUM >= 19140
   return ImTextureID(texture);
 #else
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): GL's names, as ImGui's own part for GL takes them
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): GL names, as ImGui's own GL backend takes them
   return reinterpret_cast<ImTextureID>(std::intptr_t(texture));
 #endif
 }
@@ -176,7 +176,7 @@ void imageAt(unsigned texture, float x, float y, float width, float height) {
   ImGui::GetWindowDrawList()->AddImage(idOf(texture), ImVec2(x, y), ImVec2(x + width, y + height));
 }
 
-// From 1.92 on letters are drawn as they are needed, at any size.
+// From 1.92 on, glyphs are rasterised when they are needed, at any size.
 #if IMGUI_VERSION_NUM >= 19200
 void buildFonts() {}
 float fontHeight() { return ImGui::GetIO().Fonts->Fonts[0]->LegacySize; }

@@ -17,8 +17,8 @@ std::deque<InputEvent> InputQueue::take() {
   std::deque<InputEvent> frame;
   while (!events_.empty()) {
     const Kind kind = events_.front().kind;
-    // What is done at a place is done in the frame after the pointer came there: ImGui knows what
-    // is under it only then. A key waits for the release of the one before.
+    // A click or scroll comes in the frame after the pointer moved there, because only then does
+    // ImGui know what is under it. A key waits for the release of the one before.
     if (!frame.empty()) {
       const Kind last = frame.back().kind;
       if (last == Kind::motion || last == Kind::button || last == Kind::drop) break;

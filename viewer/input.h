@@ -8,7 +8,7 @@ struct GLFWwindow;
 
 namespace glint::viewer {
 
-/// One thing that the person at the window did.
+/// One input action of the user.
 struct InputEvent {
   enum class Kind { motion, button, scroll, key, character, drop, focus };
   Kind kind = Kind::motion;
@@ -18,22 +18,22 @@ struct InputEvent {
   bool repeated = false;  ///< key
   int modifiers = 0;      ///< GLFW's
   std::string path;       ///< drop
-  /// key: a widget takes it, not the table of actions; see App::isForWidgets.
+  /// key: goes to a widget, not to the table of actions; see App::isForWidgets.
   bool forWidgets = true;
-  bool presses = false;  ///< key: Enter, where it does what Space does
+  bool presses = false;  ///< key: Enter, where it acts as Space
 };
 
-/// What the window system reported, in order. ImGui 1.86 has no queue of its own: given all at
-/// once, a press and its release between two frames are lost. Here every frame gets events only up
-/// to the one that would hide another (take()).
+/// Events from the window system, in order. ImGui 1.86 has no event queue: a press and its release
+/// within one frame would be lost. Here, a frame gets events only up to the first one that would
+/// hide another (take()).
 class InputQueue {
  public:
-  /// Appends; a motion that follows a motion replaces it.
+  /// Appends an event; a motion directly after another replaces it.
   void add(InputEvent event);
   bool empty() const { return events_.empty(); }
 
   /// Removes and returns the events of the next frame: motions up to a button, key or scroll event,
-  /// and of those one, or a run of characters.
+  /// and then one such event, or a run of characters.
   std::deque<InputEvent> take();
 
  private:

@@ -149,7 +149,7 @@ void Interface::feed(const std::deque<InputEvent>& events) {
         break;
     }
     if (e.kind == Kind::key || e.kind == Kind::button) {
-      // The state of the modifiers as the event has it; their own events come with the old state.
+      // The modifiers after the event; events of modifier keys carry the state before them.
       const auto held = [&](int bit, int left, int right) {
         const bool own = e.kind == Kind::key && (e.code == left || e.code == right);
         return (!(own && !e.down) && (e.modifiers & bit) != 0) || held_[std::size_t(left)] ||

@@ -9,7 +9,7 @@
 namespace glint::viewer {
 namespace {
 
-constexpr double mostIntensity = 1e6;  // of an option
+constexpr double mostIntensity = 1e6;  // of a light given as an option
 
 double squareTo(const Light& light, const Bounds& bounds) {
   const glm::dvec3 way = light.position - bounds.center;

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Members that differ between `mine` and `base`, as they are in `mine`; of objects, their members.
+// Copies members that differ between `mine` and `base` from `mine`; recurses into objects.
 void keepEdits(const Json& mine, const Json& base, Json& into) {
   const auto member = [](const Json& from, const std::string& key) {
     const auto found = from.is_object() ? from.find(key) : from.end();

@@ -4,8 +4,8 @@
 
 namespace glint::viewer {
 
-/// `theirs`, with each parameter, and each of a material, that differs between `base` and `mine` as
-/// it is in `mine`.
+/// `theirs`, except that each parameter, also of a material, that differs between `base` and `mine`
+/// is taken from `mine`.
 Look mergedLook(const Look& mine, const Look& base, const Look& theirs);
 
 }  // namespace glint::viewer

@@ -12,7 +12,7 @@ Thumbnail ballOf(const ShadingParameters& s, const FitForm& form, int side) {
   ball.rgba.assign(std::size_t(4) * std::size_t(side) * std::size_t(side), 0);
   const glm::dvec3 L = glm::normalize(glm::dvec3(-0.5, 0.7, 1)), V(0, 0, 1);
   const glm::dvec3 ambient = s.ambient * s.color * 0.1;
-  constexpr int samples = 3;  // a side of a pixel
+  constexpr int samples = 3;  // per side of a pixel
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       glm::dvec3 sum(0.0);
@@ -24,7 +24,7 @@ Thumbnail ballOf(const ShadingParameters& s, const FitForm& form, int side) {
         const double square = u * u + v * v;
         if (square >= 1) continue;
         const glm::dvec3 N(u, v, std::sqrt(1 - square));
-        // The sum knows directions from a normal along z.
+        // The lobe functions expect the normal along z.
         const glm::dvec3 across = glm::normalize(
             glm::cross(N, std::abs(N.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
         const glm::dmat3 frame(across, glm::cross(N, across), N);

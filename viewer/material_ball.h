@@ -5,8 +5,8 @@
 
 namespace glint::viewer {
 
-/// A ball of a material in the default light, as small as a picture in a list: the sum in double,
-/// without environment, over black corners of alpha 0. sRGB.
+/// Renders a thumbnail of a ball with this material in the default light: the sum in double,
+/// without an environment; the corners are black with alpha 0. sRGB.
 Thumbnail ballOf(const ShadingParameters&, const FitForm&, int side);
 
 }  // namespace glint::viewer

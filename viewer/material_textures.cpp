@@ -27,7 +27,7 @@ std::vector<MaterialTexture> materialTextures(const Scene& scene, const Look& lo
                        const std::string& drives, unsigned bits = 0) {
     if (!texture) return;
     const unsigned gives = material.textured & bits;
-    if (bits != 0 && gives == 0) return;  // nothing here reads it
+    if (bits != 0 && gives == 0) return;  // none of its parameters is used here
     MaterialTexture& told = all.emplace_back();
     told.name = name;
     told.drives = bits == 0 ? drives : "gives " + namesOf(gives);
@@ -80,7 +80,7 @@ Thumbnail thumbnailOf(const ByteImage& image, int side) {
   small.width = std::max(1, image.width * most / longer);
   small.height = std::max(1, image.height * most / longer);
   small.rgba.assign(std::size_t(4) * std::size_t(small.width) * std::size_t(small.height), 255);
-  constexpr int samples = 4;  // a side
+  constexpr int samples = 4;  // per side
   const std::size_t channels = std::size_t(image.channels);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {

@@ -11,24 +11,25 @@
 
 namespace glint::viewer {
 
-/// A texture of a material, as the panel describes it.
+/// A texture of a material, as the panel shows it.
 struct MaterialTexture {
-  std::string name, drives;  ///< "base colour"; "multiplies color"
-  int image = 0;             ///< of the scene
-  unsigned gives = 0;        ///< parameters that it gives in place of numbers: bits of textured
-  unsigned replaced = 0;     ///< those of them that the look has numbers for
-  const SwitchedTexture* own = nullptr;  ///< it gives none, and is switched by its name
+  std::string name, drives;              ///< "base colour"; "multiplies color"
+  int image = 0;                         ///< index into the scene's images
+  unsigned gives = 0;                    ///< parameters that it gives instead of numbers, as bits
+  unsigned replaced = 0;                 ///< those of them for which the look has numbers
+  const SwitchedTexture* own = nullptr;  ///< set if it gives no parameters: switched by its name
   bool isOff = false;
 };
 
-/// Those of a material of the scene's, under a look.
+/// The textures of a material, under a look.
 std::vector<MaterialTexture> materialTextures(const Scene&, const Look&, int material);
 
-/// Switches a texture off or on again: what it gives by numbers that stand for it, see
-/// MaterialTexture::gives, the others by their names.
+/// Switches a texture off or on: one that gives parameters by setting numbers in their place (see
+/// MaterialTexture::gives), any other by its name.
 void switchTexture(Look&, const Scene&, int material, const MaterialTexture&, bool on);
 
-/// A picture of at most `side` pixels a side, RGBA, opaque; each pixel a mean of some texels.
+/// A small picture of at most `side` pixels a side, RGBA, opaque; each pixel is the mean of a few
+/// texels.
 struct Thumbnail {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;

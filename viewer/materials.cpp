@@ -34,7 +34,7 @@ Material effectiveMaterial(const Scene& scene, const Look& look, int index) {
   if (index >= 0) return editedMaterial(scene.materials[std::size_t(index)], look);
   const std::vector<int> drawn = drawnMaterials(scene);
   Material first = scene.materials[std::size_t(drawn.empty() ? 0 : drawn.front())];
-  first.name.clear();  // the edits of all materials alone
+  first.name.clear();  // so that only the edits of all materials apply
   first.index = -1;
   return editedMaterial(first, look);
 }
@@ -65,7 +65,7 @@ bool haveOneColor(const Scene& scene, const Look& look) {
 }
 
 void setParameters(Look& look, const std::string& key, const ShadingParameters& values) {
-  if (key.empty()) look.material.clear();  // what one material says would stand above it
+  if (key.empty()) look.material.clear();  // edits of single materials would take precedence
   MaterialEdit& edit = look.material[key];
   for (const MaterialParameter& p : materialParameters()) edit.*p.edit = values.*p.value;
   edit.color = values.color;

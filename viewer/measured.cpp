@@ -17,11 +17,11 @@ namespace {
 
 using std::numbers::pi;
 
-// Of the format: the values are counts of a camera.
+// From the format: the stored values are camera counts.
 constexpr double channelScale[3] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
 constexpr std::int64_t mostValues = 1 << 24;
 
-// v turned about a unit axis.
+// v rotated about a unit axis.
 glm::dvec3 turnedAbout(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1 - c));
@@ -33,15 +33,16 @@ struct Pair {
   glm::dvec3 measured;
 };
 
-// Pairs of directions in the middle of bins. The measure over both hemispheres is
-// dL dV = 4 cos(d) dH dD (Torrance and Sparrow's Jacobian), each a sine times its angles.
+// Pairs of directions at the bin centres. The measure over both hemispheres is
+// dL dV = 4 cos(d) dH dD (Torrance and Sparrow's Jacobian), where dH and dD are each a sine times
+// the differentials of the angles.
 std::vector<Pair> pairsOf(const MeasuredMaterial& m) {
   const glm::ivec3 bins = m.bins();
   const int stepD = std::max(1, bins.y / 30), stepP = std::max(1, bins.z / 18);
   const double horizon = std::cos(80 * radians);
   std::vector<Pair> pairs;
   for (int h = 0; h < bins.x; ++h) {
-    // The bin's edges in the format's spacing: angle = (index / bins)^2 of a right angle.
+    // The bin's edges; the format spaces them as angle = (index / bins)^2 of a right angle.
     const double low = pi / 2 * std::pow(double(h) / bins.x, 2);
     const double high = pi / 2 * std::pow(double(h + 1) / bins.x, 2);
     const double halfAngle = (low + high) / 2;
@@ -91,10 +92,10 @@ FitError errorOf(const std::vector<Pair>& pairs, const ShadingParameters& s, con
   return error;
 }
 
-// Of one exponent: diffuse and specular light by channel that come nearest, none negative.
+// For one exponent, the best-fitting diffuse and specular light per channel, none negative.
 struct Parts {
   glm::dvec3 diffuse{0.0}, specular{0.0};
-  double squares = 0;  // what is left, up to a constant
+  double squares = 0;  // the remaining error, up to a constant
 };
 
 Parts partsFor(const std::vector<Pair>& pairs, const std::vector<double>& lambdas, double alpha) {
@@ -126,8 +127,8 @@ Parts partsFor(const std::vector<Pair>& pairs, const std::vector<double>& lambda
   return parts;
 }
 
-// The parts in the terms of a material whose colour is `color`: specular light in least squares by
-// m_s (m_sm C + 1 - m_sm), diffuse light by m_d C.
+// The parts as parameters of a material of colour `color`: specular light as the least-squares fit
+// of m_s (m_sm C + 1 - m_sm), diffuse light as m_d C.
 ShadingParameters parametersFor(const Parts& parts, const glm::dvec3& color,
                                 const ShadingParameters& from) {
   ShadingParameters s = from;
@@ -226,7 +227,7 @@ ShadingParameters fitted(const MeasuredMaterial& m, const FitForm& form,
   const auto left = [&](double logExponent) {
     return partsFor(pairs, lambdas, alphaOf(form, std::exp(logExponent))).squares;
   };
-  // What is left may have more than one hollow: first in steps, then closer about the lowest.
+  // The error may have several minima: first a coarse search, then refinement around the lowest.
   const double least = std::log(0.25), most = std::log(20000.0);
   constexpr int steps = 36;
   double best = least, lowest = std::numeric_limits<double>::infinity();
@@ -243,7 +244,7 @@ ShadingParameters fitted(const MeasuredMaterial& m, const FitForm& form,
   ShadingParameters start = from;
   start.exponent = std::exp((low + high) / 2);
   const Parts parts = partsFor(pairs, lambdas, alphaOf(form, start.exponent));
-  // The colour of what is diffuse, or, as of metals, that of the highlight: the nearer one.
+  // The hue of the diffuse light or, as for metals, that of the highlight: whichever fits better.
   ShadingParameters nearest = start;
   double error = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& hue : {parts.diffuse, parts.specular}) {

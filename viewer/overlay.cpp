@@ -48,7 +48,7 @@ Program make(const char* name, const char* vertex, const char* fragment) {
 
 namespace {
 
-// What lies within two pixels of the rim of the marked pixels: bright, within a dark line.
+// Pixels within two pixels of the edge of the marked ones: bright, inside a dark border.
 std::vector<std::uint8_t> outlineOf(const std::vector<std::uint8_t>& mask, glm::ivec2 size) {
   std::vector<std::uint8_t> out(mask.size(), 0);
   const auto marked = [&](int x, int y) {
@@ -146,7 +146,7 @@ std::vector<std::uint8_t> OverlayDrawer::draw(GpuScene& scene, const DrawList& l
     }
   };
   if (mode == 1) {
-    // First the surfaces' depth, pushed back a little, then the edges that it does not hide.
+    // First the surfaces' depth, pushed back a little, then the edges that they do not hide.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(reversed ? -1.0f : 1.0f, reversed ? -1.0f : 1.0f);

@@ -11,14 +11,14 @@
 
 namespace glint::viewer {
 
-/// Edges, normals, facing and outlines, to lie over the picture in the window; the picture itself
-/// stays as it is.
+/// Draws edges, normals, facing and outlines to lay over the picture in the window; the picture
+/// itself is not changed.
 class OverlayDrawer {
  public:
   OverlayDrawer();
 
-  /// Draws what `list` drew, as `overlay` asks: RGBA with straight alpha, rows from the top.
-  /// `outlined` is the material of an outline, -1 all of them.
+  /// Draws the surfaces of `list` as `overlay` asks: RGBA with straight alpha, rows from the top.
+  /// `outlined` is the material to outline, -1 for all.
   std::vector<std::uint8_t> draw(GpuScene&, const DrawList& list, Overlay overlay, int outlined,
                                  glm::ivec2 size);
 

@@ -6,19 +6,19 @@
 
 namespace glint::viewer {
 
-/// A material that the user keeps: a file NAME.json with the text of materialText().
+/// A material preset of the user: a file NAME.json with the text of materialText().
 struct OwnPreset {
   std::string name;
   std::filesystem::path path;
 };
 
-/// configFolder()/materials; empty without one.
+/// configFolder()/materials; empty if there is no config folder.
 std::filesystem::path ownPresetsFolder();
 
-/// Those in the folder, by name, at most 500.
+/// The presets in the folder, by name, at most 500.
 std::vector<OwnPreset> ownPresets();
 
-/// Where a material of this label (any text) may be kept.
+/// The path for saving a material with this label (any text).
 std::filesystem::path ownPresetPath(const std::string& label);
 
 /// Throw InputError.

@@ -32,7 +32,7 @@ void Pace::drewFaster(double ms, bool cold) {
     slow_[std::size_t(division_)] = true;
     least_ = tries_++ > 0 ? std::min(least_, ms) : ms;
     if (larger_ > 0 && least_ > 0.85 * larger_) {
-      if (tries_ < 3) return;  // others may have held it up
+      if (tries_ < 3) return;  // other work may have delayed it
       useful_ = std::max(1, division_ - 1);
       division_ = useful_;
       larger_ = 0;
@@ -43,8 +43,8 @@ void Pace::drewFaster(double ms, bool cold) {
     tries_ = 0;
   } else if (division_ > 1 && ((ms < 0.7 * slowFrame && !slow_[std::size_t(division_ - 1)]) ||
                                ms * d * d < 0.6 * slowFrame * (d - 1) * (d - 1))) {
-    // It is tried once, as no one knows what of the time is the pixels'; and again where all of it
-    // may be.
+    // Tries a larger picture once, because the share of time spent on pixels is unknown, and again
+    // if pixels may be all of it.
     --division_;
     larger_ = 0;
     tries_ = 0;

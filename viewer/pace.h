@@ -6,34 +6,34 @@
 
 namespace glint::viewer {
 
-/// How long a picture may take that follows a hand, ms.
+/// The longest a picture that follows a drag may take, ms.
 inline constexpr double slowFrame = 1000.0 / 30;
 
 /// Seconds without a change after which the picture is drawn in full.
 inline constexpr double restAfter = 0.12;
 
-/// How small a picture has to be to follow a hand: learnt from the times that pictures took.
+/// Determines how small a picture must be to follow a drag, from the times of earlier pictures.
 class Pace {
  public:
-  /// Whether the whole picture is too slow to be drawn while something moves.
+  /// Whether the whole picture is too slow to draw while something moves.
   bool tooSlow() const { return whole_ > slowFrame; }
-  /// What is drawn while something moves: without anti-aliasing, and if need be smaller, by a whole
-  /// number.
+  /// The look to draw while something moves: without anti-aliasing and, if necessary, at a
+  /// resolution divided by a whole number.
   Look faster(const Look&) const;
 
-  /// As restAfter, but longer where a whole picture takes long: once begun it holds up the next
-  /// change.
+  /// Like restAfter, but longer if a whole picture takes long, because it delays the next change
+  /// once begun.
   double rest() const;
 
-  /// What is drawn while something moves is of another kind now: former times mean nothing any
-  /// more.
+  /// Call when a different kind of scene is drawn while something moves: earlier times no longer
+  /// apply.
   void learnAnew();
 
-  /// A whole picture took so long; at rest sizes are learnt anew. `cold`: shaders were compiled for
-  /// it, the next ones are faster.
+  /// Records the time of a whole picture; learning starts anew at rest. `cold`: it included
+  /// compiling shaders, so the next ones are faster.
   void drewWhole(double ms, bool cold);
-  /// A picture by faster() took so long; `cold` as above. Where smaller ones are hardly faster
-  /// (vertices take the time, not pixels) they are not made smaller still.
+  /// Records the time of a picture by faster(); `cold` as above. If smaller pictures are hardly
+  /// faster (limited by vertices, not pixels), the size is not reduced further.
   void drewFaster(double ms, bool cold = false);
 
   int division() const { return division_; }
@@ -42,9 +42,9 @@ class Pace {
   static constexpr int most = 6;
   double whole_ = 0;
   int division_ = 1;
-  int useful_ = most;  ///< smaller pictures were no faster
-  double larger_ = 0;  ///< ms by one division less
-  double least_ = 0;   ///< ms by this one, of `tries_` that were too slow
+  int useful_ = most;  ///< largest division worth trying
+  double larger_ = 0;  ///< ms with one division less
+  double least_ = 0;   ///< ms, the fastest of `tries_` with this division that were too slow
   int tries_ = 0;
   std::array<bool, most + 1> slow_{};  ///< divisions that were too slow since the last rest
 };

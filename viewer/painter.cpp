@@ -14,7 +14,7 @@ namespace glint::viewer {
 
 namespace {
 
-// A model in the pose that was drawn last, in the driver's memory.
+// A model in the pose drawn last, in the driver's memory.
 struct PosedScene {
   std::shared_ptr<const Model> model;
   std::unique_ptr<GpuScene> scene;
@@ -36,7 +36,7 @@ struct PosedScene {
   }
 };
 
-// What is drawn of a heavy model while something moves.
+// The coarse scene of a heavy model, drawn while something moves.
 struct CoarseScene {
   std::shared_ptr<const Model> of;
   std::unique_ptr<Scene> scene;
@@ -55,7 +55,7 @@ struct CoarseScene {
     of.reset();
   }
 
-  // Of this pose, or nothing where other vertices than those it was made of are seen.
+  // The scene in this pose, or null if the vertices differ from those it was made of.
   GpuScene* inPose(const Model& posed) {
     if (!of || !changedMeshes(*of, posed).empty()) return nullptr;
     scene->instances = posed.scene.instances;
@@ -68,8 +68,8 @@ struct CoarseScene {
 struct Painter::Objects {
   std::unique_ptr<Renderer> renderer;
   PosedScene first;
-  PosedScene second;   ///< of B, where that has a pose of its own
-  CoarseScene coarse;  ///< reads the textures of `first`
+  PosedScene second;   ///< for B, if it has a pose of its own
+  CoarseScene coarse;  ///< uses the textures of `first`
   std::unique_ptr<OverlayDrawer> overlay;
   Chooser chooser;
   SharedPicture a, b, plain;
@@ -114,7 +114,7 @@ void Painter::setModel(std::shared_ptr<const Model> model) {
   coarsener_->stopLatest();
   worker_->queue([this, model](const std::atomic<bool>&) {
     Objects& o = *objects_;
-    // The old model's objects in the driver refer to its scene.
+    // These pictures' driver objects refer to the old model's scene.
     o.a.reset();
     o.b.reset();
     o.plain.reset();

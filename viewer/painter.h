@@ -16,13 +16,13 @@
 
 namespace glint::viewer {
 
-/// Pictures that the window wants at one time.
+/// The pictures that the window wants at one time.
 struct PaintRequest {
   Look a;
-  /// Something moves: a may be smaller than the window, and heavy models are drawn coarsely.
+  /// Something moves: A may be smaller than the window, and heavy models are drawn coarsely.
   bool preview = false;
-  glm::ivec2 size{1};         ///< of the whole picture: forms are chosen for that one
-  std::optional<Look> b;      ///< what A is compared with
+  glm::ivec2 size{1};         ///< of the whole picture: forms are chosen for this size
+  std::optional<Look> b;      ///< the look that A is compared with
   std::optional<Look> plain;  ///< A without anti-aliasing, for the probe
   Overlay overlay = Overlay::none;
   int outlined = -1;  ///< the material whose outline the overlay shows; -1: all
@@ -31,54 +31,52 @@ struct PaintRequest {
 
 using SharedPicture = std::shared_ptr<const DrawnPicture>;
 
-/// RGBA with straight alpha, rows from the top, as large as the picture it lies over.
+/// RGBA with straight alpha, rows from the top, in the size of the picture below it.
 using Layer = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-/// What came of a request. Pictures that were drawn before are given again.
+/// The result of a request. Pictures already drawn are reused.
 struct PaintResult {
   PaintRequest request;
-  std::shared_ptr<const Model> model;  ///< in the pose that A asks for; null if it has none
+  std::shared_ptr<const Model> model;  ///< in A's pose; null if it does not have that pose
   SharedPicture a, b, plain;
   Layer overlay;
-  std::string error;  ///< empty if all is there
+  std::string error;  ///< empty if everything was drawn
 };
 
-/// Draws pictures with a GL context and a thread of its own, by the same renderer as `glint
-/// render`, each look with the model in the pose that it asks for, so that neither compiling nor a
-/// large picture holds up the window. What is drawn is read back in any case: pictures are values,
-/// and the window's own context only shows them.
+/// Draws pictures with a GL context in a thread of its own, using the same renderer as `glint
+/// render`, each look with the model in its pose, so that neither compiling nor a large picture
+/// blocks the window. Pictures are always read back: they are values, and the window's own context
+/// only shows them.
 class Painter {
  public:
-  /// On the main thread, as the window. `wake` is called when something is ready.
+  /// Call on the main thread, like the window. `wake` is called when a result is ready.
   Painter(const Window&, const std::filesystem::path& glsl, std::function<void()> wake);
   ~Painter();
 
-  /// Draws this model, in whatever pose, from now on; results of other models are not given any
-  /// more.
+  /// Draws this model, in any pose, from now on; results for other models are dropped.
   void setModel(std::shared_ptr<const Model>);
 
-  /// Asks for pictures in place of those asked for before.
+  /// Requests pictures; replaces the previous request.
   void request(PaintRequest);
-  /// A result that has not been taken yet; waits for one, if something is asked for, at most
-  /// `seconds`.
+  /// A result not taken yet; waits for one up to `seconds`, if one is pending.
   std::optional<PaintResult> take(double seconds = 0);
-  /// Whether a request has no result yet.
+  /// Whether a request is pending.
   bool pending() const;
 
-  /// Called on the main thread, from poll(), with an error's text or "" when it is done.
+  /// Called on the main thread, from poll(), with an error's text or "" on success.
   using Done = std::function<void(const std::string& error)>;
-  /// Draws the model with the look and writes it as `glint render` does; may be larger than memory
-  /// has room for. Not cut short by requests.
+  /// Draws the model with the look and writes it as `glint render` does; the picture may be larger
+  /// than memory. Not interrupted by requests.
   void save(const Look&, const std::string& path, Done);
-  /// Compiles the folder's shaders for `trial` and takes them if that works.
+  /// Compiles the folder's shaders for `trial` and uses them if that succeeds.
   void reload(const std::filesystem::path& glsl, const Look& trial, Done);
-  /// Runs what save and reload have to report. True if there was something.
+  /// Calls the Done functions of completed save and reload jobs. True if there were any.
   bool poll();
   /// Whether pictures are being saved.
   bool saving() const;
 
  private:
-  struct Objects;  ///< all that lives in the context; touched by the worker's thread alone
+  struct Objects;  ///< everything in the context; used only by the worker's thread
 
   void paint(const PaintRequest&, const std::atomic<bool>& stop, int model);
   void takeCoarse(std::shared_ptr<const Model>, Scene coarse, int number);
@@ -90,12 +88,12 @@ class Painter {
   mutable std::mutex mutex_;
   std::condition_variable ready_;
   std::optional<PaintResult> result_;
-  std::optional<PaintRequest> asked_;  ///< without a result
+  std::optional<PaintRequest> asked_;  ///< not yet answered
   std::vector<std::pair<Done, std::string>> reports_;
   int model_ = 0;  ///< counts models
   int saves_ = 0;
   std::unique_ptr<Worker> worker_;
-  std::unique_ptr<Worker> coarsener_;  ///< gives way; ends before worker_, to which it hands over
+  std::unique_ptr<Worker> coarsener_;  ///< low priority; ends before worker_, which gets its result
 };
 
 }  // namespace glint::viewer

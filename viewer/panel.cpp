@@ -109,7 +109,7 @@ void drawCameraTab(PanelContext& context) {
   for (const Parameter& p : lookParameters()) {
     if (p.section != "Camera") continue;
     std::optional<glm::dvec3> shown;
-    // What rounding has left of a zero.
+    // Sets values that are 0 except for rounding to 0.
     const auto tidy = [](glm::dvec3 v) {
       const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
       for (int c = 0; c < 3; ++c)
@@ -157,7 +157,7 @@ void drawAnimation(PanelContext& context) {
   for (const Parameter& p : lookParameters()) {
     if (p.section != "Animation") continue;
     if (p.name == "animation-time") {
-      Parameter time = p;  // as long as this animation is
+      Parameter time = p;  // the slider ends at the animation's duration
       time.slider.max = std::max(animationDuration(scene, look), 0.001);
       drawParameter(session, time);
       continue;

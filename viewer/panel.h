@@ -13,18 +13,18 @@
 
 namespace glint::viewer {
 
-/// What the panel shows and what it can ask for.
+/// What the panel shows and the actions that it can request.
 struct PanelContext {
   Session& session;
   Settings& settings;
   const DrawnPicture* picture = nullptr;  ///< null until one is drawn
   glm::ivec2 resolution{1};               ///< of the picture in the window
   bool preview = false;                   ///< a smaller one is shown while something moves
-  const Probe* probe = nullptr;           ///< of the pixel under the cursor, or null
-  bool* probeShown = nullptr;             ///< set where the panel shows it
-  std::string comparison = {};            ///< how far A is from B or the reference
+  const Probe* probe = nullptr;           ///< for the pixel under the cursor, or null
+  bool* probeShown = nullptr;             ///< set to true when the panel shows it
+  std::string comparison = {};            ///< the difference between A and B or the reference
   Thumbnails* thumbnails = nullptr;       ///< of textures
-  double uiMilliseconds = 0;              ///< the last frame of the panel
+  double uiMilliseconds = 0;              ///< time for the panel's last frame
   std::function<void(Action)> run = {};
   std::function<void(glm::ivec2)> resizePicture = {};
 };
@@ -40,30 +40,31 @@ void drawPictureTab(PanelContext&);
 void drawCompareTab(PanelContext&);
 void drawInfoTab(PanelContext&);
 
-/// What was chosen for the picture by max-error and the shading auto, and why; nothing where the
-/// look leaves nothing open.
+/// What max-error and the shading auto chose for the picture, and why; nothing if the look leaves
+/// nothing open.
 void drawChoice(PanelContext&);
 
 /// The plots of the selected material, below its sliders.
 void drawPlots(PanelContext&);
 
-/// The plot of the lobe, as the settings want it.
+/// The plot of the lobe, in the view that the settings select.
 void drawLobe(Settings&, const LobeInput&);
 
-/// The list of materials, and the numbers of the selected one.
+/// The list of materials, and the parameters of the selected one.
 void drawMaterials(PanelContext&);
 
-/// The textures of the selected material, and what they drive.
+/// The textures of the selected material, and what they affect.
 void drawTextures(PanelContext&);
 
-/// The measured material, if one is open, beside the selected one in this form.
+/// The measured material, if one is open, compared with the selected one in this form.
 void drawMeasured(PanelContext&, const FitForm&);
 
-/// The parameters of a section of the table, but for those named, which have widgets of their own.
+/// The parameters of a section of the table, except for those named, which have widgets of their
+/// own.
 void drawSection(PanelContext&, const std::string& section,
                  std::initializer_list<std::string_view> without = {});
 
-/// A button for a command, with its help and key as tooltip. `width` 0 fits the text.
+/// A button for an action, with its help and key as tooltip. A `width` of 0 fits the text.
 bool actionButton(PanelContext&, Action, const char* text, float width = 0);
 
 }  // namespace glint::viewer

@@ -58,7 +58,7 @@ void materialChoice(const FormChoice& c) {
   widgets::tooltip(parts);
 }
 
-// The program of --shading auto, with its reason after a colon.
+// The program that --shading auto chose, with the reason after a colon.
 void programChoice(const ResolvedLook& resolved) {
   const std::string& reason = resolved.programReason;
   const std::size_t colon = reason.find(": ");
@@ -91,7 +91,7 @@ void drawChoice(PanelContext& context) {
   } else {
     widgets::label("  frame");
   }
-  // Without what is done once for each shader.
+  // Without one-time shader compilation.
   const double frame = std::max(0.0, picture->milliseconds - picture->times.compile);
   char text[64];
   std::snprintf(text, sizeof text, "%s%.3g ms%s", picture->asked.maxError ? "   frame " : "", frame,
@@ -100,7 +100,7 @@ void drawChoice(PanelContext& context) {
   widgets::tooltip("choosing, drawing and encoding of the last picture, without compiling");
   if (!resolved.programReason.empty()) programChoice(resolved);
   if (resolved.choices.empty()) return;
-  // Many are scrolled.
+  // A long list scrolls.
   const bool many = resolved.choices.size() > 2;
   const float line = ImGui::GetTextLineHeightWithSpacing();
   if (many) ImGui::BeginChild("choices", ImVec2(0, 7 * line), true);

@@ -16,7 +16,7 @@
 namespace glint::viewer {
 namespace {
 
-// One part of a text in each line.
+// Breaks a text into one line per part.
 std::string inLines(std::string text) {
   for (std::size_t at; (at = text.find("; ")) != std::string::npos;) text.replace(at, 2, "\n");
   return text;

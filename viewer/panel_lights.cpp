@@ -19,8 +19,8 @@ glm::dmat3 cameraAxes(const PanelContext& context) {
   return context.picture ? context.picture->list.camera.axes : glm::dmat3(1.0);
 }
 
-// How strong a light is. That of one that falls off is said at one world unit: the slider's range
-// grows with its distance from the model.
+// The upper end of the strength slider. The strength of a light with fall-off is given at one world
+// unit, so the range grows with the light's distance from the model.
 double strongest(const Light& light, const Bounds& bounds) {
   if (!light.fallsOff) return 4;
   const glm::dvec3 way = light.position - bounds.center;
@@ -78,7 +78,7 @@ void editLight(Light& light, const PanelContext& context) {
     widgets::label(light.type == Light::Type::spot ? "shines along" : "to the light");
     glm::dvec3 d = light.direction;
     if (widgets::vector("##direction", d) && d != glm::dvec3(0.0)) light.direction = d;
-    // Of a spot, too, the sphere shows where its light comes from.
+    // For a spot, too, the sphere shows where the light comes from.
     d = light.type == Light::Type::spot ? -light.direction : light.direction;
     ImGui::Dummy(ImVec2(0, 0));
     ImGui::SameLine(style().labelWidth + ImGui::GetStyle().WindowPadding.x);
@@ -97,7 +97,7 @@ void editLight(Light& light, const PanelContext& context) {
   }
 }
 
-// As high as a line of the list.
+// A checkbox as high as a line of the list.
 bool smallCheckbox(bool& on) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
   const bool clicked = ImGui::Checkbox("##on", &on);
@@ -167,7 +167,7 @@ void drawLightsTab(PanelContext& context) {
                    keyText(infoOf(Action::lightHandles)) + ")");
   ImGui::SameLine(0, 2 * gap);
   actionButton(context, Action::soloLight, "Solo");
-  // What the buttons have made of them.
+  // The buttons may have changed the lights.
   lights = shownLights(scene, look);
   if (session.light < lights.size()) {
     const Light before = lights[session.light];

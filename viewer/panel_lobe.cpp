@@ -17,7 +17,7 @@ namespace {
 
 using widgets::style;
 
-// The lobe as a rose: the length of a ray is what is sent along it.
+// The lobe as a polar plot: the length of a ray is the value in its direction.
 void polarLobe(const LobePlot& plot) {
   const float text = ImGui::GetTextLineHeight();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -67,8 +67,7 @@ void lobeOverAngle(const LobePlot& plot, const std::string& form) {
                       form.c_str(), yAt(plot.chosen, *x));
 }
 
-// The surface over the plane that is lit, seen from outside; it is turned by dragging, or by the
-// slider below it.
+// The surface above the lit plane, seen from outside; dragging or the slider below turns it.
 void lobeInSpace(const LobeSurface& surface, double incidence) {
   static double turn = 30, tilt = 25;  // degrees: about the normal, and above the plane
   const float text = ImGui::GetTextLineHeight();
@@ -85,7 +84,7 @@ void lobeInSpace(const LobeSurface& surface, double incidence) {
   const double c = std::cos(turn * radians), s = std::sin(turn * radians);
   const double ct = std::cos(tilt * radians), st = std::sin(tilt * radians);
   const ImVec2 foot(corner.x + width / 2, corner.y + 1.1f * radius + text / 2);
-  // Right, up and to the one who looks.
+  // Right, up and towards the viewer.
   const auto seen = [&](const glm::dvec3& p) {
     const double right = c * p.x + s * p.y, back = -s * p.x + c * p.y;
     return glm::dvec3(right, back * st + p.z * ct, p.z * st - back * ct);
@@ -109,7 +108,7 @@ void lobeInSpace(const LobeSurface& surface, double incidence) {
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   ray({0, 0, 1}, "N", dim);
   ray(mirror, "R", dim);
-  // Quads, the farthest first, each by how it is turned to the one who looks.
+  // Quads, farthest first, shaded by their orientation to the viewer.
   const std::size_t across = surface.columns, rows = surface.points.size() / across;
   struct Quad {
     double depth;
@@ -125,7 +124,7 @@ void lobeInSpace(const LobeSurface& surface, double incidence) {
     }
   std::ranges::sort(quads, {}, &Quad::depth);
   const ImDrawListFlags flags = draw->Flags;
-  draw->Flags &= ~ImDrawListFlags_AntiAliasedFill;  // seams
+  draw->Flags &= ~ImDrawListFlags_AntiAliasedFill;  // would show seams
   for (const Quad& quad : quads) {
     const glm::dvec3 *p = &surface.points[quad.first], *q = p + across;
     const glm::dvec3 n = glm::cross(seen(q[1]) - seen(p[0]), seen(q[0]) - seen(p[1]));

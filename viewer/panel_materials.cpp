@@ -1,4 +1,4 @@
-// The list of materials, and the numbers of the selected one.
+// The list of materials, and the parameters of the selected one.
 #include <imgui.h>
 
 #include <algorithm>
@@ -31,13 +31,13 @@ void materialList(PanelContext& context) {
   const float lines = float(std::clamp<std::size_t>(drawn.size() + 1, 2, 6));
   if (!ImGui::BeginListBox("##materials", ImVec2(-1, line * lines + 4 * style().scale))) return;
   static int shown =
-      -1;  // the one selected when the list was drawn last: another one is scrolled to
+      -1;  // the selection when the list was last drawn; a different one is scrolled into view
   const FitForm form{usesBlinn(session.document.a.shading), session.document.a.blinnFactor};
   const auto entry = [&](int index) {
     const std::string name = materialLabel(scene, index);
     const bool edited = session.document.a.material.contains(materialKey(scene, index));
     const std::string text = name + (edited ? "  (edited)" : "") + "##" + std::to_string(index);
-    // As high as a line with its spacing, so that the list has its lines.
+    // As high as a line with its spacing, so that the list's height is a whole number of lines.
     const float height = ImGui::GetTextLineHeight();
     const float side = height + ImGui::GetStyle().ItemSpacing.y - 1;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -73,7 +73,7 @@ void materialSliders(Session& session) {
   widgets::label(oneColor ? "color" : "color (mixed)", edits.color.has_value());
   glm::dvec3 color = values.color;
   if (widgets::color("##color", color)) {
-    if (all)  // what single materials say would stand above it
+    if (all)  // edits of single materials would take precedence
       for (auto& each : look.material) each.second.color.reset();
     look.material[key].color = color;
   }
@@ -92,7 +92,7 @@ void materialSliders(Session& session) {
     if (const ValueSpread spread = all ? spreadOf(scene, look, p) : ValueSpread{}; spread.mixed())
       std::snprintf(format, sizeof format, "mixed: %.3g to %.3g", spread.least, spread.most);
     if (widgets::slider(("##" + name).c_str(), value, p.slider, p.min, p.max, format)) {
-      if (key.empty())  // what single materials say would stand above it
+      if (key.empty())  // edits of single materials would take precedence
         for (auto& each : look.material) (each.second.*p.edit).reset();
       look.material[key].*p.edit = value;
     }
@@ -104,7 +104,7 @@ void materialSliders(Session& session) {
   }
 }
 
-// Forms that the material has in place of the look's.
+// Forms that the material uses instead of the look's.
 void materialForms(Session& session) {
   Look& look = session.document.a;
   const std::string key = materialKey(session.model->scene, session.material);
@@ -137,7 +137,7 @@ void materialForms(Session& session) {
   if (edit == MaterialEdit{}) look.material.erase(key);
 }
 
-// The user's own, above the table's.
+// The user's own presets, above those of the table.
 void ownPresetRows(Session& session) {
   const std::vector<OwnPreset> all = ownPresets();
   if (all.empty()) return;

@@ -1,4 +1,4 @@
-// A measured material beside the one that is edited.
+// A measured material compared with the edited one.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ constexpr ImU32 channelColors[3] = {IM_COL32(255, 120, 110, 255), IM_COL32(120, 
 constexpr ImU32 thickColors[3] = {IM_COL32(255, 120, 110, 120), IM_COL32(120, 220, 120, 120),
                                   IM_COL32(130, 170, 255, 120)};
 
-// In the plane of incidence, as the lobe's plot: the viewer's angle from the normal.
+// Samples the plane of incidence over the viewer's angle from the normal, as the lobe plot does.
 template <typename Light>
 void sample(Curve (&curves)[3], double incidence, Light light) {
   const auto at = [](double degrees) {
@@ -32,7 +32,7 @@ void sample(Curve (&curves)[3], double incidence, Light light) {
   }
 }
 
-// What a fit and the numbers of the error are of; both take a while.
+// What the fit and the error were computed for; both take a while.
 struct Compared {
   std::shared_ptr<const MeasuredMaterial> material;
   ShadingParameters parameters;

@@ -74,12 +74,12 @@ void widthPlots(double exponent) {
   legend(chosenColor, "across it");
 }
 
-// A plot that a key has asked for is opened, the others are closed.
+// Opens the plot that a key has asked for, and closes the others.
 void openWanted(const Session& session, bool mine) {
   if (session.plotWanted) ImGui::SetNextItemOpen(mine);
 }
 
-// And seen as a whole.
+// Scrolls that plot fully into view.
 void seeWanted(const Session& session, bool mine) {
   if (session.plotWanted && mine) ImGui::SetScrollHereY(1);
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t chunkSize = 32;  // triangles
 
-// Whether origin + t direction, 0 <= t < best, meets the box.
+// Whether the point origin + t direction, 0 <= t < best, meets the box for some t.
 bool meets(const glm::dvec3& origin, const glm::dvec3& inverse, const glm::vec3& low,
            const glm::vec3& high, double best) {
   double near = 0, far = best;
@@ -58,7 +58,7 @@ std::vector<Picker::Chunk> Picker::chunksOf(const Mesh& mesh) {
 
 namespace {
 
-// A point or line that comes nearer to the ray than a pixel's width; world space.
+// A hit on a point or line that passes within a pixel's width of the ray; world space.
 std::optional<Hit> meetThin(const Scene& scene, const Instance& instance, std::size_t primitive,
                             const Ray& ray) {
   const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -68,7 +68,7 @@ std::optional<Hit> meetThin(const Scene& scene, const Instance& instance, std::s
     return glm::dvec3(instance.world * glm::dvec4(p + mesh.origin, 1));
   };
   const glm::dvec3 from = corner(0), along = corners == 2 ? corner(1) - from : glm::dvec3(0.0);
-  // The place on the line that is nearest to the ray: from + s along, ray at t.
+  // The point on the line nearest to the ray: from + s along, ray at t.
   const glm::dvec3 across = along - ray.direction * glm::dot(along, ray.direction);
   const glm::dvec3 way = ray.origin - from;
   const double square = glm::dot(across, across);
@@ -112,7 +112,7 @@ void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, doubl
     const double determinant = glm::determinant(linear);
     if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) continue;
     const bool both = twoSided || scene.materials[std::size_t(mesh.material)].doubleSided;
-    // In the mesh's own space the ray keeps its parameter.
+    // In the mesh's own space, t is the same.
     const glm::dmat3 inverse = glm::inverse(linear);
     const glm::dvec3 origin = inverse * (ray.origin - glm::dvec3(instance.world[3])) - mesh.origin;
     const glm::dvec3 direction = inverse * ray.direction;
@@ -136,7 +136,7 @@ void Picker::forEachHit(const Scene& scene, const Ray& ray, bool twoSided, doubl
         if (!(v >= 0 && u + v <= 1)) continue;
         const double distance = glm::dot(e2, q) / det;
         if (!(distance > 0 && distance < limit)) continue;
-        // In the space of the mesh: a mirrored instance keeps its faces.
+        // In mesh space, where mirroring an instance does not exchange its faces.
         const bool back = det < 0;
         if (back && !both) continue;
         Hit hit;

@@ -10,7 +10,7 @@
 
 namespace glint::viewer {
 
-/// Where a ray meets a scene first, in double.
+/// The first intersection of a ray with a scene, in double.
 struct Hit {
   int instance = 0, mesh = 0, material = 0;
   Topology topology = Topology::triangles;
@@ -26,23 +26,23 @@ inline std::size_t cornersOf(Topology topology) {
   return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
 }
 
-/// Finds what a pixel shows: triangles in chunks with boxes around them, tested in double, and
-/// points and lines that come nearer to the ray than a pixel's width. Faces that are not drawn
-/// (back faces of one-sided materials) are passed through; so is nothing else.
+/// Finds what a pixel shows: triangles in chunks with bounding boxes, tested in double, and points
+/// and lines that pass within a pixel's width of the ray. Only faces that are not drawn (back faces
+/// of one-sided materials) are passed through.
 class Picker {
  public:
   explicit Picker(const Scene&);
-  /// These meshes have other vertices now.
+  /// Call when these meshes have new vertices.
   void update(const Scene&, std::span<const int> meshes);
   std::optional<Hit> pick(const Scene&, const Ray&, bool twoSided) const;
-  /// Everything that the ray meets, from the nearest; without `normal`.
+  /// Everything that the ray meets, nearest first; without `normal`.
   std::vector<Hit> pickAll(const Scene&, const Ray&, bool twoSided) const;
 
  private:
   struct Chunk {
     glm::vec3 low, high;
   };
-  /// Calls visit(hit) for what lies nearer than `limit`, in no order; visit may lower it.
+  /// Calls visit(hit) for hits nearer than `limit`, in no order; visit may lower `limit`.
   template <typename Visit>
   void forEachHit(const Scene&, const Ray&, bool twoSided, double& limit, Visit visit) const;
   static std::vector<Chunk> chunksOf(const Mesh&);

@@ -13,10 +13,10 @@
 
 namespace glint::viewer {
 
-/// A picture as drawn and as shown.
+/// A drawn picture with its encoding.
 struct DrawnPicture {
   Look asked;  ///< may leave forms and program open
-  Look look;   ///< with the forms and resolution drawn
+  Look look;   ///< with the forms and resolution actually drawn
   std::shared_ptr<const ResolvedLook> choice;
   Image linear;                     ///< before exposure
   std::vector<std::uint8_t> codes;  ///< RGBA, rows from the top: the bytes of glint render's PNG
@@ -24,26 +24,26 @@ struct DrawnPicture {
   bool coarse = false, fewerLights = false;  ///< of a coarse scene; with fewer lights than asked
   int samples = 1;
   RenderTimes times;
-  double milliseconds = 0;  ///< all together, with encoding
+  double milliseconds = 0;  ///< in total, including encoding
   std::size_t notNumbers = 0;
 };
 
-/// Draws a look the way `glint render` does: the same renderer, bands, read back and encode. The
-/// look leaves nothing open. Nothing if `stop` becomes true meanwhile.
+/// Draws a look as `glint render` does: with the same renderer, bands, read-back and encoding. The
+/// look must leave nothing open. Empty if `stop` becomes true meanwhile.
 std::optional<DrawnPicture> drawPicture(Renderer&, GpuScene&, const Bounds&, const Look&,
                                         const std::atomic<bool>& stop);
 
 /// Chooses what the look leaves open, draws it and writes it band by band, as `glint render` does;
-/// `model` is the model's file, which the picture names in its text. Throws InputError.
+/// `model` is the model's file, which is recorded in the picture's text. Throws InputError.
 void writePicture(Renderer&, GpuScene&, const Bounds&, const Look& asked, const std::string& model,
                   const std::string& path);
 
-/// Puts bytes on the screen, pixel for pixel: no filter, no conversion, no blending.
+/// Copies pixels to the screen unchanged: no filter, no conversion, no blending.
 class Screen {
  public:
   Screen();
-  /// RGBA rows from the top; one pixel of the picture covers `scale` x `scale` of the window's
-  /// framebuffer, from its upper left corner at (x, y) from the upper left.
+  /// RGBA rows from the top; shown with the upper left corner at (x, y) from the framebuffer's
+  /// upper left, scaled to width x height.
   void upload(const std::uint8_t* rgba, int width, int height);
   void show(int x, int y, int width, int height, int framebufferHeight) const;
 

@@ -92,11 +92,11 @@ double yAt(const Curve& curve, double x) {
 
 void differencePlot(const Curve& chosen, const Curve& exact, double largest,
                     std::initializer_list<double> ticks) {
-  if (!(largest > 1e-13)) {  // rounding in double
+  if (!(largest > 1e-13)) {  // within double rounding
     ImGui::TextDisabled("the chosen form is the exact one");
     return;
   }
-  // Ticks at a round number below the largest value.
+  // Ticks at the largest of 1, 2 and 5 times a power of ten that is not above the largest value.
   const double power = std::pow(10.0, std::floor(std::log10(largest)));
   const double tick = largest >= 5 * power ? 5 * power : largest >= 2 * power ? 2 * power : power;
   const auto first = exact.points.front().x, last = exact.points.back().x;
@@ -108,7 +108,7 @@ void differencePlot(const Curve& chosen, const Curve& exact, double largest,
   }
   axes.gridY(0, "0");
   std::snprintf(text, sizeof text, "%.0e", tick);
-  std::string shortened = text;  // 2e-03 as 2e-3
+  std::string shortened = text;  // writes 2e-03 as 2e-3
   if (const auto zero = shortened.find("e-0"); zero != std::string::npos)
     shortened.erase(zero + 2, 1);
   if (const auto plus = shortened.find("e+00"); plus != std::string::npos) shortened.erase(plus);

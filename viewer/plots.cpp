@@ -14,7 +14,7 @@ glm::dvec3 at(double degrees) {
   return {std::sin(degrees * radians), 0, std::cos(degrees * radians)};
 }
 
-// log of a lobe of exponent 1: lobe = exp(alpha * this); -infinity where there is none.
+// log of a lobe of exponent 1: lobe = exp(alpha * this); -infinity where the lobe is 0.
 double logOf(double lambda) { return lambda < 1 ? std::log1p(-lambda) : -INFINITY; }
 
 }  // namespace
@@ -30,7 +30,7 @@ LobePlot lobePlot(const LobeInput& input, double incidence) {
   LobePlot plot;
   plot.incidence = incidence;
   const glm::dvec3 N(0, 0, 1), L = at(-incidence);
-  // Close to the peak, where a large exponent has all it has, the angles are closer.
+  // Samples are denser near the peak, where a large exponent concentrates the lobe.
   std::vector<double> angles;
   for (int i = -180; i <= 180; ++i) angles.push_back(i * 0.5);
   for (double d = 0.25; d > 1e-4; d *= 0.8)
@@ -48,7 +48,7 @@ LobePlot lobePlot(const LobeInput& input, double incidence) {
     plot.chosen.points.emplace_back(angle, chosen);
     plot.largestDifference = std::max(plot.largestDifference, std::abs(exact - chosen));
   }
-  // cos^alpha(d) = 1/2, d the angle of R and V (Phong) or N and H (half as large).
+  // cos^alpha(d) = 1/2, where d is the angle between R and V (Phong) or N and H (half as large).
   if (alpha > 1e-9) {
     const double d = std::acos(std::exp2(-1 / alpha)) / radians;
     plot.halfWidth = std::min(input.blinn ? 2 * d : d, 180.0);
@@ -61,7 +61,7 @@ LobeSurface lobeSurface(const LobeInput& input, double incidence) {
   const glm::dvec3 N(0, 0, 1), L = at(-incidence), R = at(incidence);
   const glm::dvec3 side(0, 1, 0), up = glm::cross(R, side);
   const double alpha = input.blinn ? input.blinnFactor * input.exponent : input.exponent;
-  // The angle of R and V where cos^alpha is 1 %; for N and H, in the plane, twice that.
+  // The angle between R and V where cos^alpha is 1 %; in the plane it is twice that of N and H.
   const double d = alpha > 0 ? std::acos(std::pow(0.01, 1 / alpha)) : 90 * radians;
   const double reach = std::min(input.blinn ? 2 * d : d, 180 * radians);
   LobeSurface surface;
@@ -78,7 +78,7 @@ LobeSurface lobeSurface(const LobeInput& input, double incidence) {
       surface.points.push_back(V *
                                lobe(input.highlight.form, input.highlight.gamma, lambda, alpha));
     }
-  // Closed where it ends.
+  // Close the surface at its rim.
   surface.points.insert(surface.points.end(), columns + 1, glm::dvec3(0.0));
   return surface;
 }

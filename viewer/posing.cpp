@@ -16,7 +16,7 @@ ModelFile::ModelFile(std::filesystem::path path, SceneFile file, Scene scene)
 
 std::shared_ptr<const Model> ModelFile::pose(const Model& from, const PoseRequest& request) {
   const std::lock_guard lock(mutex_);
-  if (!file_) {  // given up in the middle of a pose
+  if (!file_) {  // dropped by an error during posing
     file_.emplace(path_);
     Scene fresh = file_->take();
     fresh.materials = scene_.materials;

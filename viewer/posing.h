@@ -15,15 +15,15 @@ struct Model;
 
 bool samePose(const PoseRequest&, const PoseRequest&);
 
-/// A model's file, kept open so that its scene can be brought into other poses without reading it
-/// again. For all threads.
+/// A model's file, kept open so that its scene can be posed again without rereading it.
+/// Thread-safe.
 class ModelFile {
  public:
-  /// `scene` is what `file` gave, with what has become of its textures since.
+  /// `scene` is the scene taken from `file`, including later changes to its textures.
   ModelFile(std::filesystem::path path, SceneFile file, Scene scene);
 
-  /// The model in another pose: what does not move is as in `from`, a model of this file. Throws
-  /// InputError, as reading does.
+  /// The model in another pose; parts that do not move are shared with `from`, a model of this
+  /// file. Throws InputError, as reading does.
   std::shared_ptr<const Model> pose(const Model& from, const PoseRequest&);
 
  private:
@@ -31,14 +31,14 @@ class ModelFile {
   std::filesystem::path path_;
   std::optional<SceneFile> file_;
   Scene scene_;
-  std::vector<std::uint64_t> versions_;  ///< by mesh: the posing that has made it
+  std::vector<std::uint64_t> versions_;  ///< by mesh: the posing that produced it
   std::uint64_t posings_ = 0;
 };
 
-/// The model in the pose: itself, where that is the one it is in or it cannot move.
+/// The model in the pose; the same object if it is already in that pose or cannot move.
 std::shared_ptr<const Model> posed(const std::shared_ptr<const Model>&, const PoseRequest&);
 
-/// Meshes whose vertices differ between two poses of one model, among those of the second.
+/// Meshes whose vertices differ between two poses of a model, as indices into the second.
 std::vector<int> changedMeshes(const Model& before, const Model& after);
 
 }  // namespace glint::viewer

@@ -191,7 +191,7 @@ constexpr Preset presetTable[] = {
      .078125,
      1.52,
      false},
-    // Not of the table: clear and matt things, for which it has no entry.
+    // Not from the table: clear and matt materials, which it lacks.
     {"glass", "other", false, {.05, .05, .05}, {.1, .1, .1}, {.9, .9, .9}, 1, 1.52, false},
     {"water", "other", false, {.03, .05, .06}, {.06, .1, .12}, {.8, .8, .8}, 1, 1.333, false},
     {"diamond", "other", false, {.05, .05, .05}, {.1, .1, .1}, {1, 1, 1}, 1, 2.417, false},

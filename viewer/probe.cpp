@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t mostLayers = 64;
 
-// The primitives that the ray meets, each a mesh of its own under the transform that it has: all
-// that the reference needs of the scene for one pixel.
+// The primitives that the ray meets, each a mesh of its own with its transform: the part of the
+// scene that the reference needs for one pixel.
 Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   Scene scene;
   scene.materials = from.materials;
@@ -56,7 +56,7 @@ Scene sceneOf(const Scene& from, const std::vector<Hit>& hits) {
   return scene;
 }
 
-// The item of a list that draws this side of an instance, or -1.
+// The index of the list item that draws this side of an instance, or -1.
 int itemOf(const DrawList& list, int instance, bool back) {
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const DrawItem& item = list.items[i];
@@ -65,8 +65,8 @@ int itemOf(const DrawList& list, int instance, bool back) {
   return -1;
 }
 
-// A ray that passes a point or a line need not be in a pixel that shows it. (Of a triangle it is,
-// but on an edge, where the triangle beside it would do as well.)
+// A ray that passes near a point or a line need not be in a pixel that shows it. (For a triangle it
+// is, except on an edge, where the adjacent triangle would do as well.)
 bool covers(const reference::Primitive& primitive, const glm::ivec2& grid, glm::ivec2 pixel) {
   if (primitive.topology == Topology::triangles) return true;
   bool found = false;
@@ -76,7 +76,7 @@ bool covers(const reference::Primitive& primitive, const glm::ivec2& grid, glm::
 }
 
 struct LayerValue {
-  int item;  ///< of the stage
+  int item;  ///< index into the stage's items
   std::size_t hit;
   reference::Attributes attributes;
   glm::dvec3 radiance;
@@ -102,7 +102,7 @@ void compareWith(Probe& probe, const Image* plain, float scale) {
   }
 }
 
-// The background, by the reference: of a scene of nothing.
+// The background by the reference, for an empty scene.
 glm::dvec3 backgroundAt(const ProbeScene& where, const Look& look, glm::ivec2 pixel) {
   if (look.noBackground) return glm::dvec3(0.0);
   if (!look.environmentBackground) return look.backgroundColor;
@@ -114,7 +114,7 @@ glm::dvec3 backgroundAt(const ProbeScene& where, const Look& look, glm::ivec2 pi
   return {double(rgba[0]), double(rgba[1]), double(rgba[2])};
 }
 
-// The terms of the front-most layer, by light.
+// The terms of the frontmost layer, light by light.
 void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& layer,
               const std::vector<Light>& lights) {
   const reference::Surface& s = stage.items[std::size_t(layer.item)].surface;
@@ -203,7 +203,7 @@ Probe probePixel(const ProbeScene& where, const Look& shownLook, const Image& sh
   const DrawList list = makeDrawList(scene, where.bounds, look);
   const reference::Stage stage(scene, where.images, list, look);
   reference::PixelShader shader(stage);
-  std::vector<LayerValue> layers;  // from the front; the last one is opaque, if any is
+  std::vector<LayerValue> layers;  // front to back; the last one is opaque, if any is
   for (std::size_t k = 0; k < hits.size(); ++k) {
     const int item = itemOf(list, int(k), hits[k].backFace);
     if (item < 0) continue;

@@ -42,7 +42,7 @@ std::optional<Recovered> read(const fs::path& path) {
     found.time = fs::last_write_time(path);
     return found;
   } catch (const std::exception&) {
-    return {};  // damaged, or of another version: nothing that could be offered
+    return {};  // damaged, or of another version: nothing to offer
   }
 }
 
@@ -62,7 +62,7 @@ Recovery::~Recovery() {
 void Recovery::lock() {
   std::error_code error;
   fs::create_directories(folder_, error);
-  // A name is taken as long as its lock or its file is there.
+  // A name is in use as long as its lock or its file exists.
   for (int n = 0; n < 1000 && lock_ < 0; ++n) {
     file_ = folder_ / (std::to_string(getpid()) + "-" + std::to_string(n) + ".json");
     if (!fs::exists(file_, error)) lock_ = tryLock(lockOf(file_), O_CREAT | O_EXCL);
@@ -95,7 +95,7 @@ void Recovery::keep(const Look& look, bool unsaved, const fs::path& model) {
     written_ = true;
     last_ = look;
   } catch (const InputError&) {
-    // A full disk or a read-only home: tried again with the next edit.
+    // A full disk or a read-only home: retried with the next edit.
   }
 }
 
@@ -115,7 +115,7 @@ std::vector<Recovered> Recovery::left(const fs::path& model) const {
     const fs::path lockFile = lockOf(each.path());
     if (fs::exists(lockFile, error)) {
       const int held = tryLock(lockFile, 0);
-      if (held < 0) continue;  // of a window that is open
+      if (held < 0) continue;  // belongs to an open window
       close(held);
     }
     const auto found = read(each.path());

@@ -19,8 +19,8 @@ constexpr int rowsAtOnce = 16;
 
 constexpr double snapped = 1.0 / 128;  // samples: twice the grid of 1/256
 
-// Whether a primitive that is seen at the next pixel would, moved by a snap, cover the sample at
-// (x, y), in front of what is seen there.
+// Whether a primitive visible at the next pixel, moved by a snap, would cover the sample at (x, y)
+// in front of the surface there.
 bool mayCover(const reference::Primitive& next, double x, double y,
               const reference::Attributes& seen) {
   if (next.topology != Topology::triangles) return true;
@@ -29,8 +29,8 @@ bool mayCover(const reference::Primitive& next, double x, double y,
   return seen.item < 0 || next.footprint(x, y).depth > seen.depth;
 }
 
-// The edges of rows y to y + rows - 1; `around` are the attributes of those and of one row more on
-// either side, where there are any, from row `from`.
+// Marks the edges of rows y to y + rows - 1. `around` has the attributes of these rows and of one
+// more on either side, if it exists, starting at row `from`.
 void markEdges(const reference::Stage& stage, const std::vector<reference::Attributes>& around,
                int from, int y, int rows, ReferencePicture& picture) {
   const int width = picture.linear.width;
@@ -38,7 +38,7 @@ void markEdges(const reference::Stage& stage, const std::vector<reference::Attri
   const auto at = [&](int x, int row) -> const reference::Attributes& {
     return around[std::size_t(width) * std::size_t(row - from) + std::size_t(x)];
   };
-  // What is seen at each pixel, where another pixel's sample may be near its edges.
+  // The primitive at each pixel whose edges may be near another pixel's sample.
   std::vector<std::optional<reference::Primitive>> primitives(around.size());
   for (std::size_t i = 0; i < around.size(); ++i) {
     if (around[i].item < 0 || around[i].edgeDistance > 1.5) continue;
@@ -121,7 +121,7 @@ void ReferenceTask::want(std::shared_ptr<const Model> model, const Look& look) {
   const glm::ivec2 size = exact.resolution;
   picture_->linear = {size.x, size.y, {}};
   picture_->linear.values.resize(std::size_t(4) * std::size_t(size.x) * std::size_t(size.y));
-  // A supersampled pixel is a mean over samples: an edge of one of them is no edge of the pixel.
+  // A supersampled pixel is an average: an edge at one of its samples is not an edge of the pixel.
   if (exact.antiAliasing.mode != AntiAliasing::Mode::ssaa)
     picture_->edges.resize(picture_->linear.values.size() / 4);
   worker_.latest([model = model_, picture = picture_, this](const std::atomic<bool>& stop) {

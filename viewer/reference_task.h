@@ -13,42 +13,41 @@
 
 namespace glint::viewer {
 
-/// A picture by the reference renderer that grows from the top. Rows below `rows` are final and may
-/// be read while the others are drawn.
+/// A picture by the reference renderer, filled from the top. Rows below `rows` are final and may be
+/// read while the others are being drawn.
 struct ReferencePicture {
   Look look;     ///< as drawn: see exactLook
   Image linear;  ///< before exposure
-  /// By pixel, 1 where an edge passes so close to a sample that a driver, which snaps vertices to a
-  /// grid, may show what is on its other side: shading is not what differs there.
+  /// For each pixel, 1 where an edge passes so close to a sample that a driver, which snaps
+  /// vertices to a grid, may show the other side: differences there are not due to shading.
   std::vector<std::uint8_t> edges;
   std::atomic<int> rows = 0;
-  std::string error;  ///< why there is none; set before `failed`
+  std::string error;  ///< the reason for a failure; set before `failed`
   std::atomic<bool> failed = false;
 
   bool done() const { return rows == linear.height && linear.height > 0; }
 };
 
-/// What a look is compared with: the same in the exact forms of lobe and reflectance. The look is
-/// one that is drawn: where its program was chosen, the reference has that one.
+/// The reference look to compare with: the same look with the exact forms of lobe and reflectance.
+/// The look must be one that is drawn: a program chosen for it is kept.
 Look exactLook(const Look&);
 
-/// What the window draws while it compares with the reference: the reference has no multisampling,
-/// so both do without.
+/// The look that the window draws while comparing with the reference: the reference has no
+/// multisampling, so neither uses it.
 Look comparableLook(const Look&);
 
-/// Draws references in the background, one at a time: a new one takes the place of the last, which
-/// is given up within a few rows.
+/// Draws references in the background, one at a time: a new one replaces the last, which is
+/// cancelled within a few rows.
 class ReferenceTask {
  public:
-  /// `progressed` is called from the thread that draws, not more often than ten times a second, and
-  /// at the end.
+  /// `progressed` is called from the drawing thread, at most ten times a second, and at the end.
   explicit ReferenceTask(std::function<void()> progressed = {});
 
-  /// Starts drawing exactLook(look) unless that is what is drawn or being drawn.
+  /// Starts drawing exactLook(look) unless it is already drawn or being drawn.
   void want(std::shared_ptr<const Model> model, const Look& look);
   void stop();
 
-  /// The picture wanted last; null if none.
+  /// The picture requested last; null if none.
   std::shared_ptr<const ReferencePicture> picture() const { return picture_; }
 
  private:

@@ -23,7 +23,7 @@ std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRe
   SceneFile file(path);
   model->scene = file.take(pose);
   model->bounds = boundsOf(model->scene);
-  Look all;  // no look reads others, and nothing else reads the lengths of normals
+  Look all;  // no look needs other images, and nothing else needs the lengths of normals
   all.specularAntialiasing = SpecularAntialiasing::toksvig;
   model->images = std::make_shared<const DecodedImages>(decodeImages(model->scene, all));
   for (EncodedImage& image : model->scene.images) std::vector<std::byte>().swap(image.bytes);
@@ -75,7 +75,7 @@ void Session::saveModel(const std::filesystem::path& path) {
   if (folder(path) != folder(model->path) && refersToFiles(original, source))
     throw InputError(source + " refers to other files beside it: save it in the same folder");
   const std::vector<std::byte> bytes = patchGltf(original, patches, source);
-  // The model itself may be replaced, what it is drawn from not.
+  // The model itself may be replaced, but not the files that it is drawn from.
   if (std::error_code none; std::filesystem::equivalent(path, source, none)) forgetReadFile(source);
   OutputFile file(path.string());
   file.write(bytes);
@@ -90,7 +90,7 @@ void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution)
   Look look = document.a;
   look.resolution = resolution;
   const std::string text = glint::saveLook(look);
-  forgetReadFile(lookPath.string());  // of the look that is edited
+  forgetReadFile(lookPath.string());  // the edited look's own file
   OutputFile file(path.string());
   file.write(std::as_bytes(std::span(text)));
   file.commit();
@@ -115,7 +115,7 @@ void Session::take(std::shared_ptr<const Model> loaded) {
   const bool first = !model;
   model = std::move(loaded);
   playing = false;
-  if (!same && !first) {  // another model is seen whole, and has a history of its own
+  if (!same && !first) {  // another model is framed anew and has its own history
     document.a.cameraPosition.reset();
     document.a.cameraFocalPoint.reset();
     document.a.cameraIndex.reset();

@@ -88,7 +88,7 @@ void saveSettings(const Settings& settings) {
   const std::filesystem::path path = settingsFile();
   const std::string text = settingsText(settings);
   if (path.empty() || textOf(path) == text) return;
-  std::error_code error;  // OutputFile says it if there is no folder
+  std::error_code error;  // OutputFile reports a missing folder
   std::filesystem::create_directories(path.parent_path(), error);
   OutputFile file(path.string());
   file.write(std::as_bytes(std::span(text)));

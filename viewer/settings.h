@@ -6,32 +6,32 @@
 
 namespace glint::viewer {
 
-/// How the plot of the lobe shows it: both of the first two in the plane of incidence.
+/// The view of the lobe plot; the first two show the plane of incidence.
 enum class LobeView { polar, overAngle, inSpace };
 
-/// What the window keeps from one start to the next: nothing that shapes a picture.
+/// Settings of the window that persist between runs; none affects a picture.
 struct Settings {
   glm::ivec2 window{1372, 820};  ///< size at scale 1
   bool panel = true;
   double panelWidth = 372;  ///< at scale 1
-  double scale = 0;         ///< of text and widgets; 0: the screen's
+  double scale = 0;         ///< of text and widgets; 0: from the screen
   double incidence = 30;    ///< of the lobe plot's light, degrees
   LobeView lobe = LobeView::polar;
   double amplification = 16;  ///< of differences
   bool operator==(const Settings&) const = default;
 };
 
-/// The file that settings stand in: viewer.json in configFolder(); empty without one.
+/// The settings file: viewer.json in configFolder(); empty without one.
 std::filesystem::path settingsFile();
 
-/// What the text says, with defaults for what it leaves open or says wrongly.
+/// Parses settings, with defaults for missing or invalid values.
 Settings readSettings(const std::string& json);
 std::string settingsText(const Settings&);
 
-/// Reads the settings file; defaults if there is none. Never throws: a window opens without it.
+/// Reads the settings file; defaults if there is none. Never throws, so that a window always opens.
 Settings loadSettings();
 
-/// Writes it if it would change, making the folder. Throws InputError.
+/// Writes the settings if they have changed, creating the folder. Throws InputError.
 void saveSettings(const Settings&);
 
 }  // namespace glint::viewer

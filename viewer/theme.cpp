@@ -6,7 +6,7 @@
 namespace glint::viewer {
 namespace {
 
-// WCAG 2.1, "relative luminance"; its threshold is the one of an older draft of sRGB.
+// WCAG 2.1, "relative luminance"; its threshold is from an older draft of sRGB.
 double luminanceOf(const glm::dvec3& srgb) {
   const auto linear = [](double x) {
     return x <= 0.03928 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);

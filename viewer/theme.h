@@ -6,7 +6,7 @@
 
 namespace glint::viewer {
 
-/// The colours that texts of the window have and those that stand behind them: sRGB, [0, 1].
+/// The colours of the window's texts and their backgrounds: sRGB, [0, 1].
 namespace theme {
 inline constexpr glm::dvec3 text{1, 1, 1}, dim{0.68, 0.68, 0.70}, edited{1, 0.8, 0.45},
     key{0.95, 0.78, 0.4}, error{1, 0.6, 0.55}, hovered{1, 0.84, 0.47};
@@ -15,19 +15,19 @@ inline constexpr glm::dvec3 window{0.13, 0.13, 0.135}, popup{0.16, 0.16, 0.166},
     wrongFrame{0.42, 0.07, 0.07}, button{0.25, 0.25, 0.26}, buttonHovered{0.33, 0.33, 0.343},
     edge{0.46, 0.46, 0.475}, accent{0.20, 0.40, 0.70}, bright{0.24, 0.46, 0.78},
     header{0.24, 0.24, 0.25}, headerHovered{0.31, 0.31, 0.322}, menu{0.17, 0.17, 0.177};
-/// Of grabs and ticks, on which nothing is written. `edge` is around fields, boxes and rounds that
-/// are not ticked, too.
+/// For slider grabs and checkmarks, which have no text on them. `edge` also surrounds fields, boxes
+/// and unchecked radio buttons.
 inline constexpr glm::dvec3 mark{0.34, 0.58, 0.92};
 }  // namespace theme
 
-/// A text and what it stands on somewhere in the window.
+/// A text colour and a background that it has somewhere in the window.
 struct ThemePair {
   std::string_view where;
   glm::dvec3 text, ground;
 };
 std::span<const ThemePair> themePairs();
 
-/// The contrast of two colours in sRGB by WCAG 2.1, from 1 to 21; legible texts have 4.5 and more.
+/// The contrast of two sRGB colours by WCAG 2.1, from 1 to 21; legible text needs at least 4.5.
 double contrast(const glm::dvec3&, const glm::dvec3&);
 
 }  // namespace glint::viewer

@@ -10,19 +10,19 @@
 
 namespace glint::viewer {
 
-/// Small pictures in the window's context, made when they are first shown: of a model's textures,
-/// and balls of materials.
+/// Small pictures in the window's context, made when they are first shown: a model's textures, and
+/// balls of materials.
 class Thumbnails {
  public:
   struct Shown {
-    unsigned texture = 0;  ///< GL's name; 0: there is none
+    unsigned texture = 0;  ///< GL texture name; 0: none
     int width = 0, height = 0;
   };
   Shown of(const std::shared_ptr<const DecodedImages>&, int image);
-  /// The ball of a preset, by its place in presets().
+  /// The ball of a preset, by its index in presets().
   Shown ofPreset(int preset, const FitForm&);
-  /// The ball of a scene's material as the look has it, in the mean colour of its colour texture;
-  /// drawn again when that has changed.
+  /// The ball of a scene's material under the look, in the mean colour of its colour texture;
+  /// redrawn when that changes.
   Shown ofMaterial(const std::shared_ptr<const DecodedImages>&, const Scene&, const Look&,
                    int material, const FitForm&);
 

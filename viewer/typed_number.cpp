@@ -8,9 +8,9 @@
 namespace glint::viewer {
 namespace {
 
-constexpr int mostDepth = 32;  // of brackets, powers and signs: a text cannot overflow the stack
+constexpr int mostDepth = 32;  // of parentheses, powers and signs: no text overflows the stack
 
-// Recursive descent; after a fault the rest is passed over.
+// Recursive descent parser; skips the rest after an error.
 class Expression {
  public:
   explicit Expression(std::string_view text) : rest_(text) {}

@@ -22,8 +22,8 @@ Style& style() {
 }
 
 bool direction(const char* id, glm::dvec3& d, const glm::dmat3& axes, float size) {
-  // Azimuthal equidistant: the distance from the centre is the angle to the viewer, 180 degrees at
-  // the rim.
+  // Azimuthal equidistant projection: the distance from the centre is the angle to the viewer, 180
+  // degrees at the rim.
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float radius = size / 2;
   const ImVec2 center(corner.x + radius, corner.y + radius);
@@ -87,7 +87,7 @@ std::string parameterTooltip(const std::string& help, std::string_view symbol,
 
 namespace {
 
-// Texts being typed, by parameter; a look changes when Enter is pressed or the field is left.
+// Texts being typed, by parameter; the look changes when Enter is pressed or the field loses focus.
 bool textField(const Parameter& p, Look& look) {
   static std::map<std::string, std::string> typed;
   const auto saved = p.save(look);
@@ -112,7 +112,7 @@ bool textField(const Parameter& p, Look& look) {
   return true;
 }
 
-// Left of a slider, for a number without which something is off.
+// A checkbox left of a slider, for an optional number.
 bool tick(const Parameter& p, Look& look) {
   bool on = p.get(look) != ParameterValue();
   const bool clicked = ImGui::Checkbox(("##on" + p.name).c_str(), &on);
@@ -133,7 +133,7 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
     const std::string text = highlightText(f);
     return text.substr(0, text.find(':'));
   };
-  // Forms by light have no name of one form: choosing one replaces them.
+  // Forms chosen per light have no single name; choosing one form replaces them.
   const bool byLight = !forms.dimmer.empty();
   const std::string now = byLight ? highlightText(forms) : nameOf(form);
   bool changed = false;
@@ -142,7 +142,7 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
     std::string last;
     for (const std::string& text : highlightTexts()) {
       HighlightForm each = parseHighlights(text, name).brightest;
-      if (nameOf(each) == last) continue;  // the same with another gamma
+      if (nameOf(each) == last) continue;  // the same form with another gamma
       last = nameOf(each);
       if (!ImGui::Selectable(last.c_str(), last == now) || last == now) continue;
       if (each.gamma > 0) each.gamma = form.gamma > 0 ? form.gamma : 8;
@@ -173,7 +173,7 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
 
 namespace {
 
-// What a text can be, where the scene or the picture knows all of it; empty otherwise.
+// The possible values of a text parameter, if the scene or the picture determines them; else empty.
 std::vector<std::string> textChoices(const Parameter& p, const Look& look, const Scene* scene) {
   std::vector<std::string> texts;
   const auto numbered = [&](const std::vector<std::string>& names) {
@@ -258,7 +258,7 @@ bool widgetOf(const Parameter& p, Look& look, const Scene* scene,
   label(name, edited);
   const std::string id = "##" + p.name;
   const ParameterValue now = p.get ? p.get(look) : ParameterValue();
-  ParameterValue next;  // empty while nothing is changed
+  ParameterValue next;  // empty until something changes
   bool changed = false;
   std::string unit;
   switch (p.kind) {

@@ -1,7 +1,7 @@
 #include "window.h"
 
 #include <glad/gl.h>
-// After glad, which brings the GL declarations.
+// After glad, which provides the GL declarations.
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ void add(GLFWwindow* window, InputEvent event) {
   of(window).happened();
 }
 
-// GLFW's codes name places on an American keyboard; letters are meant as they are written on this
-// one.
+// GLFW's key codes name positions on an American keyboard; shortcuts mean the letters of the user's
+// keyboard.
 int layoutKey(int key, int scancode) {
   if (key < GLFW_KEY_A || key > GLFW_KEY_Z) return key;
   const char* name = glfwGetKeyName(key, scancode);
@@ -80,7 +80,7 @@ void installCallbacks(GLFWwindow* window) {
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).happened(); });
 }
 
-// What does not fit on the screen is cut off where there is no window manager.
+// Without a window manager, a window that does not fit on the screen is cut off.
 glm::ivec2 withinScreen(glm::ivec2 size) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (!monitor) return size;
@@ -102,7 +102,7 @@ void hintContext() {
 
 Window::Window(const std::string& title, glm::ivec2 size) {
 #ifdef GLFW_PLATFORM
-  // Wayland's library prints an error of its own where there is no such session.
+  // Wayland's library prints an error of its own if there is no Wayland session.
   if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
   if (!glfwInit())
@@ -116,7 +116,7 @@ Window::Window(const std::string& title, glm::ivec2 size) {
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
     float scale = 1;
     glfwGetMonitorContentScale(monitor, &scale, nullptr);
-    // It will be enlarged by the screen's scale.
+    // GLFW will enlarge it by the screen's scale.
     if (scale > 0)
       size = glm::ivec2(glm::dvec2(withinScreen(glm::ivec2(glm::dvec2(size) * double(scale)))) /
                         double(scale));
@@ -160,7 +160,7 @@ glm::ivec2 Window::framebufferSize() const {
 double Window::contentScale() const {
   float scale = 1;
   glfwGetWindowContentScale(window_, &scale, nullptr);
-  // Where window coordinates are not pixels the window system enlarges them itself.
+  // Where window coordinates are not pixels, the window system already scales the window.
   const glm::ivec2 window = size(), pixels = framebufferSize();
   return window.x > 0 && pixels.x > 0 ? double(scale) * window.x / pixels.x : double(scale);
 }

@@ -9,10 +9,10 @@ struct GLFWwindow;
 
 namespace glint::viewer {
 
-/// A window with an OpenGL 3.3 core context, current on this thread, and what happened in it.
+/// A window with an OpenGL 3.3 core context, current on this thread, and its input events.
 class Window {
  public:
-  /// `size` in window coordinates. Throws ContextError where there is no display or no context.
+  /// `size` in window coordinates. Throws ContextError if there is no display or no context.
   Window(const std::string& title, glm::ivec2 size);
   ~Window();
   Window(const Window&) = delete;
@@ -20,17 +20,17 @@ class Window {
 
   glm::ivec2 size() const;             ///< window coordinates
   glm::ivec2 framebufferSize() const;  ///< pixels
-  /// How much larger than usual text and widgets are to be, in window coordinates.
+  /// The scale for text and widgets, in window coordinates.
   double contentScale() const;
-  /// At most as large as the screen.
+  /// Resizes, at most to the screen's size.
   void resize(glm::ivec2 size);
   void setTitle(const std::string& title);
   void present();
 
-  /// Waits for events, at most `seconds`; 0 does not wait. True if something happened, be it that
-  /// wake() was called.
+  /// Waits for events up to `seconds`; 0 does not wait. True if something happened, including
+  /// wake().
   bool wait(double seconds);
-  /// Ends a wait; from any thread.
+  /// Ends a wait; callable from any thread.
   static void wake();
 
   bool closeRequested() const;
@@ -50,10 +50,10 @@ class Window {
   bool happened_ = true;
 };
 
-/// A context like a window's, of no use on the screen: for another thread to draw pictures with.
+/// A context like a window's, but without output on the screen, so that another thread can draw.
 class OffscreenContext {
  public:
-  /// On the main thread. Throws ContextError.
+  /// Call on the main thread. Throws ContextError.
   explicit OffscreenContext(const Window&);
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;

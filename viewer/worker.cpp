@@ -71,7 +71,7 @@ void Worker::run(const std::function<void()>& begin, const std::function<void()>
     busy_ = true;
     lock.unlock();
     job(*stop);
-    job = {};  // what it holds goes on this thread
+    job = {};  // destroy what it holds on this thread
     lock.lock();
     busy_ = false;
   }

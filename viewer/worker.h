@@ -10,8 +10,9 @@
 
 namespace glint::viewer {
 
-/// A thread that does what takes longer than a frame. Two kinds of jobs: those that are all done,
-/// in order (queue), and those of which only the newest counts (latest). A job must not throw.
+/// A thread for work that takes longer than a frame. There are two kinds of jobs: queued ones,
+/// which are all run, in order, and latest ones, of which only the newest counts. A job must not
+/// throw.
 class Worker {
  public:
   /// `stop` becomes true when the job's result is no longer wanted.
@@ -19,14 +20,14 @@ class Worker {
 
   /// `begin` and `end` run on the thread, first and last.
   explicit Worker(std::function<void()> begin = {}, std::function<void()> end = {});
-  /// Does what is queued, drops the latest, waits for the thread to end.
+  /// Runs the queued jobs, drops the latest one and joins the thread.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Queued jobs run before the latest; they are not stopped.
+  /// Queued jobs run before the latest one and are not stopped.
   void queue(Job job);
-  /// Takes the place of the latest job that has not begun, and stops one that has.
+  /// Replaces a latest job that has not begun, and stops one that has.
   void latest(Job job);
   /// Drops the latest job, or stops it.
   void stopLatest();
@@ -40,13 +41,13 @@ class Worker {
   std::condition_variable something_;
   std::deque<Job> queue_;
   std::optional<Job> latest_;
-  std::atomic<bool> stop_ = false;  ///< for the latest job that runs
+  std::atomic<bool> stop_ = false;  ///< for the latest job while it runs
   bool ending_ = false, busy_ = false;
   std::thread thread_;
 };
 
-/// For a thread whose work can wait, and those that it starts: the window comes first, by so many
-/// steps of the system's priorities.
+/// Lowers the priority of the calling thread, and of threads that it starts, by this many steps of
+/// the system's scale, so that the window comes first.
 void stepBack(int steps);
 
 }  // namespace glint::viewer

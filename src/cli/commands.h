@@ -12,8 +12,8 @@ class App;
 
 namespace glint {
 
-/// Each adds a subcommand to the program; the returned function runs it after parsing and gives the
-/// exit status. Errors are exceptions.
+/// Each function adds a subcommand to the program. The returned function runs it after parsing and
+/// returns the exit status. Errors are exceptions.
 using Command = std::function<int()>;
 Command addRender(CLI::App&);
 Command addView(CLI::App&);

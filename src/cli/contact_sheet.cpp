@@ -18,7 +18,7 @@
 namespace glint {
 namespace {
 
-constexpr int lineHeight = 12;  // of the font, in its own pixels
+constexpr int lineHeight = 12;  // of the font, in font pixels
 constexpr int mostSteps = 1000;
 constexpr int longestSide = 65535;
 
@@ -142,7 +142,7 @@ Sweep::Sweep(const std::string& text) : text_(text) {
                       : logarithmic         ? from * std::pow(to / from, share)
                                             : from + (to - from) * share);
   }
-  for (int i = 0; i < int(steps); ++i) {  // ranges
+  for (int i = 0; i < int(steps); ++i) {  // throws for values out of range
     Look look;
     apply(look, i);
   }
@@ -151,7 +151,7 @@ Sweep::Sweep(const std::string& text) : text_(text) {
 void Sweep::apply(Look& look, int step) const {
   const std::string value = numberText(values_[std::size_t(step)]);
   if (!ofMaterial_) return lookNumber(key_)->read(look, value);
-  if (material_.empty())  // of every material, also where the look edits one by name
+  if (material_.empty())  // applies to every material, including those the look edits by name
     for (auto& [name, edit] : look.material) (edit.*materialNumber(key_)->edit).reset();
   setMaterialEdit(look, material_, key_, value);
 }
@@ -222,7 +222,7 @@ void ContactSheet::drawCell(int column, Image& rows) {
   times_.compile += times.compile;
   times_.draw += times.draw;
   times_.read += times.read;
-  // White after exposure.
+  // White after the exposure is applied.
   const float white = float(std::exp2(-look_.exposure));
   y += gap_ / 2 + textScale_;
   for (const std::string& label : labels) {

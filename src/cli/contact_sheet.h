@@ -8,12 +8,12 @@
 
 namespace glint {
 
-/// One parameter in steps: KEY=FROM:TO:STEPS[:log|:linear]. KEY is a number of the look by its
-/// option's name, or of a material: [NAME:]exponent. The steps are even, or even in the logarithm
-/// where `:log` says so, or where the parameter's slider is logarithmic and nothing is said.
+/// A parameter that varies in steps: KEY=FROM:TO:STEPS[:log|:linear]. KEY is a numeric parameter of
+/// the look by its option name, or of a material: [NAME:]exponent. The steps are linear or
+/// logarithmic as the suffix asks; without one, as the parameter's slider is.
 class Sweep {
  public:
-  /// Throws InputError for unknown parameters, values beyond their ranges and unclear steps.
+  /// Throws InputError for unknown parameters, values out of range and malformed steps.
   explicit Sweep(const std::string& text);
 
   int steps() const { return int(values_.size()); }
@@ -28,8 +28,8 @@ class Sweep {
   std::vector<double> values_;
 };
 
-/// A picture of pictures, each with the sweeps' values below it: of one sweep in rows of at most
-/// six, of two the first across and the second down.
+/// A picture of pictures, each with its sweep values below it: for one sweep in rows of at most
+/// six, for two the first across and the second down.
 class ContactSheet : public PictureSource {
  public:
   /// `sweeps`: one or two. The stage must outlive it. Throws InputError for more than 65535 pixels

@@ -38,8 +38,8 @@ Look materialsOf(const ConvertOptions& options) {
   return look;
 }
 
-// What is edited: materials by name, or all of the file; its default material only where a mesh
-// shows it.
+// The materials to edit: those named, or all in the file. The default material is included only if
+// a mesh uses it.
 std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
   const bool all = look.material.contains("");
   std::vector<MaterialPatch> patches;
@@ -70,7 +70,7 @@ void checkKind(const ConvertOptions& options, bool glb) {
 
 constexpr std::uint64_t mostCopied = std::uint64_t(8) << 30;
 
-// Hands over a file in parts until `use` gives false; false then.
+// Passes a file to `use` in parts, until `use` returns false; then returns false.
 template <typename Use>
 bool forEachPart(const gltf::ByteSource& source, const Use& use) {
   std::vector<std::byte> part(std::size_t(1) << 20);
@@ -97,8 +97,8 @@ bool sameBytes(const fs::path& path, const gltf::ByteSource& source) {
   });
 }
 
-// Files beside IN that OUT needs beside it too, where it lies in another folder. All is looked at
-// before anything is written.
+// Copies the files that IN refers to if OUT is in another folder. Everything is checked before
+// anything is written.
 void copyReferred(const ConvertOptions& options, const std::string& in,
                   std::span<const std::byte> bytes) {
   const fs::path from = fs::path(in).parent_path(), to = fs::path(options.out).parent_path();

@@ -8,19 +8,19 @@
 
 namespace glint {
 
-/// Whether the ending is that of a picture.
+/// Whether the file name has the extension of a picture format.
 bool isPictureName(const std::string& path);
 
-/// The names of the pairs that --update means: a name is that pair's alone, or else it is a pattern
-/// or a folder; none means all. "./" before a name is passed over (-a.png would be an option).
-/// Throws InputError for one that no pair has.
+/// The names of the pairs that --update selects. A name is an exact pair name, or else a pattern or
+/// a folder; no names select all pairs. A leading "./" is ignored (-a.png would be an option).
+/// Throws InputError for a name that matches no pair.
 std::set<std::string> namesMeant(const std::vector<std::string>& named,
                                  const std::vector<DiffEntry>& entries);
 
-/// Makes B the baseline `target` where it is meant and not the same, and says so.
+/// Copies B over the baseline `target` if the pair is selected and is not the same, and reports it.
 void update(const std::set<std::string>& meant, DiffEntry& entry, const std::string& target);
 
-/// Removes a baseline that has no picture, and says so.
+/// Removes a baseline that has no picture, and reports it.
 void prune(DiffEntry& entry);
 
 }  // namespace glint

@@ -12,17 +12,17 @@
 namespace glint {
 namespace {
 
-/// The options as they are given.
+/// The options as given.
 struct DiffArguments {
   ComparisonArguments comparison;
   DiffRequest request;
   std::string difference = "flip";
 };
 
-/// --update takes all names that follow it, so that A and B behind it are its last two.
+/// --update consumes all names that follow it, so if A and B come after it they are its last two.
 void takePathsBack(DiffRequest& request) {
   if (!request.testRun.empty()) {
-    // A folder and nothing else: names may stand before and after.
+    // Only a folder: names may come before and after it.
     for (const std::string* path : {&request.a, &request.b})
       if (!path->empty())
         throw InputError("--run " + printablePath(request.testRun) + ": leave out " +

@@ -20,8 +20,8 @@ bool isFileThere(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
-/// The pictures in a folder and its folders, by their paths in it. Driver folders of baselines
-/// begin with "driver-".
+/// The pictures in a folder and its subfolders, as paths relative to it. The folders that hold the
+/// baselines of a driver begin with "driver-".
 std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
   std::vector<std::string> names;
   std::error_code error;
@@ -39,7 +39,7 @@ std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
   return names;
 }
 
-/// A path without links and turns, as far as it is there.
+/// The path without symbolic links, "." and "..", as far as it exists.
 std::string plainPath(const std::string& path) {
   std::error_code error;
   const fs::path plain = fs::weakly_canonical(path, error);
@@ -58,7 +58,7 @@ std::vector<PairConditions> conditionsOf(const DiffRequest& request) {
 std::vector<DiffEntry> pairsOf(const DiffRequest& request,
                                const std::vector<PairConditions>& conditions) {
   auto inA = isFileThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
-  // Masks are no baselines, wherever they lie.
+  // A mask is not a baseline, wherever it is.
   std::set<std::string> masks;
   if (!request.mask.empty()) masks.insert(plainPath(request.mask));
   for (const PairConditions& one : conditions)
@@ -75,7 +75,7 @@ std::vector<DiffEntry> pairsOf(const DiffRequest& request,
         printablePath(request.a) + " and " + printablePath(request.b) +
         ": no pictures in them: give folders of PNG, EXR, PFM, HDR, JPEG, WebP, TIFF, PPM, BMP "
         "or TGA files");
-  // NAME_1.png is one more baseline of NAME.png, unless it has a picture of its own.
+  // NAME_1.png is a further baseline of NAME.png, unless it has a picture of its own.
   std::set<std::string> alternatives;
   for (const std::string& name : inA)
     for (const std::string& other : otherBaselines(request.a + "/" + name))

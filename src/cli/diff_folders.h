@@ -8,20 +8,20 @@
 
 namespace glint {
 
-/// The conditions of single pairs: those of the file that is given, or of A's own. Throws
+/// The conditions for individual pairs, from the given file or from the one in A. Throws
 /// InputError.
 std::vector<PairConditions> conditionsOf(const DiffRequest& request);
 
-/// The pairs of two folders, by name. Throws InputError if there are none.
+/// The pairs of two folders, matched by name. Throws InputError if there are none.
 std::vector<DiffEntry> pairsOf(const DiffRequest& request,
                                const std::vector<PairConditions>& conditions);
 
-/// The settings of a pair: those of the last line of the conditions that names it, with what the
-/// command line says of reports.
+/// The settings of a pair: those of the last matching line of the conditions, with the report
+/// options of the command line.
 DiffSettings settingsFor(const DiffSettings& given, const std::vector<PairConditions>& conditions,
                          const std::string& name);
 
-/// Prints the lines of the conditions that name no pair.
+/// Prints the lines of the conditions that match no pair.
 void tellUnused(const std::vector<PairConditions>& conditions,
                 const std::vector<DiffEntry>& entries);
 

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The pair that the page shows first: of those that differ the one of the largest error, or else
-/// one of the kind that comes next in its list.
+/// The pair that the page shows first: the one with the largest error among those that differ, or
+/// else one of the next kind in the list.
 std::size_t firstShown(const nlohmann::ordered_json& pairs) {
   const auto rank = [](const nlohmann::ordered_json& pair) {
     constexpr std::string_view kinds[] = {"differs", "error", "missing", "no baseline", "same"};
@@ -40,7 +40,8 @@ std::size_t firstShown(const nlohmann::ordered_json& pairs) {
   return std::size_t(first - pairs.begin());
 }
 
-/// The colours of FLIP's map, "rrggbb" for each of 256 errors: a colour tells its error.
+/// The colours of FLIP's map as "rrggbb", one for each of 256 errors, so that a colour gives its
+/// error.
 std::string magmaText() {
   std::string text;
   for (int i = 0; i < 256; ++i) {
@@ -75,7 +76,7 @@ void DiffHtml::add(std::size_t index, bool differs, PairPictures pictures) {
 
 void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bool differs) {
   thumbnails_[index] = pictures.thumbnail;
-  // A browser opens some 100 MB at once; what is the same is looked at least.
+  // A browser opens some 100 MB at once; equal pairs are the least interesting.
   constexpr std::size_t longPage = 48u << 20;
   const bool same = !differs && !pictures.a.empty() && pictures.b.empty();
   if (same && written_ > longPage) return;
@@ -90,7 +91,7 @@ void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bo
       keep(base64Element(name, *bytes));
       continue;
     }
-    // A page that is a file may read no other file, but it may run its script.
+    // A page opened from a file must not read other files, but it may run their scripts.
     const std::string text = "picture('" + name + "','" + base64(*bytes) + "')\n";
     OutputFile file(folder_ + "/" + name + ".js");
     file.write(std::as_bytes(std::span(text)));
@@ -124,7 +125,7 @@ void DiffHtml::finish(const nlohmann::ordered_json& json) {
   write(jsonElement("data",
                     whole.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
   write(diffPage.end);
-  // The pair that is seen first stands first: the others may be 100 MB.
+  // The pair that is shown first is written first: the others may be 100 MB.
   const auto [begin, end] = places_[firstShown(whole["pairs"])];
   copyKept(begin, end);
   copyKept(0, begin);

@@ -13,26 +13,26 @@
 
 namespace glint {
 
-/// Files for the report; those that are not needed are empty.
+/// Files for the report; empty if not needed.
 struct PairPictures {
-  std::vector<std::byte> a, b, map;         ///< as a browser shows them
-  std::vector<std::byte> valuesA, valuesB;  ///< of 16 bits and floats: see trueValues()
+  std::vector<std::byte> a, b, map;         ///< as a browser can show them
+  std::vector<std::byte> valuesA, valuesB;  ///< for 16 bits and floats: see trueValues()
   std::vector<std::byte> thumbnail;
 };
 
-/// The report of `glint diff`, one page that needs nothing else. The list of pairs stands at its
-/// beginning, so that it can be read while the pictures are still coming; those wait in a temporary
-/// file until then and need no memory. It appears when finish() has returned.
+/// The report of `glint diff`: one self-contained page. The list of pairs comes first, so that it
+/// can be read while the pictures are still loading. Until finish() the pictures are kept in a
+/// temporary file, not in memory. The page appears when finish() has returned.
 class DiffHtml {
  public:
   /// With `beside` the pictures go into the folder PATH.pictures.
   DiffHtml(const std::string& path, bool beside);
 
-  /// The pictures of pair `index`, in any order of pairs. Those of pairs without any difference are
-  /// left out once the page is long.
+  /// Adds the pictures of pair `index`; pairs may come in any order. Once the page is long, the
+  /// pictures of pairs without any difference are left out.
   void add(std::size_t index, bool differs, PairPictures pictures);
 
-  /// Ends the page with the JSON of the comparison, whose "pairs" have the indices' order.
+  /// Completes the page with the JSON of the comparison, whose "pairs" are in index order.
   void finish(const nlohmann::ordered_json& json);
 
  private:
@@ -45,14 +45,14 @@ class DiffHtml {
     PairPictures pictures;
   };
   OutputFile file_;
-  std::string folder_;                                    ///< of pictures; empty: in the page
+  std::string folder_;                                    ///< for pictures; empty: in the page
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> kept_;  ///< the pictures, as elements
   std::size_t written_ = 0;                               ///< bytes
-  std::size_t next_ = 0;                                  ///< pair
-  std::map<std::size_t, Waiting> later_;                  ///< pairs whose turn has not come
+  std::size_t next_ = 0;                                  ///< the next pair to write
+  std::map<std::size_t, Waiting> later_;                  ///< pairs that must wait for their turn
   std::map<std::size_t, std::vector<std::byte>> thumbnails_;
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> places_;  ///< in what waits
-  std::map<std::size_t, std::string> kinds_;  ///< of the pictures that a pair has: "abm"
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> places_;  ///< ranges in kept_
+  std::map<std::size_t, std::string> kinds_;  ///< the pictures that a pair has: "abm"
 };
 
 }  // namespace glint

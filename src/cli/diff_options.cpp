@@ -162,7 +162,7 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
 
 DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArguments& given,
                                 const std::string& folder) {
-  // --metric NAME and --threshold T as they stand one after the other, the latter's name empty.
+  // --metric NAME and --threshold T in the order given; the name of a threshold is empty.
   std::vector<std::pair<std::string, std::string>> ordered;
   std::size_t nextMetric = 0, nextThreshold = 0;
   for (const CLI::Option* option : command.parse_order()) {
@@ -280,7 +280,7 @@ std::vector<PairConditions> readConditions(const std::string& path) {
     addComparisonOptions(app, given);
     const std::string where = printablePath(path) + ":" + std::to_string(number) + ": ";
     try {
-      // The parser takes the words from the end.
+      // The parser expects the words in reverse order.
       app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
       conditions.push_back(
           {words[0], comparisonSettings(app, given, folder.empty() ? "." : folder), where});

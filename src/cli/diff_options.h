@@ -13,7 +13,7 @@ class Option;
 
 namespace glint {
 
-/// The options of a comparison as they are given: on the command line, or in a file for some pairs.
+/// The options of a comparison as given: on the command line, or in a file for some pairs.
 struct ComparisonArguments {
   std::vector<std::string> metricNames, thresholds, maxPixels, ignored;
   std::string alpha = "straight", values = "stored", mask, layer = "all", screen,
@@ -25,27 +25,27 @@ struct ComparisonArguments {
   CLI::Option *metric = nullptr, *threshold = nullptr;  ///< whose order counts
 };
 
-/// Adds them to a command, which must live as long as they are read.
+/// Adds the options to a command, which must live until `given` has been read.
 void addComparisonOptions(CLI::App& command, ComparisonArguments& given);
 
-/// What they say, the command having been parsed. Reads the mask; a relative path of it is one in
-/// `folder`, if that is not empty. Throws InputError.
+/// The settings that the options of a parsed command give. Reads the mask; its relative path is
+/// resolved in `folder` unless that is empty. Throws InputError.
 DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArguments& given,
                                 const std::string& folder = "");
 
-/// Pairs of a folder that are compared in ways of their own.
+/// Pairs of a folder that have comparison settings of their own.
 struct PairConditions {
   std::string pattern;  ///< of names, with * and ?
   DiffSettings settings;
   std::string where;  ///< "FILE:LINE: "
 };
 
-/// Reads a file of lines "PATTERN OPTION...", the options as on the command line; # begins a
-/// comment. Throws InputError that names the line.
+/// Reads a file of lines "PATTERN OPTION...", with the options of the command line; # begins a
+/// comment. Throws an InputError that names the line.
 std::vector<PairConditions> readConditions(const std::string& path);
 
-/// Whether a name is meant by a pattern: it is the name; or * and ? stand for letters, / too; or
-/// the name lies in the folder that it names.
+/// Whether a pattern matches a name: it equals the name, or matches it with the wildcards * and ?
+/// (which match / too), or is a folder that contains the name.
 bool isNamedBy(const std::string& pattern, const std::string& name);
 
 }  // namespace glint

@@ -1,5 +1,5 @@
 'use strict';
-// The list of pairs, what is said of one, and the keys.
+// The list of pairs, the details of one pair, and the keys.
 const counted = (n, what) => n + ' ' + what + (n === 1 ? '' : 's');
 const kinds = ['differs', 'error', 'missing', 'no baseline', 'same'];
 const kindOf = p => p.status === 0 ? 'same' : p.status === 1 ? 'differs' : p.status === 4 ? 'no baseline'
@@ -21,7 +21,7 @@ function drawHead() {
     return th;
   }));
 }
-// A thousand pictures at once would take seconds: they come when they are seen.
+// A thousand pictures at once would take seconds, so they load when they become visible.
 const thumbnails = new IntersectionObserver(seen => {
   for (const {target, isIntersecting} of seen) if (isIntersecting) {
     thumbnails.unobserve(target);
@@ -57,7 +57,7 @@ function drawList() {
     if (a !== b) return (a < b ? -1 : 1) * (descending ? -1 : 1);
     return error(q) - error(p) || p.index - q.index;
   });
-  // What fits the screen at once, the others when there is time: the first picture goes before them.
+  // Rows that fit the screen now, the others when idle, so that the first picture does not wait.
   const later = f => window.requestIdleCallback ? requestIdleCallback(f, {timeout: 200}) : setTimeout(f);
   const rows = $('rows'), turn = ++drawing, at = listed.findIndex(p => p.index === current);
   const add = count => rows.append(...listed.slice(rows.children.length, rows.children.length + count).map(rowOf));
@@ -87,7 +87,7 @@ async function select(index) {
   pair = p;
   stage = all;
   fitted = true; region = -1; exposure = 0; low = 0; high = 1;
-  // Depths and normals were drawn over their whole range.
+  // Depths and normals are drawn over their whole range.
   const values = stage.valuesA || stage.valuesB;
   if (values && !values.colour) [low, high] = rangeOf([stage.valuesA, stage.valuesB]);
   drawDetail();
@@ -106,7 +106,7 @@ function tableOf(id, caption, rows) {
   tall.append(table);
   return tall;
 }
-/// A command, and a button that puts it onto the clipboard.
+/// A command, with a button that copies it to the clipboard.
 function commandOf(label, command) {
   const line = element('div', label + ' ', 'bar'), code = element('code', command), button = element('button', 'copy');
   button.onclick = async () => {
@@ -122,7 +122,7 @@ function commandOf(label, command) {
   line.append(code, button);
   return line;
 }
-/// A word as a shell reads it; one that begins as an option would is a name in this folder.
+/// Quotes a word for the shell; one that looks like an option gets "./" in front.
 function quoted(word) {
   if (word.startsWith('-')) word = './' + word;
   if (/^[\w./+=:%-]+$/.test(word)) return word;

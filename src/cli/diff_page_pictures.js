@@ -1,5 +1,5 @@
 'use strict';
-// The pictures of a pair: decoded when it is looked at.
+// The pictures of a pair, decoded when it is shown.
 const $ = id => document.getElementById(id);
 const report = JSON.parse($('data').textContent);
 const clamp = (v, low, high) => Math.min(high, Math.max(low, v));
@@ -21,12 +21,13 @@ function canvasOf(width, height) {
 /// The 8-bit codes of a part of a canvas: red, green, blue, alpha.
 function codes(c, x, y, w, h) { return [...contextOf(c).getImageData(x, y, w, h).data]; }
 
-// Pictures beside the page are scripts that call this: a page of a file may read no other file.
+// Pictures beside the page are scripts that call this: a page opened from a file must not read
+// other files.
 const beside = new Map();
 function picture(id, base64) { beside.get(id)(base64); }
 
-/// The bytes of a picture in base64, or null. Those in the page stand behind this script, and may
-/// not have come yet.
+/// The base64 text of a picture, or null. Pictures in the page come after this script and may not
+/// have loaded yet.
 async function textOf(kind, p) {
   if (!(p.pictures || '').includes(kind)) return null;
   const id = kind + p.index;
@@ -59,7 +60,7 @@ async function canvasFrom(kind, p) {
     return null;  // more than this browser can show
   }
 }
-/// The numbers of a picture of 16 bits or floats: {width, height, channels, linear, colour, data}.
+/// The values of a picture of 16 bits or floats: {width, height, channels, linear, colour, data}.
 async function valuesFrom(kind, p) {
   const bytes = await bytesOf(kind, p);
   if (!bytes) return null;
@@ -73,11 +74,11 @@ function blank(a) {
   return c;
 }
 
-/// All of a pair: canvases a, b and map (null where there is none), values a and b.
+/// Everything of a pair: canvases a, b and map (null if absent), values a and b.
 async function picturesOf(p) {
   const [a, other, map, valuesA, valuesB] = await Promise.all(
     [canvasFrom('a', p), canvasFrom('b', p), canvasFrom('m', p), valuesFrom('v', p), valuesFrom('w', p)]);
-  // What is equal is kept once.
+  // Equal pictures are stored once.
   const equal = a && p.a && p.b && !p.error && !p.pictures.includes('b');
   let b = other;
   if (equal) { b = canvasOf(a.width, a.height); contextOf(b).drawImage(a, 0, 0); }
@@ -92,7 +93,7 @@ async function picturesOf(p) {
   return all;
 }
 
-// A colour of FLIP's map tells its error: the page has those of 256 errors from 0 to 1.
+// A colour of FLIP's map gives its error: the page has the colours of 256 errors from 0 to 1.
 const magma = Array.from({length: 256}, (_, i) => parseInt(report.magma.slice(6 * i, 6 * i + 6), 16));
 const errors = new Map(magma.map((colour, i) => [colour, i / 255]));
 function errorOf(red, green, blue) {
@@ -106,7 +107,7 @@ function errorOf(red, green, blue) {
   return errors.get(colour);
 }
 
-/// The map over the faded picture: the more there is to see of it the larger its error.
+/// The map over the faded picture, more opaque where the error is larger.
 function mapOver(map, below) {
   const c = canvasOf(map.width, map.height), context = contextOf(c);
   context.fillStyle = '#fff'; context.fillRect(0, 0, c.width, c.height);
@@ -123,7 +124,7 @@ function mapOver(map, below) {
   return c;
 }
 
-/// Draws numbers into a canvas: low is black and high white, times 2^exposure; colours are encoded.
+/// Draws values into a canvas: low is black and high white, times 2^exposure; colours are encoded.
 function develop(canvas, values, exposure, low, high) {
   const context = contextOf(canvas), picture = context.createImageData(values.width, values.height);
   const {channels, data, colour} = values, gain = 2 ** exposure / (high - low);
@@ -137,7 +138,7 @@ function develop(canvas, values, exposure, low, high) {
   }
   context.putImageData(picture, 0, 0);
 }
-/// The least and the largest finite number of pictures.
+/// The smallest and the largest finite value in the pictures.
 function rangeOf(all) {
   let low = Infinity, high = -Infinity;
   for (const values of all) if (values)
@@ -148,7 +149,7 @@ function rangeOf(all) {
     }
   return low < high ? [low, high] : [0, 1];
 }
-/// The numbers of a pixel, as they are where that is known: {numbers, kind}; null outside.
+/// The values of a pixel, exact if they are known: {numbers, kind}; null outside.
 function numbersAt(canvas, values, x, y) {
   if (!canvas || x >= canvas.width || y >= canvas.height) return null;
   if (!values) return codes(canvas, x, y, 1, 1);

@@ -1,5 +1,5 @@
 'use strict';
-// How a pair is shown: slider, blink, side by side, the map; zoom; values of pixels; regions.
+// How a pair is shown: slider, blink, side by side, the map; zoom; pixel values; regions.
 const modes = ['slider', 'blink', 'side by side', 'difference', 'A', 'B'];
 let stage = null, pair = null, mode = 'slider', split = 0.5, zoom = 1, fitted = true, blinkOn = false, timer = 0;
 let boxes = true, faded = true, region = -1, exposure = 0, low = 0, high = 1;
@@ -50,7 +50,7 @@ function drawStage() {
     swap();
     timer = setInterval(swap, 500);
   }
-  // Dragging moves the slider, or the pictures.
+  // Dragging moves the slider, or pans.
   box.onpointerdown = e => {
     if (e.button !== 0) return;
     box.setPointerCapture(e.pointerId);
@@ -80,13 +80,13 @@ function drawStage() {
   drawValues();
   drawLabels();
 }
-/// Why a picture is not there.
+/// Why a picture is missing.
 function absence(mode) {
   if (!stage.a && !stage.b && !pair.error && pair.same) return 'The pictures are left out to keep the page small.';
   return mode === 'A' ? 'There is no A to be shown.' : mode === 'B' ? 'There is no B to be shown.' : 'Neither picture can be shown.';
 }
 
-/// What is under the mouse: the numbers of both, as the files have them, and the error.
+/// Shows what is under the mouse: both pictures' values as stored, and the error.
 function tell(e, canvases) {
   const over = canvases.find(c => { const r = c.getBoundingClientRect(); return e.clientX >= r.left && e.clientX < r.right; });
   if (!over) return;
@@ -146,7 +146,7 @@ function drawRegions(box, canvases) {
     });
   });
 }
-/// Shows a region in the middle, as large as fits.
+/// Centres a region, as large as fits.
 function showRegion(i) {
   const r = pair.regions && pair.regions[i];
   if (!r) return;
@@ -158,7 +158,7 @@ function showRegion(i) {
   [...rows].forEach((tr, k) => { tr.className = k === i ? 'on' : ''; if (k === i) tr.scrollIntoView({block: 'nearest'}); });
 }
 
-// Where the pixels are large, their numbers stand in them.
+// Where pixels are large, shows their values in them.
 function drawValues() {
   const view = $('view'), canvas = $('values');
   if (!canvas) return;
@@ -188,7 +188,7 @@ function drawValues() {
     }
   }
 }
-/// Keeps the point x, y of the view where it is.
+/// Zooms and keeps the point x, y of the view fixed.
 function setZoom(z, x, y) {
   const view = $('view'), before = zoom;
   x = x ?? view.clientWidth / 2; y = y ?? view.clientHeight / 2;
@@ -210,7 +210,7 @@ function look(x, y, scale) {
   view.scrollTo((x + 0.5) * zoom - view.clientWidth / 2, (y + 0.5) * zoom - view.clientHeight / 2);
 }
 
-/// Exposure and range of pictures whose numbers are no codes.
+/// Exposure and range for pictures whose values are not codes.
 function developBar() {
   const bar = element('div', undefined, 'bar');
   bar.id = 'develop';
@@ -253,7 +253,7 @@ function developBar() {
   return bar;
 }
 
-/// The colours of FLIP's map with their errors.
+/// The colours of FLIP's map, labelled with their errors.
 function scaleBar() {
   const bar = element('div');
   bar.id = 'scale';

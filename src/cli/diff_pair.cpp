@@ -35,7 +35,7 @@ std::string temporaryFolderName() {
   return given && *given ? printablePath(given) : "/tmp";
 }
 
-/// A file that goes when its user does.
+/// A file that is removed when this is destroyed.
 struct TemporaryPng {
   std::string path;
   TemporaryPng() {
@@ -55,7 +55,7 @@ struct TemporaryPng {
   }
 };
 
-/// Larger pictures are read by rows.
+/// Larger pictures are read row by row.
 constexpr std::size_t heldBytes = std::size_t(64) << 20;
 
 PictureLayers layersOf(const std::vector<std::byte>& bytes, const std::string& path,
@@ -63,7 +63,7 @@ PictureLayers layersOf(const std::vector<std::byte>& bytes, const std::string& p
   return decodePictureLayers(bytes, path == "-" ? "stdin" : path, wanted, heldBytes);
 }
 
-/// Throws InputError if a picture that was perhaps not read to its end is damaged: that must not
+/// Throws InputError if a picture that may not have been read to its end is damaged: it must not
 /// become a baseline.
 void readToEnd(const PictureLayers& read) {
   if (const auto& window = read.layers[0].image.window) window->readToEnd();
@@ -78,7 +78,7 @@ bool isWhole(const PictureLayers& read) {
   }
 }
 
-/// Both pictures of a pair. The same bytes are decoded once.
+/// Both pictures of a pair. Identical bytes are decoded once.
 struct BothPictures {
   std::vector<std::byte> bytesA, bytesB;
   PictureLayers a, b;
@@ -86,11 +86,11 @@ struct BothPictures {
   void read(const DiffSettings& settings, DiffEntry& entry) {
     bytesB = pictureBytes(entry.b);
     bytesA = pictureBytes(entry.a);
-    // The comparison of vectors goes byte by byte.
+    // Comparing vectors goes byte by byte.
     const bool same = bytesA.size() == bytesB.size() &&
                       std::memcmp(bytesA.data(), bytesB.data(), bytesA.size()) == 0;
     std::future<PictureLayers> reading;
-    // A thread costs as much as a small picture.
+    // Starting a thread costs as much as decoding a small picture.
     const auto readA = [&] { return layersOf(bytesA, entry.a, settings.layer); };
     if (!same && bytesA.size() > 200000) reading = startTask(readA);
     std::string errorB;
@@ -108,14 +108,14 @@ struct BothPictures {
       throw;
     }
     if (!errorB.empty()) throw InputError(errorB);
-    // Other formats than OpenEXR have one picture, which is compared with the main one.
+    // Formats other than OpenEXR have one picture, which is compared with the main one.
     if (a.named != b.named && settings.layer == "all") {
       (a.named ? a : b) = layersOf(a.named ? bytesA : bytesB, a.named ? entry.a : entry.b, "main");
     }
   }
 };
 
-/// The metrics of a comparison and its reports.
+/// The options of a comparison, with all metrics if they are wanted.
 CompareOptions optionsFor(const DiffSettings& settings, const StoredImage& a,
                           const StoredImage& b) {
   CompareOptions options = settings.compare;
@@ -147,7 +147,7 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
     entry.status = differs;
     return;
   }
-  // What is looked at: the main picture, or where that is equal the first that is not.
+  // The layer to show: the main picture, or if it is equal the first layer that is not.
   const LayerPair& shown = pairs.matched[pairs.shown];
   const bool flipPossible =
       shown.a->colour &&
@@ -158,7 +158,7 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   const bool besideColours = std::any_of(pairs.matched.begin(), pairs.matched.end(),
                                          [](const LayerPair& pair) { return pair.a->colour; });
   std::optional<TemporaryPng> map;
-  // The page's own, whose colours tell errors, whatever format the other has.
+  // The page always gets its own map, whose colours encode errors, whatever format the file has.
   std::optional<FlipPicture> forPage, forFile;
   try {
     for (std::size_t i = 0; i < pairs.matched.size(); ++i) {
@@ -208,7 +208,8 @@ void compareFiles(const DiffSettings& settings, DiffEntry& entry, PairPictures* 
   entry.status = entry.result.same ? done : differs;
 }
 
-/// Of several baselines the one that holds, or else the one of the fewest differing pixels.
+/// Chooses among several baselines: one that passes, or else the one with the fewest differing
+/// pixels.
 void chooseBaseline(const DiffSettings& settings, DiffEntry& entry) {
   DiffSettings plain = settings;
   plain.output.clear();
@@ -226,7 +227,7 @@ void chooseBaseline(const DiffSettings& settings, DiffEntry& entry) {
       score = trial.status == done ? -1 : double(trial.result.differing);
       if (trial.result.sizesDiffer) score += 1e12;
     } catch (const InputError&) {
-      continue;  // said if it is the one that is left
+      continue;  // reported if this candidate is chosen
     }
     if (score >= bestScore) continue;
     bestScore = score;
@@ -251,7 +252,7 @@ std::vector<std::byte> readStdin() {
   return bytes;
 }
 
-/// What a picture without a partner looks like.
+/// Loads a picture without a partner for the report.
 void showAlone(const DiffSettings& settings, const std::string& path, bool isA, DiffEntry& entry,
                PairPictures* pictures) {
   const std::vector<std::byte> bytes = pictureBytes(path);
@@ -298,14 +299,14 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
     entry.status = unusable;
     entry.error = failureOf(error, entry.name);
   }
-  // Of a pair that could not be compared, what can be read is shown.
+  // If a pair could not be compared, whichever picture can be read is shown.
   if (pictures && entry.status == unusable && !entry.b.empty()) {
     for (const bool isA : {true, false}) {
       const std::string& path = isA ? entry.a : entry.b;
       try {
         if (!path.empty() && path != "-") showAlone(settings, path, isA, entry, pictures);
       } catch (const std::exception&) {
-        continue;  // the error says which
+        continue;  // the entry's error already reports it
       }
     }
   }
@@ -333,7 +334,7 @@ void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
   try {
     entry.textB = pictureTextIn(pictureBytes(entry.b), entry.b);
   } catch (const InputError&) {
-    return;  // said when it is compared
+    return;  // reported by the comparison
   }
   const std::string path = driverBaseline(folder, entry);
   std::error_code ignored;

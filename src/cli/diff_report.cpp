@@ -21,7 +21,7 @@ std::string shortNumber(double value) {
   return text;
 }
 
-/// Text with bytes that are no UTF-8 replaced.
+/// The text with invalid UTF-8 replaced.
 std::string utf8(const std::string& text) {
   return parsedJson<Json>(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
       .get<std::string>();
@@ -73,13 +73,13 @@ std::string failureText(const Json& pair) {
   return error.empty() ? joined(pair, "failures") : error;
 }
 
-/// The value of a metric, or nothing.
+/// The value of a metric, or an empty text.
 std::string metricText(const Json& pair, const std::string& name) {
   const auto metrics = pair.find("metrics");
   if (metrics == pair.end() || !metrics->contains(name)) return "";
   const Json& value = (*metrics)[name]["value"];
   if (value.is_number()) return shortNumber(value.get<double>());
-  // Equal pictures have no noise; of nothing that is a number there is nothing.
+  // The PSNR of equal pictures is infinite; a metric without any numbers is NaN.
   const bool equal =
       name == "psnr" && metrics->contains("max") && (*metrics)["max"]["value"].is_number();
   return equal ? "inf" : "nan";
@@ -146,7 +146,7 @@ Json worstJson(const Comparison& r) {
   return worst;
 }
 
-/// Regions: how many there are, and the worst of them.
+/// The number of regions, and the worst of them.
 void addRegions(const Comparison& r, Json& json) {
   if (r.regions.empty()) return;
   json["regionCount"] = r.regions.size();
@@ -222,7 +222,7 @@ Json diffJson(const DiffEntry& entry, const CompareOptions& options) {
   if (!entry.mainName.empty()) json["layer"] = entry.mainName;
   json["metrics"] = metricsJson(r, options);
   json["worst"] = worstJson(r);
-  // The regions and the worst pixels are of the layer that is shown.
+  // The regions and the worst pixels belong to the layer that is shown.
   addRegions(r, json);
   for (const LayerResult& layer : entry.layers) {
     Json part{{"name", layer.name},
@@ -253,7 +253,7 @@ std::string diffLine(const Json& pair) {
   if (same && countOf(pair, "differing") == 0 && layers == 0) {
     line += ", equal in every pixel";
   } else if (pair.contains("metrics")) {
-    // What differs is reported: the main picture, or the first layer that does.
+    // Reports what differs: the main picture, or the first layer that does.
     const Json* told = &pair;
     if (shownOnly)
       for (const Json& layer : pair["layers"])
@@ -326,7 +326,7 @@ std::string markdownText(const Json& report) {
     const std::string whole = utf8(text);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       const char letter = whole[i];
-      // Cut between letters.
+      // Cut at a character boundary.
       if (i > 250 && (static_cast<unsigned char>(letter) & 0xc0) != 0x80) return safe + "...";
       if (std::string_view("|`*_[<\\&~$#").find(letter) != std::string_view::npos) safe += '\\';
       safe += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;

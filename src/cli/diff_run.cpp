@@ -35,7 +35,7 @@ bool isThere(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
-/// Compares, and gives the JSON of the pairs.
+/// Compares, and returns the JSON of the pairs.
 Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>& conditions,
                   DiffHtml* page, std::vector<DiffEntry>& entries) {
   DiffSettings settings = request.settings;
@@ -59,7 +59,7 @@ Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>&
   return Json(pairs);
 }
 
-/// Of several statuses the one that tells most: unusable, then differs, then noBaseline.
+/// The most severe status: unusable, then differs, then noBaseline.
 int statusOf(const Json& pairs) {
   for (const int status : {int(unusable), int(differs), int(noBaseline)})
     for (const Json& pair : pairs)
@@ -113,7 +113,7 @@ struct Summary {
   }
 };
 
-/// A word as a shell reads it; one that begins as an option would is a name in this folder.
+/// Quotes a word for the shell; one that looks like an option gets "./" in front.
 std::string quoted(const std::string& word) {
   if (word.starts_with('-') && word != "-") return quoted("./" + word);
   const auto plain = [](char c) {
@@ -126,7 +126,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Whether stdout is a file's, so that no line may stand in it.
+/// Whether a file is written to stdout, so that nothing else may be printed there.
 bool writesToStdout(const DiffRequest& request) {
   const std::string* const files[] = {&request.json, &request.junit, &request.html,
                                       &request.markdown, &request.settings.output};
@@ -134,7 +134,7 @@ bool writesToStdout(const DiffRequest& request) {
                      [](const std::string* path) { return *path == "-"; });
 }
 
-/// Writes all reports of several pairs; the exit status.
+/// Writes all reports of several pairs; returns the exit status.
 int report(const DiffRequest& request, Json pairs, DiffHtml* page,
            const std::vector<std::string>& unused) {
   const Summary summary(pairs);
@@ -187,7 +187,7 @@ int diffFolders(const DiffRequest& request) {
   return report(request, std::move(pairs), page.get(), {});
 }
 
-/// Throws InputError for options that mean nothing without two folders.
+/// Throws InputError for options that apply only to two folders.
 void refuseOfFolders(const DiffRequest& request, bool ofPictures) {
   if (!request.conditions.empty())
     throw InputError("--conditions " + printablePath(request.conditions) +
@@ -196,7 +196,7 @@ void refuseOfFolders(const DiffRequest& request, bool ofPictures) {
     throw InputError("--prune: only for folders: remove the file yourself");
 }
 
-/// What the tests of a build have left.
+/// Reports on what a build's image tests left behind.
 int diffTestRun(const DiffRequest& request) {
   refuseOfFolders(request, false);
   TestRun run = readTestRun(request.testRun);

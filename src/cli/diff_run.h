@@ -10,20 +10,20 @@ namespace glint {
 /// What `glint diff` is asked to do.
 struct DiffRequest {
   std::string a, b;                         ///< two pictures or two folders
-  std::string testRun;                      ///< instead of them a folder that image tests left
-  DiffSettings settings;                    ///< of each pair
-  std::string conditions;                   ///< a file of settings for some; empty: A's own
+  std::string testRun;                      ///< instead of a and b, a folder left by image tests
+  DiffSettings settings;                    ///< for each pair
+  std::string conditions;                   ///< a file of settings for some pairs; empty: A's own
   std::string json, junit, markdown, html;  ///< reports; empty: none
-  bool picturesBeside = false;              ///< not in the page
+  bool picturesBeside = false;              ///< not embedded in the page
   std::string mask;                         ///< a picture; empty: none
-  bool updating = false;                    ///< make B the baseline
-  std::vector<std::string> named;           ///< only of these pairs; empty: of all
-  bool pruning = false;                     ///< remove baselines without a picture
-  bool perDriver = false;                   ///< baselines are kept in folders of drivers
-  int jobs = 0;                             ///< 0: as many as the processor has
+  bool updating = false;                    ///< makes B the baseline
+  std::vector<std::string> named;           ///< only these pairs; empty: all
+  bool pruning = false;                     ///< removes baselines without a picture
+  bool perDriver = false;                   ///< baselines are kept in one folder per driver
+  int jobs = 0;                             ///< 0: as many as the processor has cores
 };
 
-/// Compares, writes the reports, and gives the exit status.
+/// Compares, writes the reports and returns the exit status.
 int runDiff(DiffRequest request);
 
 }  // namespace glint

@@ -25,7 +25,7 @@ bool isFile(const std::string& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// A file's text, its end if it is long; empty if there is none.
+/// A file's text, truncated to its end if it is long; empty if it does not exist.
 std::string textIn(const std::string& path, std::size_t most = 1 << 20) {
   if (!isFile(path)) return "";
   const std::vector<std::byte> bytes = readFile(path);
@@ -45,7 +45,7 @@ std::string textAt(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The result of a test from how far it came.
+/// The result of a test according to how far it came.
 Json pairOf(const std::string& folder, const std::string& file, const TestRecord& record,
             const std::vector<std::string>& options) {
   std::istringstream status(textIn(folder + "/status/" + file + ".txt"));
@@ -94,9 +94,9 @@ void addMasks(const std::vector<std::string>& options, std::set<std::string>& na
   }
 }
 
-/// Pictures in the folders of the tests' baselines that belong to none of them. A folder that holds
-/// anything but pictures and folders is not one of baselines alone, and nothing in it is listed:
-/// what is listed may be pruned.
+/// Pictures in the folders of the tests' baselines that belong to no test. A folder that holds
+/// anything other than pictures and folders is not only for baselines and nothing in it is listed,
+/// because what is listed may be pruned.
 std::vector<std::string> unusedBaselines(const std::vector<TestRecord>& records,
                                          const std::set<std::string>& masks) {
   std::set<std::string> used, folders;
@@ -160,7 +160,7 @@ TestRun readTestRun(const std::string& folder) {
     entry.a = pair["a"].get<std::string>();
     entry.b = record.actual;
     entry.status = pair["status"].get<int>();
-    // A test that did not compare has no picture to accept, whatever lies there.
+    // A test that did not compare has no picture to accept, even if a file exists.
     entry.readableB = !entry.b.empty() && (entry.status == differs || entry.status == noBaseline);
     run.records.push_back(record);
     run.entries.push_back(entry);
@@ -191,7 +191,7 @@ PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry, const 
       side.read = decodePictureLayers(side.bytes, side.path, wanted.empty() ? "main" : wanted);
     } catch (const InputError&) {
       side.read.layers.clear();
-      continue;  // what can be read is shown
+      continue;  // the other picture is still shown
     }
     const auto [low, high] = rangeOf(side.read.layers[0].image);
     range = {std::min(range.first, low), std::max(range.second, high)};

@@ -9,33 +9,33 @@
 
 namespace glint {
 
-/// What one test of glint_add_image_test() has left; paths are empty where there is no file.
+/// What one test of glint_add_image_test() left behind; paths are empty if the file does not exist.
 struct TestRecord {
-  std::string name, baseline;  ///< as CMake has them
+  std::string name, baseline;  ///< as given in CMake
   std::string actual, kept, difference;
 };
 
 struct TestRun {
   std::vector<TestRecord> records;
   std::vector<DiffEntry> entries;   ///< name, paths and status, for updating
-  nlohmann::ordered_json pairs;     ///< what was recorded, one for each test
-  std::vector<std::string> unused;  ///< baselines beside those of the tests, of none
+  nlohmann::ordered_json pairs;     ///< what was recorded, one object for each test
+  std::vector<std::string> unused;  ///< pictures beside the tests' baselines that belong to no test
 };
 
 /// Reads a folder of image tests (GLINT_IMAGE_TEST_OUTPUT, or image-tests in a build folder):
 ///
-///     tests/FILE.txt          CMake's: the test's name, the baseline, the picture's ending, and
-///                             the options of glint diff, a line each
+///     tests/FILE.txt          CMake's: the test's name, the baseline, the picture's extension, and
+///                             the options of glint diff, one per line
 ///     status/FILE.txt         how far the test came: "started", "command N", "nothing",
 ///                             "compared N", "updated"
-///     log/FILE.txt            what its program said
-///     result/FILE.json        what glint diff said
+///     log/FILE.txt            the output of its program
+///     result/FILE.json        the result of glint diff
 ///     actual/, baseline/, difference/FILE...
 ///
 /// Throws InputError if there are no tests.
 TestRun readTestRun(const std::string& folder);
 
-/// The pictures of a record, of the layer that its result shows.
+/// The pictures of a record, for the layer that its result shows.
 PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry,
                         const nlohmann::ordered_json& pair);
 

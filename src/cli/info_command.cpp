@@ -39,7 +39,7 @@ Json imageJson(const EncodedImage& image, bool read) {
     json["width"] = header.width;
     json["height"] = header.height;
   } catch (const InputError&) {
-    // A picture that cannot be decoded has no size; what reads it says why.
+    // A picture that cannot be decoded has no size; decoding it for drawing reports why.
   }
   json["read"] = read;
   return json;
@@ -87,7 +87,7 @@ Json materialJson(const Material& m, const std::set<int>& read) {
   return json;
 }
 
-/// The corners of the box around all that stands in the scene; null where there is nothing.
+/// The corners of the bounding box of the scene; null if the scene is empty.
 Json boxJson(const Scene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   glm::dvec3 low(inf), high(-inf);
@@ -187,7 +187,7 @@ void printChoice(const Json& choice) {
   }
 }
 
-/// A skin or a mesh with how many `things` it has and those that have names.
+/// Prints a skin or a mesh with its number of `things` and the names of those that have one.
 void printList(std::size_t index, const std::string& name, const Json& names, const char* thing) {
   std::cout << "  " << index << ": " << (name.empty() ? "(no name)" : printable(name)) << ", "
             << names.size() << " " << thing << (names.size() == 1 ? "" : "s");
@@ -316,7 +316,7 @@ Command addInfo(CLI::App& app) {
         *model, [&](const std::string& path) { return loadGltf(path, poseOf(look)); });
     if (isStdin(*model)) scene.name = "stdin";
     checkMaterialNames(scene, look);
-    // Whether what may blend does, its texels say.
+    // Whether a material that may blend does so depends on its texels.
     const auto blends = [](const Material& m) { return m.alphaMode == AlphaMode::blend; };
     if (std::ranges::any_of(scene.materials, blends)) decodeImages(scene, look);
     const ResolvedLook resolved = resolveLook(scene, boundsOf(scene), look);

@@ -2,9 +2,9 @@
 
 namespace glint {
 
-/// While it lives, SIGINT and SIGTERM end the work in hand instead of the process: what is being
-/// done stops at the next good place, files that are whole stay, nothing half-written is left. A
-/// second one ends the process at once. A signal that was ignored before (nohup) stays so.
+/// While it lives, SIGINT and SIGTERM end the work in hand instead of the process: the work stops
+/// at the next safe point, complete files stay, and nothing half-written is left. A second signal
+/// ends the process at once. A signal that was ignored before (nohup) stays ignored.
 class Interrupt {
  public:
   Interrupt();
@@ -12,9 +12,9 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// The signal that has come, or 0. May be asked from every thread.
+  /// The signal received, or 0. May be called from any thread.
   static int signal();
-  /// Readable once a signal has come, for poll().
+  /// A descriptor for poll() that becomes readable once a signal has been received.
   static int descriptor();
 };
 

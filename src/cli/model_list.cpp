@@ -55,7 +55,7 @@ std::vector<bool> membersOf(const Shard& shard, const std::vector<double>& costs
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return costs[i]; });
-  using Load = std::pair<double, std::size_t>;  // and the shard's number
+  using Load = std::pair<double, std::size_t>;  // the load and the shard's number
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (std::size_t k = 0; k < std::min(shard.of, costs.size()); ++k) loads.emplace(0, k);
   for (const std::size_t i : order) {

@@ -20,7 +20,7 @@
 namespace glint {
 namespace {
 
-// Pictures appear whole or not at all: one that has the key is done.
+// Pictures appear whole or not at all, so one that has the key is complete.
 bool isPresent(const std::string& path, const std::string& key) {
   try {
     const auto text = readPictureText(path);
@@ -61,7 +61,7 @@ void ModelLoader::readList() {
   while (readModel()) continue;
 }
 
-// Begins to load the next model of the list; false at its end.
+// Starts loading the next model of the list; false at its end.
 bool ModelLoader::readModel() {
   std::exception_ptr failure;
   try {
@@ -155,7 +155,7 @@ void ModelLoader::readOwnLook(LoadedModel& model) const {
   if (options_.usesReference()) checkReferenceAntiAliasing(model.look.antiAliasing);
 }
 
-// The camera stands still, so that it must see every pose.
+// The camera does not move, so it must see every pose.
 void ModelLoader::lookThroughFrames(LoadedModel& model) const {
   const auto& animations = model.scene.animations;
   const bool all = model.look.animation == "all" && !animations.empty();
@@ -186,7 +186,7 @@ void ModelLoader::waitForFirst() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ended_ || !models_.empty(); });
   if (models_.empty()) return;
-  const auto& first = models_.front();  // stays: only next() takes it away
+  const auto& first = models_.front();  // stays valid: only next() removes it
   lock.unlock();
   first.wait();
 }

@@ -16,25 +16,25 @@
 
 namespace glint {
 
-/// A model with its pictures to be, read and decoded, or why it could not be.
+/// A model, read and decoded, with its planned pictures, or the reason why it could not be read.
 struct LoadedModel {
   ModelEntry entry;
   std::vector<PlannedPicture> pictures;
-  std::vector<bool> present;  ///< of each picture: it is there already
-  Look look;                  ///< the run's, with what the list says of this model
+  std::vector<bool> present;  ///< for each picture, whether it already exists
+  Look look;                  ///< the run's, with the list's changes for this model
   std::string hash;
   Scene scene;
   Bounds bounds;
   DecodedImages images;
-  std::optional<SceneFile> file;  ///< of a sequence over an animation, to be posed
+  std::optional<SceneFile> file;  ///< for a sequence over an animation, to be posed
   double duration = 0;            ///< of the animation, seconds
-  Bounds allBounds;               ///< around all its poses; else `bounds`
+  Bounds allBounds;               ///< around all its poses; otherwise `bounds`
   std::string error;              ///< empty if all is well
   double loadTime = 0, decodeTime = 0;
 };
 
-/// Reads the models of a list ahead of those who draw them: at most `jobs` are being read or wait
-/// to be taken, however long the list. Their order is the list's.
+/// Reads the models of a list ahead of drawing: at most `jobs` are being read or are waiting to be
+/// taken, however long the list is. Their order is that of the list.
 class ModelLoader {
  public:
   /// The look, the options and the plan must outlive it.
@@ -44,9 +44,9 @@ class ModelLoader {
   ModelLoader(const ModelLoader&) = delete;
   ModelLoader& operator=(const ModelLoader&) = delete;
 
-  /// Waits until the first one has been read, or there is none.
+  /// Waits until the first model has been read, or there is none.
   void waitForFirst();
-  /// The next one; empty at the end, and after a signal. Throws InputError if the list cannot be
+  /// The next model; empty at the end and after a signal. Throws InputError if the list cannot be
   /// read any further.
   std::optional<LoadedModel> next();
 
@@ -69,7 +69,7 @@ class ModelLoader {
   std::deque<std::future<LoadedModel>> models_;
   bool ended_ = false, abandoned_ = false, isThreaded_ = false;
   std::exception_ptr failure_;
-  std::thread reader_;  ///< none where the system gives none: next() then reads
+  std::thread reader_;  ///< none if it could not be started: next() then reads
 };
 
 }  // namespace glint

@@ -15,7 +15,7 @@ std::string padded(std::size_t number, std::size_t count) {
   return text;
 }
 
-// The name of the folder that a model stands in; empty at the root.
+// The name of the folder that contains a model; empty at the root.
 std::string folderOf(const std::string& model) {
   if (isStdin(model)) return "stdin";
   return std::filesystem::absolute(model).lexically_normal().parent_path().filename().string();

@@ -8,17 +8,16 @@
 
 namespace glint {
 
-/// A template for the names of pictures: {model} stands for the model file's name without folder
-/// and ending, {folder} for the name of the folder it stands in ("stdin" both, of standard input),
-/// {n} for its number from 0, {frame} for the picture's number from 0.
+/// A template for picture names: {model} stands for the model's file name without folder and
+/// extension, {folder} for the name of its folder (both are "stdin" for standard input), {n} for
+/// the model's number from 0, {frame} for the picture's number from 0.
 class OutputPattern {
  public:
-  /// Throws InputError for an unknown {key} and for an unfinished one, and for {frame} without
-  /// frames.
+  /// Throws InputError for an unknown or unterminated {key}, and for {frame} without frames.
   OutputPattern(const std::string& pattern, bool frames);
 
-  /// `models` and `frames` are how many there are, which says to how many digits numbers are
-  /// padded; 0 models: not known, six digits.
+  /// `models` and `frames` are the totals, which determine the number of digits; 0 models: not
+  /// known, six digits.
   std::string name(const std::string& model, std::size_t number, std::size_t models,
                    std::size_t frame = 0, std::size_t frames = 1) const;
 
@@ -30,17 +29,17 @@ class OutputPattern {
   std::vector<Piece> pieces_;
 };
 
-/// Tells when two pictures have one name, in 40 bytes or so for each.
+/// Detects two pictures with the same name, in about 40 bytes for each.
 class NamesTaken {
  public:
-  /// Takes a name for a model's picture. If it is taken: the number of the model that has it.
+  /// Takes a name for a model's picture. If it is already taken, returns the number of that model.
   const std::size_t* take(const std::string& name, std::size_t model);
 
  private:
   std::unordered_map<std::uint64_t, std::size_t> taken_;  ///< by hash
 };
 
-/// "DIR/NAME.ENDING" with a dot and a word before the ending: "DIR/NAME.WORD.ENDING".
+/// "DIR/NAME.EXT" with a dot and a word before the extension: "DIR/NAME.WORD.EXT".
 std::string withWord(const std::string& path, const std::string& word);
 
 }  // namespace glint

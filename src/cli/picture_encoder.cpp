@@ -85,7 +85,7 @@ void PictureEncoder::work() {
     } catch (...) {
       failure = std::current_exception();
     }
-    task = nullptr;  // its pictures go before anybody is told that it is done
+    task = nullptr;  // releases its pictures before finish() returns
     lock.lock();
     if (failure) failure_ = failure;
     busy_ = false;

@@ -12,32 +12,32 @@
 
 namespace glint {
 
-/// A picture on its way from the renderer into its file.
+/// A picture on its way from the renderer to its file.
 struct OutgoingPicture {
   std::unique_ptr<PictureWriter> writer;
-  std::function<std::size_t()> whole;  ///< in place of a writer: writes all, returns its NaN pixels
+  std::function<std::size_t()> whole;  ///< instead of a writer: writes all, returns its NaN pixels
   double encodeTime = 0;               ///< ms
   std::string error;                   ///< filled in by the encoder
 };
 
-/// Encodes and writes pictures in a thread of its own, one after the other, so that the next rows
-/// and the next pictures can be drawn meanwhile. At most a few bands wait.
+/// Encodes and writes pictures in a thread of its own, in order, so that the next rows and pictures
+/// can be drawn meanwhile. At most a few bands wait.
 class PictureEncoder {
  public:
   PictureEncoder();
-  /// What waits is still done.
+  /// Completes the work that is waiting.
   ~PictureEncoder();
   PictureEncoder(const PictureEncoder&) = delete;
   PictureEncoder& operator=(const PictureEncoder&) = delete;
 
-  /// An image to draw rows into, with memory that was used before if there is any.
+  /// An image to draw rows into; reuses memory if possible.
   Image takeImage();
-  /// Writes the rows and keeps the image for takeImage(). False if the picture has failed: no more
-  /// rows are needed.
+  /// Writes the rows and keeps the image for takeImage(). False if the picture has failed and needs
+  /// no more rows.
   bool write(const std::shared_ptr<OutgoingPicture>& picture, Image rows);
-  /// Does something after all that was given before.
+  /// Runs a task after all earlier work.
   void then(std::function<void()> task);
-  /// Waits until all is done. Throws what a task has thrown.
+  /// Waits until everything is done. Throws what a task has thrown.
   void finish();
 
  private:

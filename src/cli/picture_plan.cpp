@@ -13,11 +13,11 @@
 namespace glint {
 namespace {
 
-/// Of the files of --terms, those that every model with a light has.
+/// The files of --terms that every model with a light has.
 constexpr const char* termWords[] = {"ambient", "diffuse-0", "specular-0", "normal", "depth"};
 
-/// What a model costs, about, counted in bytes of its file: a picture of next to nothing takes as
-/// long as reading a few megabytes.
+/// The approximate cost of a model, in bytes of its file: even a trivial picture takes as long as
+/// reading a few megabytes.
 double costOf(const std::string& model) {
   std::error_code error;
   const auto size = std::filesystem::file_size(model, error);
@@ -138,7 +138,7 @@ void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture
     if (!picture.reference.empty() && isSameFile(picture.output, picture.reference))
       throw InputError("--reference " + printablePath(picture.reference) +
                        ": -o writes that file, it would be compared with itself: give another");
-    // Raw pictures tell where one ends and the next begins.
+    // Raw pictures can be separated in a stream.
     if (picture.output == "-" &&
         pictureOptions(options_, picture.output).format->id == PictureFormat::Id::raw)
       continue;

@@ -13,38 +13,38 @@
 
 namespace glint {
 
-/// A picture to be.
+/// A planned picture.
 struct PlannedPicture {
   std::string output;
   std::string reference;  ///< to compare with; empty: none
   std::size_t frame = 0;
-  std::string variation;  ///< what distinguishes it from the others of its model, for its key
+  std::string variation;  ///< what distinguishes it from the model's other pictures, for its key
 };
 
-/// Which pictures a run makes and how they are called.
+/// Which pictures a run makes and what they are called.
 class PicturePlan {
  public:
-  /// Looks through the list if it is known beforehand. Throws InputError for names that cannot be
-  /// and for two pictures with one name.
+  /// Scans the list if it is known beforehand. Throws InputError for invalid names and for two
+  /// pictures with the same name.
   PicturePlan(const RenderOptions& options, ModelList& list);
 
-  /// The pictures of a model, without those of other shards. To be asked for once for each model.
-  /// Throws InputError if a picture has the name of another.
+  /// The pictures of a model that belong to this shard. Call it once for each model. Throws
+  /// InputError if a picture has the name of another.
   std::vector<PlannedPicture> picturesOf(const ModelEntry& entry);
 
-  /// Notes the models, what they are compared with and, if a picture of the plan or something else
-  /// that is written is there already (`replaces`), the files that the models name as read.
+  /// Records as inputs the models, what they are compared with and, if an output exists already (a
+  /// picture of the plan, or any other with `replaces`), the files that the models refer to.
   void noteInputs(bool replaces);
-  /// Throws InputError if a picture would be written over a file that is read.
+  /// Throws InputError if a picture would overwrite an input file.
   void checkOutputs();
 
-  /// How many there are in all, if that is known.
+  /// The total number of pictures, if known.
   std::optional<std::size_t> count() const { return count_; }
 
  private:
-  /// Whether it falls to this shard.
+  /// Whether the model belongs to this shard.
   bool isMine(const ModelEntry& entry) const;
-  /// Throws InputError for a name of a line's own that no picture can have.
+  /// Throws InputError for a list line's output name that no picture can have.
   void checkOwnName(const ModelEntry& entry) const;
   std::vector<PlannedPicture> named(const ModelEntry& entry) const;
   void take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures);
@@ -56,7 +56,7 @@ class PicturePlan {
   OutputPattern pattern_;
   std::optional<OutputPattern> referencePattern_;
   Shard shard_;
-  std::vector<bool> members_;  ///< of the shard, by number; empty: every N-th
+  std::vector<bool> members_;  ///< members of the shard, by number; empty: every N-th
   bool shardsFrames_;
   bool namesChecked_ = false;
   NamesTaken names_;
@@ -65,8 +65,8 @@ class PicturePlan {
 
 struct LoadedModel;
 
-/// The look of a planned picture of the model; of a sequence with the moment, and the camera where
-/// it sees all poses.
+/// The look of a planned picture; in a sequence, with its time and with a camera that sees all
+/// poses.
 Look lookOf(const PlannedPicture&, const RenderOptions&, const Look& base, const LoadedModel&);
 
 }  // namespace glint

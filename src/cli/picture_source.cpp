@@ -6,7 +6,7 @@
 namespace glint {
 namespace {
 
-// Samples of anti-aliasing that the driver has no say in.
+// The number of samples where anti-aliasing does not depend on the driver.
 int samplesOf(const AntiAliasing& antiAliasing, int ofDriver) {
   if (antiAliasing.mode == AntiAliasing::Mode::ssaa) return antiAliasing.count * antiAliasing.count;
   return ofDriver;
@@ -69,7 +69,7 @@ class ReferenceSource : public PictureSource {
 
 Stage::Stage(Renderer* renderer, LoadedModel& model) : renderer_(renderer), model_(model) {
   if (!renderer_) return;
-  if (model_.file)  // there will be other stages of it
+  if (model_.file)  // more stages will be made of this model
     scene_.emplace(model_.scene, model_.images);
   else
     scene_.emplace(model_.scene, std::move(model_.images));

@@ -10,26 +10,26 @@
 
 namespace glint {
 
-/// A picture in the making: rows from the top, linear, premultiplied, before exposure.
+/// A picture being drawn: rows from the top, linear, premultiplied, before exposure.
 class PictureSource {
  public:
   virtual ~PictureSource() = default;
   virtual glm::ivec2 size() const = 0;
-  /// Draws the next rows; false if there are none left. The image is reused if it has room.
+  /// Draws the next rows; false if there are none left. Reuses the image if it is large enough.
   virtual bool draw(Image& rows) = 0;
   virtual const DrawList& list() const = 0;
   virtual RenderTimes times() const = 0;
-  virtual int samples() const = 0;  ///< a pixel
+  virtual int samples() const = 0;  ///< per pixel
 };
 
-/// A model ready to be drawn, by GL or, where there is no renderer, by the reference. The model
-/// must outlive it; its images go to the driver.
+/// A model ready to be drawn, by GL or, without a renderer, by the reference. The model must
+/// outlive it; the model's images are moved to the driver.
 class Stage {
  public:
   Stage(Renderer* renderer, LoadedModel& model);
   std::unique_ptr<PictureSource> picture(const Look& look);
   Image term(const Look& look, const PictureTerm& term);
-  /// Of textures that the driver could not take as they are.
+  /// Warnings about textures that the driver could not take unchanged.
   std::vector<std::string> takeWarnings() {
     return scene_ ? scene_->takeWarnings() : std::vector<std::string>();
   }

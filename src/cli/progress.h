@@ -6,8 +6,8 @@
 
 namespace glint {
 
-/// A bar on stderr that says how far long work is: only where stderr is a terminal, and only of
-/// work that takes more than a second. Gone when it is destroyed.
+/// A progress bar on stderr, only if stderr is a terminal and the work takes more than a second. It
+/// is erased on destruction.
 class Progress {
  public:
   /// `task` begins the line.
@@ -16,7 +16,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The share that is done, [0, 1], and what is being done, if there is more than one thing.
+  /// The fraction done, [0, 1], and the current item, if there is more than one.
   void show(double share, std::string_view what = {});
 
  private:

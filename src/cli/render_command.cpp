@@ -56,7 +56,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   plan.checkOutputs();
   checkOutputs({{"--json", options.json}, {"--save-look", saveFile}}, {});
 
-  // Loading the driver and reading the first model take about as long: side by side.
+  // Loading the driver takes about as long as reading the first model, so both run concurrently.
   std::future<std::unique_ptr<Context>> opening;
   if (!reference) opening = openContextAsync(backend);
   ModelLoader loader(*list, plan, options, look);

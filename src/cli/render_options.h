@@ -12,17 +12,17 @@ class App;
 
 namespace glint {
 
-/// What `glint render` is asked for, beside the look.
+/// The options of `glint render` other than the look.
 struct RenderOptions {
   std::vector<std::string> models;
-  std::string list;  ///< of models, instead of them
+  std::string list;  ///< a list of models, used instead of `models`
   std::string output, backend = "auto", json, glsl, shard;
   int bitDepth = 8;
   std::optional<int> quality;  ///< of JPEG and WebP
-  std::string formatName;      ///< in place of what the pictures' names say
-  int turntable = 0;           ///< pictures of it; 0: none
-  int frames = 0;              ///< of the animation; 0: one picture, of the look's moment
-  int jobs = 0;                ///< models in the works at once; 0: by the machine
+  std::string formatName;      ///< overrides the format of the pictures' names
+  int turntable = 0;           ///< number of pictures; 0: no turntable
+  int frames = 0;              ///< number of pictures of the animation; 0: one, at the look's time
+  int jobs = 0;                ///< models in progress at once; 0: depends on the machine
   bool resume = false, terms = false;
   std::vector<std::string> sweeps;
   std::string reference;
@@ -36,14 +36,14 @@ struct RenderOptions {
   }
 };
 
-/// How a picture of this name is written, but for what its look says: in the format of its ending,
-/// PNG where that tells none.
+/// How a picture of this name is written, except for what its look says: in the format of its
+/// extension, or as PNG if that is unknown.
 PictureOptions pictureOptions(const RenderOptions& options, const std::string& output);
 
-/// Adds the options to the command, which fill in `options` when it is parsed.
+/// Adds the options to the command; parsing fills in `options`.
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 
-/// Throws InputError for options that exclude each other or lack something.
+/// Throws InputError for options that exclude each other or are incomplete.
 void checkRenderOptions(const RenderOptions& options);
 
 }  // namespace glint

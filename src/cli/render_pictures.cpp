@@ -163,7 +163,7 @@ class ModelDrawing {
     });
   }
 
-  // Where a picture's format is not what its name or its look would have.
+  // Where a picture's format differs from what its name or its look asks for.
   std::vector<std::string> formatRemarks(const PlannedPicture& planned, const Look& look) const {
     std::vector<std::string> remarks;
     const PictureFormat& format = *pictureOptions(run_.options, planned.output).format;
@@ -171,15 +171,15 @@ class ModelDrawing {
         !pictureFormatOf(planned.output))
       remarks.push_back("its ending is that of no picture format: this is a " +
                         std::string(format.name));
-    // Who writes PFM wants three numbers a pixel.
+    // Whoever writes PFM wants three numbers per pixel.
     if (look.noBackground && !format.hasAlpha && !format.isFloat)
       remarks.push_back("a " + std::string(format.name) +
                         " has no transparency: what is transparent is black");
     return remarks;
   }
 
-  // One choice for all pictures of a sequence: neither forms nor program change between them. Other
-  // shards of it come to the same.
+  // One choice for all pictures of a sequence, so that neither forms nor program change between
+  // them. Other shards of it make the same choice.
   const ResolvedLook& choiceFor(const PlannedPicture& planned, const Look& asked) {
     if (choice_) return *choice_;
     const std::size_t count = run_.options.hasFrames() ? run_.options.frameCount() : 1;
@@ -202,7 +202,7 @@ class ModelDrawing {
     model_.bounds = boundsOf(model_.scene);
   }
 
-  // What moves goes to the driver anew with each picture of a sequence.
+  // In a sequence over an animation, the scene is uploaded anew for each picture.
   void pose(const PlannedPicture& planned) {
     if (model_.file) {
       stage_.reset();
@@ -226,7 +226,7 @@ class ModelDrawing {
     }
   }
 
-  // Layers of one file are written at once, so that all of them are kept.
+  // All layers of a file are written at once, so all of them are kept until then.
   void drawTerms(const PlannedPicture& planned, const Look& look, PictureSource& source,
                  const PictureOptions& file, OutgoingPicture& out, PictureResult& result) {
     const auto drawn = std::make_shared<DrawnTerms>();
@@ -245,7 +245,7 @@ class ModelDrawing {
     out.whole = [drawn, file, output = planned.output] { return writeTerms(output, *drawn, file); };
   }
 
-  // In the encoder's thread.
+  // Runs in the encoder's thread.
   static void finish(RenderRun& run, OutgoingPicture& out, const PlannedPicture& planned,
                      PictureResult result, const std::function<double()>& total) {
     const auto start = Clock::now();
@@ -289,7 +289,7 @@ class ModelDrawing {
   std::optional<Stage> stage_;
   std::string lastError_;
   std::optional<ResolvedLook> choice_;
-  bool told_ = false;  ///< the model's warnings and times, with its first picture
+  bool told_ = false;  ///< the model's warnings and times, reported with its first picture
 };
 
 }  // namespace

@@ -12,22 +12,22 @@
 
 namespace glint {
 
-/// What the pictures of a run have in common.
+/// What the pictures of a run share.
 struct RenderRun {
   const RenderOptions& options;
   const std::vector<Sweep>& sweeps;
-  Renderer* renderer = nullptr;  ///< without: the reference
+  Renderer* renderer = nullptr;  ///< null: the reference
   std::optional<GlStrings> gl;
   PictureEncoder& encoder;
   RenderReport& report;
   StatusLine& line;
-  double contextTime = 0, startTime = 0;  ///< ms, told of the first picture
+  double contextTime = 0, startTime = 0;  ///< ms, reported with the first picture
   bool first = true;
-  std::function<void(const Look&)> saveResolved = {};  ///< of --save-look with a budget
+  std::function<void(const Look&)> saveResolved = {};  ///< for --save-look with a budget
 };
 
-/// Draws a model's pictures and hands them on; what goes wrong becomes part of the report. Leaves
-/// off where it is if a signal has come.
+/// Draws a model's pictures and passes them on; errors become part of the report. Stops early after
+/// a signal.
 void drawModel(RenderRun& run, LoadedModel model);
 
 }  // namespace glint

@@ -43,7 +43,7 @@ std::string progressText(std::size_t done, std::size_t skipped, std::optional<st
   if (all) text += " of " + std::to_string(*all);
   text += done == 1 && !all ? " picture" : " pictures";
   if (skipped > 0) text += " (" + std::to_string(skipped) + " were there)";
-  const double rate = double(done - skipped) / seconds;  // what is skipped takes no time
+  const double rate = double(done - skipped) / seconds;  // skipped pictures take no time
   if (!(rate > 0) || !std::isfinite(rate)) return text;
   char words[48];
   std::snprintf(words, sizeof words, ", %.*f a second", rate < 10 ? 2 : 0, rate);

@@ -13,30 +13,30 @@
 
 namespace glint {
 
-/// What has become of a picture.
+/// The result of a picture.
 struct PictureResult {
-  nlohmann::ordered_json entry;       ///< all but warnings and error
-  std::vector<std::string> warnings;  ///< also in the entry
+  nlohmann::ordered_json entry;       ///< everything except warnings and error
+  std::vector<std::string> warnings;  ///< also added to the entry
   std::vector<std::string> news;      ///< those to print
-  std::string error;                  ///< to print; empty if all is well
+  std::string error;                  ///< to print; empty if none
   bool errorIsNew = true;
 };
 
-/// Reports a run: warnings and errors on stderr, the JSON of --json as pictures get done, for a
-/// list a line of JSON each on stdout, and how far the work is. `add` may be called by one thread
-/// at a time.
+/// Reports a run: warnings and errors on stderr, the JSON of --json as pictures are completed, for
+/// a list one line of JSON per picture on stdout, and the progress. `add` may be called by only one
+/// thread at a time.
 class RenderReport {
  public:
   RenderReport(const RenderOptions& options, StatusLine& line);
 
   void begin(const std::string& backend, const std::optional<GlStrings>& gl);
-  /// How many pictures there will be, if that is known.
+  /// The total number of pictures, if known.
   void expect(std::optional<std::size_t> pictures) { expected_ = pictures; }
   void add(PictureResult result);
   void finish();
 
   std::size_t done() const { return done_; }
-  /// The worst of the pictures: 2, 1, 4, 0 in this order.
+  /// The worst status of the pictures, in the order 2, 1, 4, 0.
   int status() const;
 
  private:

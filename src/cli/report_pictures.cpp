@@ -89,7 +89,7 @@ std::vector<std::byte> thumbnailOf(const StoredImage& image) {
   std::vector<std::uint8_t> codes;
   std::vector<float> row(std::size_t(4) * image.width);
   for (int y = 0; y < height; ++y) {
-    // A few samples a pixel: enough to know a picture again.
+    // A few samples per pixel: enough to recognise a picture.
     std::vector<float> sums(std::size_t(3) * width);
     constexpr int samples = 3;
     for (int k = 0; k < samples; ++k) {

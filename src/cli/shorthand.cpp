@@ -22,7 +22,7 @@ std::vector<std::string> expandShorthand(std::vector<std::string> arguments,
   const std::string first = arguments.front();
   if (first == "help") {
     arguments.erase(arguments.begin());
-    if (arguments.empty() || isCommand(arguments.front()))  // else it is refused as unknown
+    if (arguments.empty() || isCommand(arguments.front()))  // otherwise it is refused as unknown
       arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
   } else if (isModel(first) || (first.starts_with('-') && std::ranges::any_of(arguments, isModel) &&
                                 std::ranges::none_of(arguments, isCommand))) {

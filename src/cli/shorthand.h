@@ -7,9 +7,9 @@
 
 namespace glint {
 
-/// The arguments behind the program's name, as the parser takes them: "help" becomes --help, "help
-/// COMMAND" COMMAND --help, and a line without a command that begins with a model (.glb or .gltf,
-/// in any case), or with options and has a model among what follows, is one of "view".
+/// The arguments after the program's name, as the parser expects them: "help" becomes --help, "help
+/// COMMAND" becomes COMMAND --help. A line without a command becomes "view" if it begins with a
+/// model (.glb or .gltf, in any case), or begins with options and contains a model.
 std::vector<std::string> expandShorthand(std::vector<std::string> arguments,
                                          std::span<const std::string_view> commands);
 

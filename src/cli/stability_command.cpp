@@ -66,7 +66,7 @@ int runStability(const StabilityOptions& options) {
   const Backend backend = backendFromName(options.backend);
   options.selection.check();
   const Look forms = formsOf(options);
-  // Before the work, so that what cannot be written is reported at once.
+  // Before the work, so that an output that cannot be written is reported at once.
   std::optional<OutputFolder> folder;
   std::optional<OutputFile> jsonFile, page;
   if (!options.json.empty()) jsonFile.emplace(options.json);

@@ -6,9 +6,8 @@
 
 namespace glint {
 
-/// A line at the bottom of a terminal that says how far the work is; nothing if stderr is none.
-/// All that a command writes meanwhile goes through it, so that lines do not mix. Safe to use from
-/// several threads.
+/// A progress line at the bottom of a terminal; does nothing if stderr is not a terminal. All other
+/// output of the command meanwhile goes through it, so that lines do not mix. Thread-safe.
 class StatusLine {
  public:
   StatusLine();
@@ -16,11 +15,11 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Shows a text, unless the last one was shown a moment ago or the work began within a second.
+  /// Shows a text, unless one was shown a moment ago or the work began less than a second ago.
   void show(const std::string& text);
-  /// A line on stderr.
+  /// Prints a line on stderr.
   void print(const std::string& line);
-  /// A line on stdout, at once. Throws InputError if it cannot be written.
+  /// Prints a line on stdout and flushes it. Throws InputError if it cannot be written.
   void printOut(const std::string& line);
   double seconds() const;  ///< since the work began
 

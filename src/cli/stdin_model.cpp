@@ -41,7 +41,7 @@ bool waitForStdin() {
   return false;
 }
 
-// A file without a name, which stays until the process ends: readers open it more than once.
+// A file without a name, which lasts until the process ends: readers open it more than once.
 std::string spooled() {
   const int file = ::memfd_create("stdin", MFD_CLOEXEC);
   if (file < 0) fail("give the model as a file");
@@ -59,7 +59,7 @@ std::string spooled() {
   return "/proc/self/fd/" + std::to_string(file);
 }
 
-// Read when first asked for; what fails fails again.
+// Read when first needed; if that fails, it fails again each time.
 const std::string& spoolPath() {
   static const std::string path = spooled();
   return path;

@@ -37,19 +37,19 @@ struct StudyArguments {
   double timeBudget = 0;
   double spreadLimit = 100 * largestSpread;  ///< percent
   bool resolutionGiven = false;
-  bool stdoutTaken = false;  ///< by a file of "-"
+  bool stdoutTaken = false;  ///< by an output file "-"
   StudyFilter filter;
 };
 
 constexpr int quickRounds = 30, fullRounds = 60, quickSize = 512;
-/// Where a frame of exact phong takes more ms than this, half the width and height have to do, and
-/// fewer rounds: what frames are full of then is shading.
+/// If a frame of exact phong takes longer than this (ms), the study uses half the width and height
+/// and fewer rounds: such frames are dominated by shading.
 constexpr double quickLongFrame = 15, fullLongFrame = 50;
 constexpr int longRounds = 36;
-constexpr int quickTruth = 4, fullTruth = 8;  ///< N x N samples a pixel of the second truth
-constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< at least
+constexpr int quickTruth = 4, fullTruth = 8;  ///< N x N samples per pixel of the second truth
+constexpr int quickBuilds = 4, fullBuilds = 6, roundsOfBuild = 5;  ///< most builds, least rounds
 
-/// A study measures single samples, with what the look does not say by itself.
+/// A study takes single samples; sets what the given look leaves open.
 Look studyLook(const StudyArguments& given, Look look) {
   if (look.antiAliasing != AntiAliasing{} && look.antiAliasing.mode != AntiAliasing::Mode::none)
     throw InputError("--anti-aliasing: a study compares single samples: leave it out or give none");
@@ -60,7 +60,7 @@ Look studyLook(const StudyArguments& given, Look look) {
   return look;
 }
 
-/// The command line as it was given.
+/// The command line as given.
 std::string commandLine(const CLI::App& command) {
   std::string line = "glint " + command.get_name();
   for (const CLI::Option* option : command.get_options()) {
@@ -86,7 +86,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
         "--rendering-backend reference: a study measures GL against the reference: "
         "give another");
   const Backend backend = backendFromName(given.backend);
-  // Before the work, so that what cannot be written is reported at once.
+  // Before the work, so that an output that cannot be written is reported at once.
   std::optional<OutputFile> jsonFile, markdownFile;
   if (!given.json.empty()) jsonFile.emplace(given.json);
   if (!given.markdown.empty()) markdownFile.emplace(given.markdown);
@@ -107,10 +107,10 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   options.spreadLimit = given.spreadLimit / 100;
   options.builds =
       std::clamp(options.rounds / roundsOfBuild, 1, given.quick ? quickBuilds : fullBuilds);
-  // With it the times of compiling would be those of whatever was run before.
+  // With the cache, compile times would depend on what was run before.
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   auto opening = openContextAsync(backend);
-  // Levels of refinement: triangles of some ten pixels, as models have them.
+  // Five levels of refinement: triangles of some ten pixels, as in typical models.
   Scene scene = given.model.empty() ? sphereScene(5, sphereMaterial())
                                     : readModelFile(given.model, [&](const std::string& path) {
                                         return loadGltf(path, poseOf(options.look));
@@ -141,7 +141,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
     result = study(prepared, options, stop,
                    [&](std::string_view what, double share) { progress.show(share, what); });
   }
-  for (const std::string& warning : prepared.scene.warnings)  // none before an error
+  for (const std::string& warning : prepared.scene.warnings)  // after all errors
     printWarning((given.model.empty() ? "sphere" : nameOf(given.model)) + ": " + warning);
   StudyHead head;
   head.version = GLINT_VERSION;
@@ -169,7 +169,7 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   return done;
 }
 
-/// Of a mode of its own, of no model and no look: refuses all options but these.
+/// For a mode that needs neither model nor look: refuses all options except `allowed`.
 void refuseOthers(const CLI::App& command, const std::string& mode, const std::string& allowed) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
@@ -182,7 +182,7 @@ void refuseOthers(const CLI::App& command, const std::string& mode, const std::s
   }
 }
 
-/// Whether the table is what the driver here draws.
+/// Reports whether this driver computes `mediump` in 16 bits, as the table does.
 std::string driversHalves() {
   try {
     const MediumpReport driver = mediumpOfDriver();
@@ -322,7 +322,7 @@ Command addStudy(CLI::App& app) {
       return option->count() > 0 ? option->results().back() : std::string();
     };
     given->filter = {only("shading"), only("highlight"), only("fresnel"), false};
-    if (given->filter.shading == "auto") given->filter.shading.clear();  // a choice among all
+    if (given->filter.shading == "auto") given->filter.shading.clear();  // chosen among all
     given->command = commandLine(*command);
     given->resolutionGiven = command->get_option("--resolution")->count() > 0;
     return runStudy(*given, asked);

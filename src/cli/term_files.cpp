@@ -13,13 +13,12 @@ namespace {
 
 using Kind = PictureTerm::Kind;
 
-// The linear value that is encoded as x: the inverse of the sRGB curve (IEC 61966-2-1).
+// Decodes the sRGB value x: the inverse of the sRGB curve (IEC 61966-2-1).
 float linearOf(double x) {
   return float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
 }
 
-// Instances in colours of their own: bright ones, spread by the golden ratio, and those of no
-// surface black.
+// Gives each instance a colour: bright, with hues spread by the golden ratio; black for no surface.
 void colorIds(Image& image) {
   for (std::size_t i = 0; i < image.values.size(); i += 4) {
     float* const p = image.values.data() + i;
@@ -90,7 +89,7 @@ std::size_t writeTerms(const std::string& output, DrawnTerms& drawn,
   for (auto& [term, image] : drawn.terms) {
     PictureOptions own = options;
     own.alpha = false;
-    // Its key is the picture's alone, which is written last.
+    // The key belongs only to the picture, which is written last.
     std::erase_if(own.text, [](const auto& each) { return each.first == "glint-key"; });
     own.text.emplace_back("glint-term", term.name);
     if (!term.isLight() && !options.format->isFloat) {

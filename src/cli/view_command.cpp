@@ -13,8 +13,8 @@
 namespace glint {
 namespace {
 
-// The window is a program of its own, so that this one needs neither X11 nor GLFW: beside this
-// binary, or on the PATH.
+// The window is a separate program, so that this one needs neither X11 nor GLFW. It is next to this
+// binary or on the PATH.
 [[noreturn]] void view(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts{"glint-viewer"};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
@@ -37,7 +37,7 @@ namespace {
 Command addView(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("view", "show a model in a window, to edit materials, lights and camera");
-  // All that follows is the viewer's own, its --help too.
+  // All arguments go to the viewer, including --help.
   command->set_help_flag();
   command->prefix_command();
   return [command]() -> int { view(command->remaining()); };

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Times 20 models: glint in one process, f3d in one process each, taking turns.
+"""Times 20 models: glint in one process, f3d in one process for each model, alternating.
 
   tests/benchmarks/batch.py BUILD MODELS_FOLDER [--runs N]
 
-The models are those of the folder, in turn until there are 20. f3d needs an X server that is
-already up (DISPLAY); without f3d only glint is timed. Also prints how many processors a list of 200
-keeps busy, and glint's peak memory over lists of 200 and 2000 pictures.
+The models are those of the folder, repeated until there are 20. f3d needs a running X server
+(DISPLAY); without f3d only glint is timed. Also prints how many processors a list of 200 keeps
+busy, and glint's peak memory over lists of 200 and 2000 pictures.
 """
 import argparse
 import os
@@ -31,7 +31,7 @@ def wall(commands):
 
 
 def peak(command):
-    """The process's VmHWM in MiB, asked for until it ends."""
+    """The process's peak memory (VmHWM) in MiB, polled until it ends."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     most = 0
     while process.poll() is None:
@@ -90,7 +90,7 @@ def main():
         start, before = time.perf_counter(), os.times()
         wall([batch(200, "1024,1024")])
         after = os.times()
-        spent = sum(after[i] - before[i] for i in (2, 3))  # by the child
+        spent = sum(after[i] - before[i] for i in (2, 3))  # CPU time of the children
         cores = len(os.sched_getaffinity(0))
         print(f"200 models keep {spent / (time.perf_counter() - start):.2f} of {cores} processors busy")
         for count in (200, 2000):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Times whole processes that make one picture: glint, the bare floor, and f3d if it is installed.
+"""Times whole processes that make one picture: glint, the bare lower limit, and f3d if installed.
 
   tests/benchmarks/cold.py BUILD MODEL [--runs N] [--backend egl|osmesa]
 
-The commands take turns, so that a noisy machine troubles all alike; medians and the ratios of each
-round are printed. f3d needs an X server that is already up (DISPLAY).
+The commands alternate, so that a noisy machine affects all equally. Prints medians and the ratios
+of each round. f3d needs a running X server (DISPLAY).
 """
 import argparse
 import os

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Times whole processes that compare pictures: glint diff, and odiff, pixelmatch and idiff where they
+"""Times whole processes that compare pictures: glint diff, and odiff, pixelmatch and idiff if they
 are installed.
 
   tests/benchmarks/diff_times.py BUILD [--runs N] [--node-modules FOLDER] [--pictures A B]
 
-Makes a pair of 3840 x 2160 of which a rectangle of 3 % of the pixels differs (or takes a pair that
-is given), a picture whose noise is another, and 1000 pairs of 64 x 64 of which every tenth differs. The commands take turns, so that a
-noisy machine troubles all alike; the least CPU time (user and system, of the process and what it
-started), the least wall time and the largest memory of the runs are printed as a table. odiff's
-program itself is run, without the script of npm that starts it.
+Makes a pair of 3840 x 2160 that differs in a rectangle of 3 % of the pixels (or takes a given
+pair), a picture with different noise, and 1000 pairs of 64 x 64, of which every tenth differs. The
+commands alternate, so that a noisy machine affects all equally. Prints a table of the least CPU
+time (user and system, of the process and its children), the least wall time and the largest memory
+of the runs. odiff's binary is run directly, without npm's wrapper script.
 """
 import argparse
 import glob
@@ -26,7 +26,7 @@ import zlib
 
 
 def write_png(path, width, height, rows):
-    """RGB rows of bytes, no filters."""
+    """RGB rows of bytes as a PNG, without filters."""
     def chunk(kind, data):
         return (struct.pack(">I", len(data)) + kind + data +
                 struct.pack(">I", zlib.crc32(kind + data)))
@@ -39,7 +39,7 @@ def write_png(path, width, height, rows):
 
 
 def grainy(width, height, seed):
-    """A gradient whose lower bits are noise, as photographs have them: rows."""
+    """Rows of a gradient whose low bits are noise, as in photographs."""
     source = random.Random(seed)
     grain = int.from_bytes(b"\x0f" * (3 * width), "big")
     rows = []
@@ -73,7 +73,8 @@ def make_folders(folder):
 
 
 def apart(make, *paths):
-    """Makes files in a process of its own: what a program is started from counts as its memory."""
+    """Makes files in a separate process, because a program's memory includes that of its parent at
+    start."""
     process = multiprocessing.Process(target=make, args=paths)
     process.start()
     process.join()
@@ -82,7 +83,7 @@ def apart(make, *paths):
 
 
 def measured(command, text=None):
-    """CPU seconds, wall seconds and MB at most of a command, whatever its status."""
+    """CPU seconds, wall seconds and peak MB of a command, whatever its status."""
     begin = time.perf_counter()
     process = subprocess.Popen([str(word) for word in command],
                                stdin=subprocess.PIPE if text else subprocess.DEVNULL,
@@ -98,7 +99,7 @@ def measured(command, text=None):
 
 
 def one_by_one(commands):
-    """The same of many commands, one after the other."""
+    """The same for several commands, one after the other."""
     each = [measured(command) for command in commands]
     return (sum(e[0] for e in each), sum(e[1] for e in each), max(e[2] for e in each))
 

@@ -1,10 +1,10 @@
-// How long FLIP takes beside the paper's formulas written straight down, in one run.
+// The time of FLIP compared with a direct implementation of the paper's formulas, in one run.
 //
 //     flip_benchmark [WIDTH HEIGHT ROUNDS]
 //
-// The straight version (two-dimensional filters, double, one thread) runs on a part of the picture,
-// and its time is scaled to the whole, to which it is proportional. Behind the time that passes
-// stands that of processors, which a busy machine does not lengthen as much.
+// The direct version (two-dimensional filters, double, one thread) runs on a part of the picture,
+// and its time, which is proportional to the area, is scaled to the whole. Wall time is followed by
+// CPU time, which a busy machine lengthens less.
 
 #include <chrono>
 #include <cstdio>

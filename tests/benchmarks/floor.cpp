@@ -1,14 +1,14 @@
-// The floor of a cold picture: what a bare program pays for the same target, encode and PNG
-// settings as `glint render`, with nothing else around it. It decides nothing by itself: it is
-// what bench.py compares glint with, and what the framebuffer path was chosen by.
+// The lower limit for a cold picture: a bare program with the same target, encode and PNG settings
+// as `glint render` and nothing else. cold.py compares glint with it, and the framebuffer path was
+// chosen by it.
 //
 //   floor OUT.png [key=value ...]
 //     backend=osmesa|egl   size=1024   samples=1|4   bands=1   triangles=4000
-//     heap=none|keep|huge  (what glibc is told: nothing; keep freed memory; and use huge pages)
+//     heap=none|keep|huge  (glibc settings: defaults; keep freed memory; also use huge pages)
 //     print=1              (milliseconds of each step)
-//     frames=1             (more: prints the steady state's median)
-//     format=float|rgba8   (rgba8: the driver's own rounding; only to see what a float target
-//     costs)
+//     frames=1             (if larger: prints the steady state's median)
+//     format=float|rgba8   (rgba8: the driver's own rounding; only to measure the cost of a float
+//     target)
 #include <dlfcn.h>
 #include <glad/egl.h>
 #include <glad/gl.h>
@@ -173,7 +173,7 @@ GLuint makeFramebuffer(int width, int height, int samples, bool floats) {
   return framebuffer;
 }
 
-// The threshold encode of one channel value; the same table search as glint's.
+// Encodes one channel value with thresholds, by the same table search as glint.
 struct Encoder {
   float thresholds[257];
   std::uint8_t buckets[14 * 128];

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Times a further frame of a turntable with read-back: glint beside VTK, taking turns.
+"""Times a further frame of a turntable with read-back: glint and VTK, alternating.
 
   tests/benchmarks/frame.py BUILD MODEL... [--rounds N] [--size PIXELS]
 
-Each round runs one process of each program, with 1 and with 4 samples a pixel; of a process's frames the
-first two do not count. glint's are `draw` and `read` of `render --json`, of float pixels; VTK's (its glTF
-importer, each actor with Phong shading and its colour texture) are Render() and a read-back of 8-bit RGB. VTK needs
-Debian's python3-vtk9 and an X server (DISPLAY); without them only glint is timed.
+Each round runs one process of each program, with 1 and with 4 samples per pixel; the first two
+frames of a process do not count. For glint, `draw` and `read` of `render --json`, with float
+pixels. For VTK (its glTF importer, each actor with Phong shading and its colour texture), Render()
+and a read-back of 8-bit RGB. VTK needs Debian's python3-vtk9 and an X server (DISPLAY); without
+them only glint is timed.
 """
 import argparse
 import json

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Whether two studies of one scene say the same: same_fronts.py A/study.json B/study.json.
+"""Whether two studies of one scene agree: same_fronts.py A/study.json B/study.json.
 
-What one says of a variant for sure, on a front or dominated, the other may leave open but must not deny.
-And the time of every variant beside that of the first must be the same in both runs, each ratio known to
-its 95 % interval and the run's spread (A/A): a program that is slow for the whole of one run is found here.
-Times are those of the clock that decided (--clock). Prints what differs; exit status 0 if nothing is denied, 1 if
-something is, 2 if the studies are not of one scene."""
+What one study is sure of for a variant (on a front, or dominated) the other may leave open but must
+not contradict. Also, the ratio of each variant's time to that of the first must agree between the
+two runs, each ratio known to its 95 % interval and the run's spread (A/A): this finds a program
+that is slow throughout one run. Times are those of the clock that decided (--clock). Prints the
+differences; exit status 0 if nothing is contradicted, 1 if something is, 2 if the studies are not
+of the same scene."""
 
 import json
 import random
@@ -31,7 +32,7 @@ class Study:
         self.rounds = "cpuRounds" if self.json["clock"] == "cpu" else "rounds"
 
     def ratio(self, one, other):
-        """Of the times of two variants: value, and its interval widened by the spread."""
+        """The ratio of two variants' times, and its interval widened by the spread."""
         a = self.variants[one]["times"][self.rounds]
         b = self.variants[other]["times"][self.rounds]
         engine = random.Random(1)
@@ -44,7 +45,7 @@ class Study:
         return (lower_quartile(a) / lower_quartile(b), low / (1 + self.spread), high * (1 + self.spread))
 
     def standing(self, name, model, metric):
-        """'on', 'open', or the variant that dominates it; None of another model."""
+        """'on', 'open', or the variant that dominates it; None without errors against `model`."""
         for error in self.variants[name]["errors"]:
             if error["against"] == model:
                 by = error["fronts"][metric]
@@ -53,7 +54,7 @@ class Study:
 
 
 def same(a, b, one, other):
-    """Whether two runs tell the same ratio of two variants' times, and the words for it."""
+    """Whether two runs agree on the ratio of two variants' times, and a text that shows both."""
     first, second = a.ratio(one, other), b.ratio(one, other)
     words = f"{first[0]:.3f} ({first[1]:.3f} to {first[2]:.3f}) and {second[0]:.3f} ({second[1]:.3f} to {second[2]:.3f})"
     return first[1] <= second[2] and second[1] <= first[2], words

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How the time of a whole process grows with what it is given, one thing at a time: triangles,
-draws, lights, pixels, materials and files. Beside glint, f3d where it is installed and an X server
-is up. Writes a plot for each (SVG, logarithmic axes) and prints the figures.
+"""How the time of a whole process grows with its input, one dimension at a time: triangles, draws,
+lights, pixels, materials and files. Also times f3d if it is installed and an X server is running.
+Writes a plot for each (SVG, logarithmic axes) and prints the figures.
 
   tests/benchmarks/scale.py BUILD FOLDER [--only NAME] [--rounds N] [--most TRIANGLES]
 
-FOLDER keeps the models made, and gets scale-NAME.svg. In each round all commands take turns.
+FOLDER keeps the models made, and gets scale-NAME.svg. In each round all commands alternate.
 """
 import argparse
 import json
@@ -50,7 +50,7 @@ class Programs:
 
 
 def many_materials(folder, count):
-    """So many spheres of 96 triangles, each with a mesh and a material of its own."""
+    """Spheres of 96 triangles, each with its own mesh and material."""
     path = os.path.join(folder, f"materials-{count}.glb")
     if os.path.exists(path):
         return path
@@ -79,7 +79,7 @@ def lights_look(folder, count):
 
 
 def series(programs, folder, most):
-    """Name, label of the axis, and (value, commands) along it."""
+    """Name, axis label, and (value, commands) along the axis."""
     def triangles():
         for count in (12, 100, 1000, 10000, 100000, 1000000, 10000000):
             if count <= most:

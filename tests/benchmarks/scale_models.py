@@ -1,10 +1,10 @@
-"""Models of any size for measurements: bumpy spheres, many nodes of one of them, and a scene of many
-draws, materials and lights. Each is made once and kept in the folder given.
+"""Models of any size for measurements: bumpy spheres, many nodes of one sphere, and a scene of many
+draws, materials and lights. Each is made once and kept in the given folder.
 
   scale_models.py FOLDER sphere TRIANGLES [NODES]
   scale_models.py FOLDER scene DRAWS MATERIALS LIGHTS TRIANGLES
 
-prints the path; TRIANGLES are those of one sphere."""
+prints the path; TRIANGLES is the number in one sphere."""
 import array
 import json
 import math
@@ -25,8 +25,8 @@ def write_glb(path, document, chunk):
 
 
 def sphere(triangles):
-    """The bytes of positions, normals and 32-bit indices of a UV sphere of about as many triangles,
-    its radius 1 + 0.05 sin(12 longitude) sin(9 latitude)."""
+    """The bytes of positions, normals and 32-bit indices of a UV sphere of approximately that many
+    triangles, with the radius 1 + 0.05 sin(12 longitude) sin(9 latitude)."""
     rows = max(2, round(math.sqrt(triangles / 4)))
     columns = 2 * rows
     positions, normals = array.array("f"), array.array("f")
@@ -41,7 +41,7 @@ def sphere(triangles):
             ru, rv = 0.6 * math.cos(12 * u) * s9, 0.05 * s12 * c9
             x, y, z = sv * cu, cv, sv * su
             positions.extend((r * x, r * y, r * z))
-            # The direction of dP/du x dP/dv, both divided by sin(v) at most.
+            # The direction of dP/du x dP/dv; sin(v) is divided out of dP/du.
             a, b = rv, ru / max(sv, 1e-6)
             n = (r * x - a * cv * cu + b * su, r * y + a * sv, r * z - a * cv * su - b * cu)
             length = math.sqrt(n[0] ** 2 + n[1] ** 2 + n[2] ** 2)
@@ -79,7 +79,7 @@ def document_of(positions, normals, indices, nodes):
 
 
 def sphere_model(folder, triangles, nodes=1):
-    """The path of a model of so many nodes, each a sphere of so many triangles."""
+    """The path of a model with `nodes` nodes, each a sphere of `triangles` triangles."""
     path = os.path.join(folder, f"sphere-{triangles}-{nodes}.glb")
     if os.path.exists(path):
         return path
@@ -93,8 +93,8 @@ def sphere_model(folder, triangles, nodes=1):
 
 
 def scene_model(folder, draws, materials, lights, triangles):
-    """The path of a model of so many spheres in a square, each of so many triangles, with so many
-    materials in turn, under directional, point and spot lights."""
+    """The path of a model of `draws` spheres in a square, each of `triangles` triangles, which
+    cycle through `materials` materials, under directional, point and spot lights."""
     path = os.path.join(folder, f"scene-{draws}-{materials}-{lights}-{triangles}.glb")
     if os.path.exists(path):
         return path
@@ -105,14 +105,14 @@ def scene_model(folder, draws, materials, lights, triangles):
              for i in range(draws)]
     given = []
     for i in range(lights):
-        turn = i * 2.4  # radians, about the golden angle: evenly around
+        turn = i * 2.4  # radians, about the golden angle: evenly distributed
         color = [0.6 + 0.4 * math.sin(i + k) for k in range(3)]
         kind = ("directional", "point", "spot")[i % 3]
         light = {"type": kind, "color": color, "intensity": 1 if kind == "directional" else 200}
         if kind == "spot":
             light["spot"] = {"innerConeAngle": 0.2, "outerConeAngle": 0.7}
         given.append(light)
-        # A light shines along -Z of its node: turned up and down by so much.
+        # A light shines along -Z of its node, which is tilted by this angle.
         tilt = 0.5 * math.sin(turn)
         nodes.append({"extensions": {"KHR_lights_punctual": {"light": i}},
                       "rotation": [math.sin(tilt), 0, 0, math.cos(tilt)],

@@ -1,5 +1,5 @@
-/* An EGL with DEVICES GPUs (default 0) and, with SURFACELESS, that platform. INITIALIZES says
-   whether displays do, CORE whether they have OpenGL 3.3 and not only 2.1. It calls itself a GPU. */
+/* A fake EGL with DEVICES GPUs (default 0) and, with SURFACELESS, that platform. INITIALIZES:
+   displays initialise. CORE: they have OpenGL 3.3, otherwise only 2.1. It reports a GPU. */
 #include <stddef.h>
 #include <string.h>
 

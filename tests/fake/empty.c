@@ -1,2 +1,2 @@
-/* A library of the right name with none of the functions. */
+/* A library with the right name but none of the functions. */
 int glintFakeEmpty = 0;

@@ -1,4 +1,4 @@
-/* An OSMesa that makes no OpenGL 3.3 context, and with OLD one of an older version. */
+/* A fake OSMesa that cannot make an OpenGL 3.3 context; with OLD it makes an older one. */
 #include <stddef.h>
 
 #ifdef OLD

@@ -1,5 +1,5 @@
-// pthread_create of a system at its limit of processes or of a container's: after THREADS threads
-// (an environment variable) that live at the same time, EAGAIN. For LD_PRELOAD.
+// pthread_create as on a system or in a container at its process limit: fails with EAGAIN while
+// THREADS threads (an environment variable) exist. For LD_PRELOAD.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>

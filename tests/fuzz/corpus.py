@@ -1,8 +1,8 @@
-"""Inputs that fuzzers begin with: small files of every kind that the targets read.
+"""Seed inputs for the fuzzers: small files of every kind that the targets read.
 
     corpus.py FOLDER
 
-makes FOLDER/png, FOLDER/gltf and so on, named as the targets of targets.h.
+makes FOLDER/png, FOLDER/gltf and so on, named like the targets in targets.h.
 """
 
 import base64
@@ -13,7 +13,8 @@ import struct
 import sys
 import zlib
 
-# 16 x 16 pixels, baseline and progressive; the WebP of that size with losses, and one pixel without.
+# 16 x 16 pixels, baseline and progressive; the WebP of that size is lossy, a lossless one has one
+# pixel.
 JPEGS = [
     "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDACAWGBwYFCAcGhwkIiAmMFA0MCwsMGJGSjpQdGZ6eHJmcG6AkLicgIiuim5woNqirr7EztDO"
     "fJri8uDI8LjKzsb/2wBDASIkJDAqMF40NF7GhHCExsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbGxsbG"
@@ -50,7 +51,7 @@ def png(colour, depth, samples, interlaced=0):
 
 
 def exr(compression):
-    """5 x 4 pixels of float, stored as they are, which every compression allows."""
+    """5 x 4 float pixels, stored uncompressed, which every compression allows."""
     def attribute(name, kind, value):
         return name + b"\0" + kind + b"\0" + struct.pack("<I", len(value)) + value
 
@@ -63,7 +64,7 @@ def exr(compression):
             + attribute(b"screenWindowCenter", b"v2f", bytes(8))
             + attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))
             + attribute(b"glint-look", b"string", b"{}") + b"\0")
-    # ZIP (3) has 16 lines in a chunk.
+    # ZIP (3) has 16 lines per chunk.
     lines = 16 if compression == 3 else 1
     starts = list(range(0, 4, lines))
     chunks, at = [], len(head) + 8 * len(starts)
@@ -77,7 +78,7 @@ def exr(compression):
 
 
 def tiff(depth, kind):
-    """2 x 2 pixels of grey in one strip."""
+    """2 x 2 grey pixels in one strip."""
     data = bytes(range(2 * 2 * depth // 8))
     entries = [(256, 2), (257, 2), (258, depth), (262, 1), (273, 8 + 2 + 12 * 9 + 4), (277, 1), (278, 2),
                (279, len(data)), (339, kind)]

@@ -1,4 +1,4 @@
-// libFuzzer's way in; GLINT_FUZZ_TARGET names the target.
+// libFuzzer's entry point; GLINT_FUZZ_TARGET names the target.
 
 #include <cstdint>
 #include <cstdlib>

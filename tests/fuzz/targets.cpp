@@ -25,7 +25,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-/// What a fuzzer takes for a crash.
+/// Fails in a way that a fuzzer reports as a crash.
 void mustHold(bool condition) {
   if (!condition) std::abort();
 }
@@ -34,7 +34,7 @@ std::string textOf(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// A file with these bytes, without a folder.
+/// A file in memory with these bytes.
 class File {
  public:
   explicit File(Bytes bytes) : file_(memfd_create("input", MFD_CLOEXEC)) {
@@ -55,7 +55,7 @@ void refusing(const Work& work) {
   try {
     work();
   } catch (const InputError&) {
-    // What it says is made fit for one line where it is printed.
+    // Its message is made safe for one line where it is printed.
   }
 }
 
@@ -78,7 +78,7 @@ void gltf(Bytes bytes) {
   });
 }
 
-/// Pictures of more pixels than this are left out: they are slow and no more telling.
+/// Larger pictures are skipped: they are slow and find nothing more.
 bool isSmall(const TextureHeader& header) {
   return std::uint64_t(header.width) * std::uint64_t(header.height) <= 1u << 22;
 }
@@ -106,7 +106,7 @@ void picture(Bytes bytes) {
     for (const PictureLayer& layer : all.layers)
       mustHold(std::visit([](const auto& values) { return values.size(); }, layer.image.values) ==
                std::size_t(layer.image.channels) * layer.image.width * layer.image.height);
-    // Read by rows, it has the same numbers.
+    // Read row by row, it has the same values.
     const StoredImage rows = decodePictureLayers(bytes, "a", "main", 0).layers[0].image;
     const StoredImage& held = all.layers[0].image;
     if (!rows.window || std::uint64_t(held.width) * std::uint64_t(held.height) > 1 << 20) return;
@@ -123,7 +123,7 @@ bool isSimple(Bytes bytes) {
   return detail::isPnm(bytes) || detail::isBmp(bytes) || detail::isTga(bytes);
 }
 
-/// What is read is said again in words that mean the same.
+/// Saving what was read gives a text with the same meaning.
 void comesBack(const Look& look) {
   const std::string text = saveLook(look);
   Look back;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Everything that takes bytes or text from outside, as functions of bytes. Refusing is fine;
-// crashing, hanging and any exception but InputError are not.
+// Every function that reads bytes or text from outside, as a function of bytes. Refusing is fine;
+// crashing, hanging and any exception other than InputError are not.
 
 #include <cstddef>
 #include <span>

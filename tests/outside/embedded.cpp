@@ -5,7 +5,7 @@
 #include "glint/image/error.h"
 #include "glint/render/renderer.h"
 
-/// 0 if a renderer says what it lacks before there is a context, and starts with one.
+/// Returns 0 if a renderer reports that there is no context, and starts once there is one.
 extern "C" int embedded() {
   try {
     glint::Renderer tooEarly;

@@ -2,7 +2,7 @@
 
 #include "glint/image/image.h"
 
-/// Grey from left to right; a red square of `planted` / 255 in red.
+/// A grey ramp from left to right, with a square that has `planted` / 255 in red.
 inline glint::Image gradient(int planted) {
   glint::Image image{64, 32, {}};
   for (int y = 0; y < image.height; ++y)

@@ -1,5 +1,5 @@
-"""Installs glint into a folder, builds the project beside this file against it, and runs its tests,
-of which some are planted to fail: run.py BUILD_FOLDER SCRATCH_FOLDER"""
+"""Installs glint into a folder, builds the project next to this file against it, and runs its
+tests, some of which are planted to fail: run.py BUILD_FOLDER SCRATCH_FOLDER"""
 
 import json
 import os
@@ -48,11 +48,11 @@ tests = {t["name"]: t["command"] for t in
 os.chdir(outside)
 pictures = outside / "image-tests"
 
-# What is right passes.
+# Correct tests pass.
 run(*tests["gradient.same"])
 run(*tests["unit.Same"])
 
-# What was planted fails, says how, and leaves its pictures.
+# Planted failures are found, explained, and leave their pictures.
 said = run(*tests["gradient.planted"], status=1)
 check("flip 0.01" in said and "is above 0.001" in said, "the metric is told: " + said)
 check("worst at 20,10" in said, "the worst pixel is told: " + said)
@@ -65,7 +65,8 @@ said = run(*tests["unit.Planted"], status=1)
 check("flip 0.01" in said and "(20, 10): " in said and "-> " in said, "the worst pixels: " + said)
 check((pictures / "difference/gradient.png").is_file(), "the difference of the matcher is left")
 
-# Without a baseline: its candidate is left and the status is 4; the same command makes it.
+# Without a baseline, a candidate is left and the status is 4; the printed command makes the
+# baseline.
 baseline = outside / "baselines/new.png"
 said = run(*tests["gradient.new"], status=4)
 check("no baseline" in said and str(pictures / "actual/gradient.new.png") in said, said)
@@ -81,15 +82,15 @@ said = run(*tests["unit.Missing"], status=1, GLINT_UPDATE_BASELINES="1")
 check("made the baseline made/unit.png" in said, "the matcher makes it: " + said)
 run(*tests["unit.Missing"])
 
-# In a shared library, and beside another loader of GL.
+# In a shared library, and together with another GL loader.
 check("llvmpipe" in run(*tests["embedded"]), "a shared library draws")
 check("llvmpipe" in run(*tests["two_loaders"]), "two loaders in one program")
 
-# A program that fails is no picture that differs.
+# A program that fails is not a picture that differs.
 said = run(*tests["gradient.crashes"], status=2)
 check("ended with status 2" in said, said)
 
-# All by ctest, and one page of them.
+# All tests under ctest, and one page for them.
 said = run("ctest", "--test-dir", outside, status=8)
 check("3 tests failed out of 14" in said, said)
 check((outside / "examples/turn-2.png").stat().st_size > 1000 and

@@ -163,7 +163,7 @@ def test_a_small_picture_is_quick():
         session.render(model, resolution=(64, 64), shading="blinn-phong")
         times.append(time.perf_counter() - begin)
     print("a small picture: %.1f ms" % (1000 * min(times)))
-    # 20 ms on a machine of its own; tests share theirs with others.
+    # 20 ms on an idle machine; tests share theirs with others.
     assert min(times) < 0.02
 
 

@@ -1,4 +1,4 @@
-"""What a program with types says; mypy --strict reads it."""
+"""Uses the package with type annotations; checked by mypy --strict."""
 
 import pathlib
 

@@ -1,5 +1,5 @@
-"""Installs glint into a folder, runs the seven image tests of the project beside this file with it,
-and checks what is reported of them: run.py BUILD_FOLDER SCRATCH_FOLDER"""
+"""Installs glint into a folder, runs the seven image tests of the project next to this file with
+it, and checks the report: run.py BUILD_FOLDER SCRATCH_FOLDER"""
 
 import json
 import os
@@ -32,7 +32,7 @@ def check(holds, what):
 
 
 def write(name, more=0):
-    """A ramp of 24 x 16 pixels, one of which is brighter by `more` codes."""
+    """A ramp of 24 x 16 pixels with one pixel brighter by `more` codes."""
     def chunk(kind, data):
         return (struct.pack(">I", len(data)) + kind + data +
                 struct.pack(">I", zlib.crc32(kind + data)))
@@ -57,7 +57,7 @@ run("cmake", "-S", HERE, "-B", outside, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=%s" 
 said = run("ctest", "--test-dir", outside, status=8)
 check("4 tests failed out of 7" in said, said)
 
-# The report of the run agrees with the run: verdicts, conditions, what crashed, what was not written.
+# The report agrees with the run: results, conditions, crashes, and pictures that were not written.
 folder = outside / "image-tests"
 said = run(glint, "diff", "--run", folder, "--html", scratch / "report.html", "--json",
            scratch / "report.json", "--junit", scratch / "report.xml", "--markdown",
@@ -84,7 +84,7 @@ check('tests="7" failures="2" errors="2"' in (scratch / "report.xml").read_text(
 check("| ui\\_shift |" in (scratch / "report.md").read_text(), (scratch / "report.md").read_text())
 check((scratch / "report.html").stat().st_size > 10000, "a page")
 
-# One is accepted by a pattern, and the other, with what makes it said under ctest, too.
+# Accepts one by a pattern, and the other with the command that ctest printed.
 said = run(glint, "diff", "--run", folder, "--update", "ui_*", status=2)
 check("replaced the baseline %s/baselines/shift.png" % outside in said, said)
 write("baselines/shift.png")
@@ -95,13 +95,14 @@ said = run(glint, "diff", "--run", folder, "--prune", status=2)
 check("removed the baseline %s/baselines/unused.png" % outside in said, said)
 check(not (outside / "baselines/unused.png").exists(), "it is gone")
 check((outside / "baselines/several_1.png").exists(), "the others are there")
-# Where there is anything but pictures, what belongs to no test may be somebody's.
+# If a folder has anything other than pictures, those that belong to no test may be somebody's
+# files.
 write("baselines/drawing.png")
 (outside / "baselines/notes.txt").write_text("not a folder of baselines alone")
 said = run(glint, "diff", "--run", folder, "--prune", status=2)
 check("removed" not in said and (outside / "baselines/drawing.png").exists(), said)
 
-# A test that was killed, and one that has been taken out of the project.
+# A test that was killed, and one that has been removed from the project.
 (folder / "status/same.txt").write_text("started\n")
 said = run(glint, "diff", "--run", folder, status=2)
 check("same: the test did not end" in said, said)
