@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -25,10 +26,12 @@ namespace {
 /// that is not set, where a check that was asked for must not be left out.
 void refuseEmptyValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
-    const bool takesValue = option->get_items_expected_max() > 0;
-    if (!takesValue || option->get_positional() || option->count() == 0) continue;
+    const bool needsValue = option->get_items_expected_min() > 0;
+    if (!needsValue || option->get_positional() || option->count() == 0) continue;
+    const std::vector<std::string>& letters = option->get_snames();
     if (std::ranges::any_of(option->results(), &std::string::empty))
-      throw InputError(option->get_name() + ": '' is empty: give " + option->get_type_name());
+      throw InputError((letters.empty() ? option->get_name() : "-" + letters[0]) +
+                       ": '' is empty: give " + option->get_type_name());
   }
   for (const CLI::App* command : app.get_subcommands()) refuseEmptyValues(*command);
 }
@@ -40,6 +43,11 @@ int parseAndRun(CLI::App& app, int argc, char** argv, const std::function<int()>
       std::cout << helpJson(app);
       return done;
     }
+    // "--name=" would take the next word for its value.
+    for (const std::string_view word : std::span(argv, std::size_t(argc)))
+      if (word.starts_with("--") && word.find('=') == word.size() - 1)
+        throw InputError(std::string(word.substr(0, word.size() - 1)) +
+                         ": '' is empty: give a value");
     app.parse(argc, argv);
     refuseEmptyValues(app);
     return body();
