@@ -194,6 +194,12 @@ class Viewer:
             differ = sum(a != b for a, b in zip(shown[0], expected))
             raise AssertionError(f"waited in vain for {what}: {differ} of {len(expected)} bytes differ")
 
+    def shows_halves(self, size, at, left, right):
+        """Whether the picture is `left` up to the divider at a column, and `right` beyond."""
+        shown = self.crop(self.capture(), size)
+        return columns(shown, size, 0, at - 3) == columns(left, size, 0, at - 3) and \
+            columns(shown, size, at + 3, size[0]) == columns(right, size, at + 3, size[0])
+
     def crop(self, screen, size, width=None):
         across = 3 * (width or self.screen[0])
         return b"".join(screen[y * across:y * across + 3 * size[0]]
@@ -238,6 +244,19 @@ class Viewer:
         assert len(set(drawn)) > 20, "the picture is one colour"
         self.shows(tuple(look["resolution"]), drawn, "the picture to be glint render's")
         return drawn, look
+
+    def processor_seconds(self):
+        """What its threads have taken, to 0.01 s."""
+        with open(f"/proc/{self.process.pid}/stat") as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def share_at_rest(self, seconds):
+        """Of a core, while nothing changes."""
+        self.settled(quiet=1)
+        before = self.processor_seconds()
+        time.sleep(seconds)
+        return (self.processor_seconds() - before) / seconds
 
     def alive(self):
         return self.process.poll() is None

@@ -44,9 +44,7 @@ def test_split_and_difference():
         half = size[0] // 2
 
         def split():
-            shown = viewer.crop(viewer.capture(), size)
-            return columns(shown, size, 0, half - 3) == columns(b, size, 0, half - 3) and \
-                columns(shown, size, half + 3, size[0]) == columns(a, size, half + 3, size[0])
+            return viewer.shows_halves(size, half, b, a)
         wait_for("A at the left and B at the right", split)
         viewer.drag(half, 300, half - 200, 300)  # the divider
         viewer.move(20, 20)
@@ -77,9 +75,7 @@ def test_the_reference_stands_beside_the_picture():
         half = size[0] // 2
 
         def split():
-            shown = viewer.crop(viewer.capture(), size)
-            return columns(shown, size, 0, half - 3) == columns(a, size, 0, half - 3) and \
-                columns(shown, size, half + 3, size[0]) == columns(exact, size, half + 3, size[0])
+            return viewer.shows_halves(size, half, a, exact)
         wait_for("the reference at the right", split)
         viewer.key("d")
         viewer.key("r")
@@ -137,9 +133,7 @@ def test_animation_time_by_slider_and_keys():
         size, half = tuple(look["resolution"]), look["resolution"][0] // 2
 
         def split():
-            shown = viewer.crop(viewer.capture(), size)
-            return columns(shown, size, 0, half - 3) == columns(a, size, 0, half - 3) and \
-                columns(shown, size, half + 3, size[0]) == columns(later, size, half + 3, size[0])
+            return viewer.shows_halves(size, half, a, later)
         wait_for("A's moment at the left and B's at the right", split)
         viewer.key("shift+b")  # swapped: A is at B's time
         viewer.key("shift+a")

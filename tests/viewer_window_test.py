@@ -13,7 +13,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 import viewer_driver
 from viewer_driver import TWO_SIDED, Viewer, drag_slider, wait_for
@@ -296,15 +295,7 @@ def test_edits_survive_a_crash():
 
 def test_rests_when_nothing_changes():
     with Viewer(TEAPOT) as viewer:
-        viewer.settled(quiet=1)
-
-        def ticks():
-            with open(f"/proc/{viewer.process.pid}/stat") as file:
-                fields = file.read().rsplit(")", 1)[1].split()
-            return int(fields[11]) + int(fields[12])
-        before = ticks()
-        time.sleep(5)
-        share = (ticks() - before) / os.sysconf("SC_CLK_TCK") / 5
+        share = viewer.share_at_rest(3)
         print(f"at rest: {100 * share:.2f} % of a core")
         assert share < 0.01
 
