@@ -235,6 +235,13 @@ class Viewer:
                 return file.read()
         return pixels_of(out)
 
+    def check_saved(self, name):
+        """A picture that the window has saved is the file that glint render wrote last."""
+        path = os.path.join(self.folder, name)
+        wait_for(name, lambda: os.path.exists(path))
+        with open(path, "rb") as a, open(os.path.join(self.folder, "offscreen.png"), "rb") as b:
+            assert a.read() == b.read(), name + " is another file than glint render's"
+
     def picture(self):
         """Checks the window's picture against glint render of the saved look. Returns its bytes and
         the look."""

@@ -98,9 +98,7 @@ def test_job_an_animation_is_looked_through():
         _, look = job.picture()
         assert abs(look["animation-time"] - 1) < 1e-9
         job.key("F12")
-        still = job.bytes_of("bend_1.png")
-        with open(job.path("offscreen.png"), "rb") as file:
-            assert still == file.read()
+        job.check_saved("bend_1.png")
         job.key("shift+b")
         assert job.picture()[0] == bent  # B's time
 
@@ -154,9 +152,7 @@ def test_job_by_keys_alone():
         job.answer("keys.json")
         assert json.loads(job.bytes_of("keys.json"))["material"]["Glazed ceramic"]["diffuse"] == 0.5
         job.key("F12")
-        drawn = job.bytes_of("teapot_1.png")
-        with open(job.path("offscreen.png"), "rb") as file:
-            assert file.read() == drawn
+        job.check_saved("teapot_1.png")
         job.key("q")
         assert job.left() == 0
 

@@ -22,10 +22,7 @@ def test_the_window_shows_what_glint_render_draws():
     with Viewer(TEAPOT) as viewer:
         viewer.picture()
         viewer.key("F12")
-        png = os.path.join(viewer.folder, "teapot_1.png")
-        wait_for("the screenshot", lambda: os.path.exists(png))
-        with open(png, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
-            assert a.read() == b.read(), "the screenshot is another file than glint render's"
+        viewer.check_saved("teapot_1.png")
 
 
 def test_what_a_budget_chooses_is_what_glint_render_draws():
@@ -48,10 +45,7 @@ def test_what_a_budget_chooses_is_what_glint_render_draws():
         assert automatic != phong
         viewer.shows(tuple(look["resolution"]), automatic, "the program chosen")
         viewer.key("F12")
-        png = os.path.join(viewer.folder, "sphere_1.png")
-        wait_for("the screenshot", lambda: os.path.exists(png))
-        with open(png, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
-            assert a.read() == b.read(), "the screenshot is another file than glint render's"
+        viewer.check_saved("sphere_1.png")
 
 
 def test_a_slider_changes_the_picture_and_undo_brings_the_first_bytes_back():
