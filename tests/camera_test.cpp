@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "files.h"
 #include "glint/image/error.h"
 #include "glint/scene/camera.h"
 #include "scenes.h"
@@ -240,12 +241,8 @@ TEST(Framing, FileCamerasStandAsTheFileSays) {
   EXPECT_TRUE(camera.orthographic);
   EXPECT_NEAR(camera.halfHeight, 2.5, tight);
   look.cameraIndex = 2;
-  try {
-    cameraFor(scene, bounds, look);
-    FAIL() << "camera 2 of 2";
-  } catch (const glint::InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("--camera-index 2"));
-  }
+  EXPECT_THAT(test::messageOf([&] { cameraFor(scene, bounds, look); }),
+              testing::HasSubstr("--camera-index 2"));
   EXPECT_THROW(cameraFor(Scene{}, {}, look), glint::InputError);
 }
 

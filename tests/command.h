@@ -13,6 +13,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,6 +24,20 @@
 #include "files.h"
 
 namespace glint::test {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+/// The words of a command line, which blanks divide.
+inline Arguments split(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+inline Arguments joined(Arguments first, const Arguments& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
 
 struct Ran {
   int status = -1;  ///< exit status; -1 if it did not exit by itself
@@ -31,6 +48,15 @@ struct Ran {
 
   std::vector<std::string> errorLines() const { return linesOf(err); }
 };
+
+/// The binary takes this process's place.
+[[noreturn]] inline void becomeGlint(const Arguments& arguments) {
+  std::vector<char*> argv{const_cast<char*>(GLINT_EXECUTABLE)};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  execv(GLINT_EXECUTABLE, argv.data());
+  _exit(127);
+}
 
 struct CommandOptions {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< an empty value unsets
@@ -43,7 +69,7 @@ struct CommandOptions {
 };
 
 /// Runs the binary and waits for it.
-inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOptions& options = {}) {
+inline Ran runGlint(const Arguments& arguments, const CommandOptions& options = {}) {
   static int number = 0;
   const std::string base = temporaryFolder() + "/run" + std::to_string(number++);
   const std::string outPath = base + ".out", errPath = base + ".err";
@@ -74,11 +100,7 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
       setrlimit(RLIMIT_FSIZE, &limit);
     }
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
-    std::vector<char*> argv{const_cast<char*>(GLINT_EXECUTABLE)};
-    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    execv(GLINT_EXECUTABLE, argv.data());
-    _exit(127);
+    becomeGlint(arguments);
   }
   if (options.closedOut) close(closed[1]);
   Ran ran;
@@ -103,14 +125,19 @@ inline Ran runGlint(const std::vector<std::string>& arguments, const CommandOpti
   return ran;
 }
 
+/// Runs a command line in a folder.
+inline Ran runGlintIn(const Folder& folder, const std::string& line) {
+  return runGlint(split(line), {.folder = folder.path()});
+}
+
 inline const std::string shipped = GLINT_SOURCE_DIR "/models/";
 
 /// Arguments for a small picture that is drawn quickly.
-inline std::vector<std::string> quick(std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--rendering-backend", "osmesa", "--anti-aliasing", "none"});
+inline Arguments quick(Arguments arguments, const Arguments& more = {}) {
+  arguments = joined(std::move(arguments), more);
   if (std::find(arguments.begin(), arguments.end(), "--resolution") == arguments.end())
     arguments.insert(arguments.end(), {"--resolution", "40,30"});
-  return arguments;
+  return joined(std::move(arguments), split("--rendering-backend osmesa --anti-aliasing none"));
 }
 
 /// It succeeded and printed nothing on stderr.
@@ -127,6 +154,18 @@ inline void expectRefusal(const Ran& ran, const std::string& part, int status = 
   ASSERT_EQ(lines.size(), 1u) << ran.err;
   EXPECT_THAT(lines[0], testing::AllOf(testing::StartsWith("glint: "), testing::HasSubstr(part)));
   EXPECT_EQ(ran.out, "");
+}
+
+/// The report that it wrote to stdout before it ended well.
+inline Json reportOf(const Ran& ran) {
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  return Json::parse(ran.out);
+}
+
+inline std::vector<Json> jsonLines(const std::string& text) {
+  std::vector<Json> lines;
+  for (const std::string& line : linesOf(text)) lines.push_back(Json::parse(line));
+  return lines;
 }
 
 }  // namespace glint::test

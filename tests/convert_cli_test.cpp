@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "gltf_text.h"
@@ -14,8 +13,6 @@ namespace glint::test::convert_cli_test {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-using Json = nlohmann::json;
 
 const std::string edit =
     "ambient=0.7,diffuse=0.9,specular=0.6,exponent=33.3,metalness=0.25,ior=1.7,color=0.1,0.4,0.9";
@@ -29,11 +26,9 @@ void expectRefusalBesideWarnings(const Ran& ran, const std::string& part) {
 }
 
 // The picture's values only, because its metadata contains the look.
-std::string drawn(const Folder& folder, const std::string& model,
-                  std::vector<std::string> arguments = {}) {
-  arguments.insert(arguments.begin(),
-                   {"render", model, "-o", folder / "drawn.pfm", "--shading", "environment"});
-  const Ran ran = runGlint(quick(arguments));
+std::string drawn(const Folder& folder, const std::string& model, const Arguments& more = {}) {
+  const Ran ran = runGlint(
+      quick({"render", model, "-o", folder / "drawn.pfm", "--shading", "environment"}, more));
   EXPECT_EQ(ran.status, 0) << ran.err;
   return contents(folder / "drawn.pfm");
 }
@@ -165,19 +160,16 @@ TEST(Convert, TheModelItselfOnlyIfAsked) {
 TEST(Convert, WhatCannotBe) {
   Folder folder("convert_wrong");
   const std::string in = shipped + "sphere.glb";
-  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.gltf", "--material", edit}),
-                              ".glb");
-  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.png", "--material", edit}),
-                              ".glb");
-  expectRefusalBesideWarnings(runGlint({"convert", in, folder / "a.glb", "--material", "shine=1"}),
-                              "shine");
-  expectRefusalBesideWarnings(
-      runGlint({"convert", in, folder / "a.glb", "--material", "Nobody:ior=2"}), "Nobody");
-  expectRefusalBesideWarnings(runGlint({"convert", folder / "none.glb", folder / "a.glb"}),
-                              "none.glb");
-  expectRefusalBesideWarnings(runGlint({"convert", in, "/proc/none/a.glb", "--material", edit}),
-                              "/proc/none");
-  expectRefusalBesideWarnings(runGlint({"convert", in}), "OUT");
+  const auto refused = [](const Arguments& arguments, const std::string& part) {
+    expectRefusalBesideWarnings(runGlint(joined({"convert"}, arguments)), part);
+  };
+  refused({in, folder / "a.gltf", "--material", edit}, ".glb");
+  refused({in, folder / "a.png", "--material", edit}, ".glb");
+  refused({in, folder / "a.glb", "--material", "shine=1"}, "shine");
+  refused({in, folder / "a.glb", "--material", "Nobody:ior=2"}, "Nobody");
+  refused({folder / "none.glb", folder / "a.glb"}, "none.glb");
+  refused({in, "/proc/none/a.glb", "--material", edit}, "/proc/none");
+  refused({in}, "OUT");
   EXPECT_THAT(folder.names(), IsEmpty());
   const Ran nothing = runGlint({"convert", in, folder / "a.glb"});
   EXPECT_EQ(nothing.status, 0);

@@ -3,14 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "command.h"
 
-namespace glint::test {
-namespace cost_table_cli_test {
+namespace glint::test::cost_table_cli_test {
 
-using Json = nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string teapot = GLINT_SOURCE_DIR "/models/teapot.glb";
@@ -46,13 +44,9 @@ class CostTableCommand : public testing::Test {
     return folder_ / "costs.json";
   }
   /// The choice that a command reports with --json -.
-  Json choice(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--max-error", "0.05", "--material",
-                                       "specular=0.5,exponent=300", "--json", "-"});
-    const Ran ran = runGlint(arguments);
-    EXPECT_EQ(ran.status, 0) << ran.err;
-    if (ran.status != 0) return {};
-    const Json json = Json::parse(ran.out);
+  static Json choice(const Arguments& arguments) {
+    const Json json = reportOf(runGlint(joined(
+        arguments, split("--max-error 0.05 --material specular=0.5,exponent=300 --json -"))));
     return json.contains("choice") ? json["choice"] : json["pictures"][0]["choice"];
   }
   Folder folder_{"cost-table"};
@@ -86,20 +80,14 @@ TEST_F(CostTableCommand, RefusesWhatIsNoTable) {
                                                        {newer.dump(), "version 2"}};
   for (const auto& [text, words] : wrong)
     for (const char* command : {"info", "render", "study"}) {
-      std::vector<std::string> arguments{command, teapot, "--cost-table", written(text)};
+      Arguments arguments{command, teapot, "--cost-table", written(text)};
       if (command == std::string("render"))
-        arguments.insert(arguments.end(), {"-o", folder_ / "a.png"});
+        arguments = joined(arguments, {"-o", folder_ / "a.png"});
       const Ran ran = runGlint(arguments);
-      EXPECT_EQ(ran.status, 2);
-      EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
-      EXPECT_THAT(ran.err, HasSubstr(words));
-      EXPECT_THAT(ran.err, HasSubstr("costs.json: "));
-      EXPECT_THAT(ran.err, HasSubstr("glint study --measure-costs"));
+      expectRefusal(ran, words);
+      EXPECT_THAT(ran.err, AllOf(HasSubstr("costs.json: "), HasSubstr("study --measure-costs")));
     }
-  const Ran missing = runGlint({"info", teapot, "--cost-table", folder_ / "none.json"});
-  EXPECT_EQ(missing.status, 2);
-  EXPECT_EQ(missing.errorLines().size(), 1u);
-  EXPECT_THAT(missing.err, HasSubstr("none.json"));
+  expectRefusal(runGlint({"info", teapot, "--cost-table", folder_ / "none.json"}), "none.json");
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"costs.json"});
 }
 
@@ -107,10 +95,10 @@ TEST_F(CostTableCommand, RefusesWhatIsNoTable) {
 TEST_F(CostTableCommand, AnotherTableIsAnotherPictureForResume) {
   const std::string file = written(tableFor("gaussian").dump());
   const auto skipped = [&] {
-    const Ran ran = runGlint(quick({"render", teapot, "-o", folder_ / "a.png", "--cost-table", file,
-                                    "--max-error", "0.05", "--resume", "--json", "-"}));
-    EXPECT_EQ(ran.status, 0) << ran.err;
-    return Json::parse(ran.out)["pictures"][0].contains("skipped");
+    return reportOf(
+               runGlint(quick({"render", teapot, "-o", folder_ / "a.png", "--cost-table", file,
+                               "--max-error", "0.05", "--resume", "--json", "-"})))["pictures"][0]
+        .contains("skipped");
   };
   EXPECT_FALSE(skipped());
   EXPECT_TRUE(skipped());
@@ -118,5 +106,4 @@ TEST_F(CostTableCommand, AnotherTableIsAnotherPictureForResume) {
   EXPECT_FALSE(skipped());
 }
 
-}  // namespace cost_table_cli_test
-}  // namespace glint::test
+}  // namespace glint::test::cost_table_cli_test

@@ -7,8 +7,8 @@
 
 #include "command.h"
 #include "glint/image/exr_writer.h"
-#include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
+#include "pictures.h"
 
 namespace glint::test::diff_files_cli_test {
 
@@ -23,20 +23,12 @@ Image filled(int width, int height, std::initializer_list<float> pixel) {
   return image;
 }
 
-void write(const std::string& path, const Image& image) {
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  const auto writer = glint::openPictureWriter(path, image.width, image.height);
-  writer->write(image);
-  writer->finish();
-}
+void write(const std::string& path, const Image& image) { writePicture(path, image); }
 
 class Files : public Folder {
  public:
   using Folder::Folder;
-  Ran diff(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "diff");
-    return runGlint(arguments, {.environment = {}, .folder = path()});
-  }
+  Ran diff(const std::string& arguments) const { return runGlintIn(*this, "diff " + arguments); }
 };
 
 const Image grey = filled(8, 6, {0.25f, 0.5f, 0.75f, 1});
@@ -58,39 +50,34 @@ TEST(DiffLayers, EveryChannelCounts) {
   write("xyz.exr", {{"", &normal, "XYZ"}});
   write("xyz2.exr", {{"", &moved, "XYZ"}});
 
-  EXPECT_EQ(files.diff({"a.exr", "a.exr"}).status, 0);
-  Ran ran = files.diff({"a.exr", "moved.exr"});
+  EXPECT_EQ(files.diff("a.exr a.exr").status, 0);
+  Ran ran = files.diff("a.exr moved.exr");
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("layer normal.X"));
-  ran = files.diff({"a.exr", "deeper.exr", "--metric", "max", "--threshold", "0.1"});
+  ran = files.diff("a.exr deeper.exr --metric max --threshold 0.1");
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("depth.Z"));
-  EXPECT_EQ(files.diff({"xyz.exr", "xyz2.exr"}).status, 1);
+  EXPECT_EQ(files.diff("xyz.exr xyz2.exr").status, 1);
   // A layer that only one of them has is a difference.
-  ran = files.diff({"a.exr", "less.exr"});
+  ran = files.diff("a.exr less.exr");
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("layer depth.Z is missing in the picture"));
   // One layer by its name; differences that the condition does not judge are reported.
-  EXPECT_EQ(files.diff({"a.exr", "moved.exr", "--layer", "depth"}).status, 0);
-  EXPECT_EQ(files.diff({"a.exr", "moved.exr", "--layer", "normal"}).status, 1);
-  ran = files.diff({"a.exr", "moved.exr", "--layer", "main"});
+  EXPECT_EQ(files.diff("a.exr moved.exr --layer depth").status, 0);
+  EXPECT_EQ(files.diff("a.exr moved.exr --layer normal").status, 1);
+  ran = files.diff("a.exr moved.exr --layer main");
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, HasSubstr("not compared: layer "));
-  EXPECT_EQ(files.diff({"a.exr", "moved.exr", "--layer", "nothing"}).status, 2);
-  ran = files.diff({"a.exr", "moved.exr", "--metric", "flip", "--threshold", "0.1"});
+  EXPECT_EQ(files.diff("a.exr moved.exr --layer nothing").status, 2);
+  ran = files.diff("a.exr moved.exr --metric flip --threshold 0.1");
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.out, HasSubstr("which no condition judges"));
   // If nothing is judged, nothing counts as the same.
-  for (const std::vector<std::string>& condition :
-       {std::vector<std::string>{"--max-pixels", "100%"},
-        {"--metric", "flip", "--threshold", "1"}}) {
-    std::vector<std::string> arguments{"xyz.exr", "xyz2.exr"};
-    arguments.insert(arguments.end(), condition.begin(), condition.end());
-    ran = files.diff(arguments);
+  for (const std::string condition : {" --max-pixels 100%", " --metric flip --threshold 1"}) {
+    ran = files.diff("xyz.exr xyz2.exr" + condition);
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.out, HasSubstr("it differs in 1 pixel (max 0.5), which no condition judges"));
-    arguments[1] = "xyz.exr";
-    EXPECT_EQ(files.diff(arguments).status, 0);
+    EXPECT_EQ(files.diff("xyz.exr xyz.exr" + condition).status, 0);
   }
 }
 
@@ -101,13 +88,13 @@ TEST(DiffLayers, EqualInfinitiesAreEqual) {
   b.values[5] += 0.001f;
   write(files / "a.exr", a);
   write(files / "b.exr", b);
-  EXPECT_EQ(files.diff({"a.exr", "b.exr", "--metric", "max", "--threshold", "0.01"}).status, 0);
+  EXPECT_EQ(files.diff("a.exr b.exr --metric max --threshold 0.01").status, 0);
   b.values[0] = -INFINITY;
   write(files / "b.exr", b);
-  EXPECT_EQ(files.diff({"a.exr", "b.exr", "--metric", "max", "--threshold", "1e9"}).status, 1);
+  EXPECT_EQ(files.diff("a.exr b.exr --metric max --threshold 1e9").status, 1);
   for (float& value : a.values) value = NAN;
   write(files / "nan.exr", a);
-  const Ran ran = files.diff({"nan.exr", "nan.exr", "--json", "-"});
+  const Ran ran = files.diff("nan.exr nan.exr --json -");
   EXPECT_EQ(ran.status, 0);
   EXPECT_TRUE(Json::parse(ran.out)["metrics"]["max"]["value"].is_null()) << ran.out;
 }
@@ -118,8 +105,8 @@ TEST(DiffLayers, PremultipliedColoursAreComparedAsStored) {
   write(files / "a.exr", a);
   write(files / "b.exr", b);
   for (const char* alpha : {"straight", "ignored"}) {
-    const Ran ran = files.diff(
-        {"a.exr", "b.exr", "--alpha", alpha, "--metric", "max", "--threshold", "1.1e-4"});
+    const Ran ran =
+        files.diff(std::string("a.exr b.exr --metric max --threshold 1.1e-4 --alpha ") + alpha);
     EXPECT_EQ(ran.status, 0) << alpha << ": " << ran.out;
   }
 }
@@ -130,24 +117,21 @@ TEST(DiffConditions, AllMustHold) {
   for (int i = 0; i < 4; ++i) b.values[std::size_t(4 * i)] = 1;
   write(files / "a.png", grey);
   write(files / "b.png", b);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "4", "--max-pixels", "5%"}).status, 1);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "5%", "--max-pixels", "4"}).status, 1);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "4", "--max-pixels", "9%"}).status, 0);
+  EXPECT_EQ(files.diff("a.png b.png --max-pixels 4 --max-pixels 5%").status, 1);
+  EXPECT_EQ(files.diff("a.png b.png --max-pixels 5% --max-pixels 4").status, 1);
+  EXPECT_EQ(files.diff("a.png b.png --max-pixels 4 --max-pixels 9%").status, 0);
   // The worst window of 2 x 2 has two.
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "2"}).status, 0);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "1"}).status, 1);
+  EXPECT_EQ(files.diff("a.png b.png --window 2 --max-pixels 2").status, 0);
+  EXPECT_EQ(files.diff("a.png b.png --window 2 --max-pixels 1").status, 1);
   // A percentage refers to the window: two of four.
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "50%"}).status, 0);
-  EXPECT_THAT(files.diff({"a.png", "b.png", "--window", "2", "--max-pixels", "49%"}).out,
+  EXPECT_EQ(files.diff("a.png b.png --window 2 --max-pixels 50%").status, 0);
+  EXPECT_THAT(files.diff("a.png b.png --window 2 --max-pixels 49%").out,
               HasSubstr("2 pixels are over the tolerance of 0.1, allowed are 1.96"));
   // Options that need a count are not silently ignored.
-  for (const std::vector<std::string>& option :
-       {std::vector<std::string>{"--window", "2"}, {"--shift", "1"}, {"--ignore-anti-aliasing"}}) {
-    std::vector<std::string> arguments{"a.png", "b.png"};
-    arguments.insert(arguments.end(), option.begin(), option.end());
-    EXPECT_THAT(files.diff(arguments).err, HasSubstr(option[0] + ": it is of --max-pixels"));
-    arguments.insert(arguments.end(), {"--metric", "pixels", "--threshold", "4"});
-    EXPECT_EQ(files.diff(arguments).status, 0);
+  for (const std::string option : {"--window 2", "--shift 1", "--ignore-anti-aliasing"}) {
+    EXPECT_THAT(files.diff("a.png b.png " + option).err,
+                HasSubstr(split(option)[0] + ": it is of --max-pixels"));
+    EXPECT_EQ(files.diff("a.png b.png " + option + " --metric pixels --threshold 4").status, 0);
   }
 }
 
@@ -160,9 +144,9 @@ TEST(DiffConditions, WhatMovedByAPixel) {
   }
   write(files / "a.png", a);
   write(files / "b.png", b);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "0"}).status, 1);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--max-pixels", "0", "--shift", "1"}).status, 0);
-  EXPECT_EQ(files.diff({"a.png", "b.png", "--shift", "1"}).status, 2);
+  EXPECT_EQ(files.diff("a.png b.png --max-pixels 0").status, 1);
+  EXPECT_EQ(files.diff("a.png b.png --max-pixels 0 --shift 1").status, 0);
+  EXPECT_EQ(files.diff("a.png b.png --shift 1").status, 2);
 }
 
 TEST(DiffConditions, OfPairsByAFile) {
@@ -174,28 +158,26 @@ TEST(DiffConditions, OfPairsByAFile) {
     write(files / ("y/" + std::string(name)), b);
   }
   writeText(files / "x/glint-diff.txt", "# pattern and options\nloose --max-pixels 1\n*.png\n");
-  Ran ran = files.diff({"x", "y"});
+  Ran ran = files.diff("x y");
   EXPECT_THAT(ran.out, HasSubstr("3 pairs: 0 same, 3 differ"));  // the last matching line counts
   writeText(files / "x/glint-diff.txt", "*.png\n\nloose --max-pixels 1\r\n");
-  ran = files.diff({"x", "y"});
+  ran = files.diff("x y");
   EXPECT_THAT(ran.out, HasSubstr("3 pairs: 1 same, 2 differ"));
   writeText(files / "other.txt", "*o.png --metric max --threshold 1\n");
-  EXPECT_THAT(files.diff({"x", "y", "--conditions", "other.txt"}).out,
-              HasSubstr("3 pairs: 1 same, 2 differ"));
+  EXPECT_THAT(files.diff("x y --conditions other.txt").out, HasSubstr("3 pairs: 1 same, 2 differ"));
   writeText(files / "other.txt", "\n*o.png --metric most\n");
-  ran = files.diff({"x", "y", "--conditions", "other.txt"});
+  ran = files.diff("x y --conditions other.txt");
   EXPECT_EQ(ran.status, 2);
   writeText(files / "other.txt", "\n*o.png --threshold 1\n");
-  EXPECT_THAT(files.diff({"x", "y", "--conditions", "other.txt"}).err, HasSubstr("other.txt:2: "));
+  EXPECT_THAT(files.diff("x y --conditions other.txt").err, HasSubstr("other.txt:2: "));
   // Updating by a folder and by a pattern; pruning.
-  EXPECT_THAT(files.diff({"x", "y", "--update", "strict"}).err,
+  EXPECT_THAT(files.diff("x y --update strict").err,
               HasSubstr("replaced the baseline x/strict/one.png"));
-  EXPECT_THAT(files.diff({"x", "y", "--update", "t*.png"}).err,
-              HasSubstr("replaced the baseline x/two.png"));
+  EXPECT_THAT(files.diff("x y --update t*.png").err, HasSubstr("replaced the baseline x/two.png"));
   write(files / "x/gone.png", grey);
-  EXPECT_EQ(files.diff({"x", "y"}).status, 2);
-  EXPECT_THAT(files.diff({"x", "y", "--prune"}).err, HasSubstr("removed the baseline x/gone.png"));
-  EXPECT_EQ(files.diff({"x", "y"}).status, 0);
+  EXPECT_EQ(files.diff("x y").status, 2);
+  EXPECT_THAT(files.diff("x y --prune").err, HasSubstr("removed the baseline x/gone.png"));
+  EXPECT_EQ(files.diff("x y").status, 0);
 }
 
 TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
@@ -211,34 +193,26 @@ TEST(DiffConditions, MasksPatternsAndWhatNamesNoPair) {
   // The mask in A is neither missing nor pruned; an exact name takes precedence over a pattern.
   writeText(files / "x/glint-diff.txt",
             "[o]ne.png --mask masks/clock.png\none.png --max-pixels 1\nnone.png --max-pixels 3\n");
-  Ran ran = files.diff({"x", "y", "--prune"});
+  Ran ran = files.diff("x y --prune");
   EXPECT_EQ(ran.status, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("2 pairs: 2 same"));
   EXPECT_EQ(ran.err, "glint: x/glint-diff.txt:3: none.png: names no pair: check the pattern\n");
   EXPECT_EQ(contents(files / "x/masks/clock.png").substr(1, 3), "PNG");
   writeText(files / "none.txt", "");
-  EXPECT_EQ(
-      files.diff({"x", "y", "--mask", "x/masks/clock.png", "--conditions", "none.txt"}).status, 0);
+  EXPECT_EQ(files.diff("x y --mask x/masks/clock.png --conditions none.txt").status, 0);
   // The same with --update.
   std::filesystem::remove(files / "x/glint-diff.txt");
   std::filesystem::remove_all(files / "x/masks");
-  EXPECT_EQ(files.diff({"x", "y", "--update", "[o]ne.png"}).err,
-            "glint: replaced the baseline x/[o]ne.png\n");
+  EXPECT_EQ(files.diff("x y --update [o]ne.png").err, "glint: replaced the baseline x/[o]ne.png\n");
   write(files / "x/-one.png", grey);
   write(files / "y/-one.png", b);
-  EXPECT_EQ(files.diff({"x", "y", "--update", "./-one.png"}).err,
-            "glint: replaced the baseline x/-one.png\n");
-  EXPECT_EQ(files.diff({"x", "y", "--update", "[o]ne*"}).err,
-            "glint: replaced the baseline x/one.png\n");
+  EXPECT_EQ(files.diff("x y --update ./-one.png").err, "glint: replaced the baseline x/-one.png\n");
+  EXPECT_EQ(files.diff("x y --update [o]ne*").err, "glint: replaced the baseline x/one.png\n");
   write(files / "x/gone.png", grey);
-  EXPECT_THAT(files.diff({"x", "y", "--prune"}).out, HasSubstr("; 1 baseline removed\n"));
+  EXPECT_THAT(files.diff("x y --prune").out, HasSubstr("; 1 baseline removed\n"));
   // For single pictures these options have no meaning.
-  for (const std::vector<std::string>& option :
-       {std::vector<std::string>{"--prune"}, {"--conditions", "none.txt"}}) {
-    std::vector<std::string> arguments{"x/one.png", "y/one.png"};
-    arguments.insert(arguments.end(), option.begin(), option.end());
-    EXPECT_THAT(files.diff(arguments).err, HasSubstr(option[0]));
-  }
+  for (const std::string option : {"--prune", "--conditions none.txt"})
+    EXPECT_THAT(files.diff("x/one.png y/one.png " + option).err, HasSubstr(split(option)[0]));
 }
 
 TEST(DiffBaselines, TheNearestCounts) {
@@ -248,13 +222,13 @@ TEST(DiffBaselines, TheNearestCounts) {
   write(files / "x/one.png", grey);
   write(files / "x/one_1.png", b);
   write(files / "y/one.png", b);
-  const Ran ran = files.diff({"x", "y"});
+  const Ran ran = files.diff("x y");
   EXPECT_EQ(ran.status, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("1 pair: 1 same"));
-  EXPECT_EQ(files.diff({"x/one.png", "y/one.png"}).status, 0);
+  EXPECT_EQ(files.diff("x/one.png y/one.png").status, 0);
   // If it has a picture of its own, it is a pair.
   write(files / "y/one_1.png", b);
-  EXPECT_THAT(files.diff({"x", "y"}).out, HasSubstr("2 pairs: 1 same, 1 differ"));
+  EXPECT_THAT(files.diff("x y").out, HasSubstr("2 pairs: 1 same, 1 differ"));
 }
 
 TEST(DiffSizes, LongSidesAndOtherSizes) {
@@ -263,13 +237,12 @@ TEST(DiffSizes, LongSidesAndOtherSizes) {
   b.values[std::size_t(4 * 2 * 20000)] = 0;
   write(files / "a.png", a);
   write(files / "b.png", b);
-  EXPECT_EQ(files.diff({"a.png", "a.png"}).status, 0);
-  EXPECT_THAT(files.diff({"a.png", "b.png"}).out, HasSubstr("worst at 0,20000"));
+  EXPECT_EQ(files.diff("a.png a.png").status, 0);
+  EXPECT_THAT(files.diff("a.png b.png").out, HasSubstr("worst at 0,20000"));
   // With different sizes the rest counts as transparent, also in the difference picture.
   write(files / "small.png", grey);
   write(files / "wide.png", filled(10, 6, {0.25f, 0.5f, 0.75f, 1}));
-  const Ran ran =
-      files.diff({"small.png", "wide.png", "-o", "d.png", "--metric", "max", "--threshold", "9"});
+  const Ran ran = files.diff("small.png wide.png -o d.png --metric max --threshold 9");
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("12 of 60 pixels differ"));
   const Image difference = glint::readImage(files / "d.png");
@@ -295,22 +268,22 @@ TEST(DiffSizes, LargePagesAreNotHeld) {
     writer->finish();
   }
   const auto expectSmall = [](const Ran& ran) { EXPECT_LT(ran.peakKib, 60 << 10) << ran.out; };
-  Ran ran = files.diff({"a.png", "b.png"});
+  Ran ran = files.diff("a.png b.png");
   EXPECT_THAT(ran.out,
               HasSubstr("1 of 27655200 pixels differ (1 pixel differs); worst at 7,20000"));
   expectSmall(ran);
-  ran = files.diff({"a.png", "b.png", "--max-pixels", "1", "-o", "d.png"});
+  ran = files.diff("a.png b.png --max-pixels 1 -o d.png");
   EXPECT_EQ(ran.status, 0) << ran.out;
   expectSmall(ran);
-  ran = files.diff({"a.png", "longer.png"});
+  ran = files.diff("a.png longer.png");
   EXPECT_THAT(ran.out, HasSubstr("4800 of 27660000 pixels differ"));
   expectSmall(ran);
   // A damaged picture does not become a baseline, wherever the damage is.
   const std::string whole = contents(files / "b.png");
   writeText(files / "cut.png", whole.substr(0, whole.size() - 20));
-  EXPECT_EQ(files.diff({"a.png", "cut.png", "--update"}).status, 2);
-  EXPECT_EQ(files.diff({"cut.png", "cut.png", "--update"}).status, 2);
-  ran = files.diff({"new.png", "cut.png", "--update"});
+  EXPECT_EQ(files.diff("a.png cut.png --update").status, 2);
+  EXPECT_EQ(files.diff("cut.png cut.png --update").status, 2);
+  ran = files.diff("new.png cut.png --update");
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.err, HasSubstr("cut.png: the PNG is damaged"));
   EXPECT_THAT(files.names(), Not(testing::Contains("new.png")));
@@ -324,26 +297,25 @@ TEST(DiffInput, FromStdin) {
   write(files / "a.png", grey);
   write(files / "b.png", b);
   write(files / "a.exr", grey);
-  const auto piped = [&](const std::string& input, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "diff");
-    return runGlint(arguments, {.environment = {}, .folder = files.path(), .input = files / input});
+  const auto piped = [&](const std::string& input, const std::string& arguments) {
+    return runGlint(split("diff " + arguments), {.folder = files.path(), .input = files / input});
   };
-  EXPECT_THAT(piped("a.png", {"a.png", "-"}).out, HasSubstr("stdin: same, equal in every pixel"));
-  EXPECT_EQ(piped("a.png", {"-", "a.png"}).status, 0);
-  EXPECT_EQ(piped("a.exr", {"a.exr", "-"}).status, 0);
-  const Ran ran = piped("b.png", {"a.png", "-", "--json", "-", "--html", "r.html"});
+  EXPECT_THAT(piped("a.png", "a.png -").out, HasSubstr("stdin: same, equal in every pixel"));
+  EXPECT_EQ(piped("a.png", "- a.png").status, 0);
+  EXPECT_EQ(piped("a.exr", "a.exr -").status, 0);
+  const Ran ran = piped("b.png", "a.png - --json - --html r.html");
   EXPECT_EQ(ran.status, 1);
   EXPECT_EQ(Json::parse(ran.out)["differing"], 1);
   EXPECT_THAT(contents(files / "r.html"), HasSubstr("id=\"b0\""));
-  EXPECT_EQ(piped("b.png", {"-", "a.png", "-o", "d.png", "--max-pixels", "1"}).status, 0);
+  EXPECT_EQ(piped("b.png", "- a.png -o d.png --max-pixels 1").status, 0);
   // All baselines are tried.
   write(files / "a_1.png", b);
-  EXPECT_THAT(piped("b.png", {"a.png", "-"}).out, HasSubstr("compared with a_1.png"));
-  EXPECT_THAT(piped("b.png", {"-", "-"}).err, HasSubstr("one of the two may come from stdin"));
-  EXPECT_EQ(piped("b.png", {"a.png", "-", "--update"}).status, 2);
-  EXPECT_EQ(piped("b.png", {"-", "a.png", "--update"}).status, 2);
-  EXPECT_THAT(piped("/dev/null", {"a.png", "-"}).err, HasSubstr("stdin: "));
-  EXPECT_EQ(files.diff({"a.png", "-"}).status, 2);
+  EXPECT_THAT(piped("b.png", "a.png -").out, HasSubstr("compared with a_1.png"));
+  EXPECT_THAT(piped("b.png", "- -").err, HasSubstr("one of the two may come from stdin"));
+  EXPECT_EQ(piped("b.png", "a.png - --update").status, 2);
+  EXPECT_EQ(piped("b.png", "- a.png --update").status, 2);
+  EXPECT_THAT(piped("/dev/null", "a.png -").err, HasSubstr("stdin: "));
+  EXPECT_EQ(files.diff("a.png -").status, 2);
   EXPECT_THAT(files.names(), Not(testing::Contains("-")));
 }
 
@@ -353,7 +325,7 @@ TEST(DiffReports, MarkdownOfAMergeRequest) {
   b.values[0] = 1;
   write(files / "x/one|two_<b>&$.png", grey);
   write(files / "y/one|two_<b>&$.png", b);
-  const Ran ran = files.diff({"x", "y", "--markdown", "-"});
+  const Ran ran = files.diff("x y --markdown -");
   EXPECT_EQ(ran.status, 1);
   EXPECT_THAT(ran.out, HasSubstr("### Pictures: 1 differs\n"));
   EXPECT_THAT(ran.out, HasSubstr("| one\\|two\\_\\<b>\\&\\$.png | differs |"));
@@ -367,17 +339,16 @@ TEST(DiffPicture, OnStdoutAndBesideThePage) {
   write(files / "a.png", grey);
   write(files / "b.png", b);
   // Nothing except the picture is written to stdout.
-  for (const char* kind : {"flip", "absolute"}) {
-    ASSERT_EQ(files.diff({"a.png", "b.png", "-o", "d.png", "--difference", kind}).status, 1);
-    const Ran ran = files.diff({"a.png", "b.png", "-o", "-", "--difference", kind});
+  for (const std::string kind : {"flip", "absolute"}) {
+    ASSERT_EQ(files.diff("a.png b.png -o d.png --difference " + kind).status, 1);
+    const Ran ran = files.diff("a.png b.png -o - --difference " + kind);
     EXPECT_EQ(ran.status, 1) << ran.err;
     EXPECT_EQ(ran.out, contents(files / "d.png"));
   }
   // The page has its own map, because JPEG would change its colours and |a - b| is another picture.
   const auto mapOf = [&](const std::string& output) {
     const std::string kind = output == "a.jpg" ? "absolute" : "flip";
-    EXPECT_EQ(files.diff({"a.png", "b.png", "-o", output, "--html", "r.html", "--difference", kind})
-                  .status,
+    EXPECT_EQ(files.diff("a.png b.png --html r.html --difference " + kind + " -o " + output).status,
               1);
     const std::string page = contents(files / "r.html"), begin = "id=\"m0\">";
     const auto at = page.find(begin);
@@ -394,10 +365,10 @@ TEST(DiffReports, PicturesBesideThePage) {
   b.values[0] = 1;
   write(files / "x/one.png", grey);
   write(files / "y/one.png", b);
-  EXPECT_EQ(files.diff({"x", "y", "--html", "r.html", "--pictures-beside"}).status, 1);
+  EXPECT_EQ(files.diff("x y --html r.html --pictures-beside").status, 1);
   EXPECT_THAT(contents(files / "r.html.pictures/a0.js"), HasSubstr("picture('a0','iVBOR"));
   EXPECT_THAT(contents(files / "r.html"), Not(HasSubstr("id=\"a0\"")));
-  EXPECT_EQ(files.diff({"x", "y", "--pictures-beside"}).status, 2);
+  EXPECT_EQ(files.diff("x y --pictures-beside").status, 2);
 }
 
 }  // namespace glint::test::diff_files_cli_test

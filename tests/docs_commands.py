@@ -2,8 +2,8 @@
 be pasted as they are. docs_commands.py SOURCE BUILD PAGE
 
 The README's first section is covered by .ci/fresh, in a bare Debian. Here, windows are closed after
-some seconds, studies stop early, and builds and full test runs are only looked up. All else is run
-unchanged.
+some seconds, studies and sessions stop early, and builds and tests are only looked up: the tests are
+run elsewhere. All else is run unchanged.
 """
 
 import os
@@ -19,10 +19,16 @@ source, build, page = (pathlib.Path(p).resolve() for p in sys.argv[1:4])
 PRELUDE = r"""
 glint() {
   case "$*" in
-    view*) timeout 8 glint "$@" || [ $? -eq 124 ] ;;
+    view*) timeout 5 glint "$@" || [ $? -eq 124 ] ;;
     study*--measure-costs* | study*--half-precision*) command glint "$@" ;;
-    study*) command glint "$@" --time-budget 10 ;;
+    study*) command glint "$@" --time-budget 2 ;;
     *) command glint "$@" ;;
+  esac
+}
+python3() {
+  case "$*" in
+    tests/viewer_session.py*) command python3 "${@:1:4}" 10 ;;
+    *) command python3 "$@" ;;
   esac
 }
 ctest() { command ctest "$@" -N | grep 'Total Tests: [1-9]'; }
@@ -35,7 +41,7 @@ cmake() {
       case "$2" in -*) return ;; esac
       [ -e "$2/glint" ] && return
       mkdir -p "$2/tests"
-      ln -sf "$BUILD"/glint* "$2"; ln -sf "$BUILD"/tests/*_tests "$2/tests" ;;
+      ln -sf "$BUILD"/glint* "$2"; ln -sf "$PWD"/build/release/tests/*_tests "$2/tests" ;;
     *) command cmake "$@" ;;
   esac
 }
@@ -64,8 +70,15 @@ def main():
         shutil.copytree(source, clone, ignore=shutil.ignore_patterns("build", ".git", "out"))
         release = clone / "build/release"
         release.mkdir(parents=True)
-        for each in build.iterdir():
-            (release / each.name).symlink_to(each)
+        for each in [*build.iterdir(), *(build / "tests").iterdir()]:
+            here = release / each.relative_to(build)
+            if each.name == "tests":
+                here.mkdir()
+            elif each.name.endswith("_tests"):
+                here.write_text('#!/bin/sh\n"%s" --gtest_list_tests "$@" | grep "^  "\n' % each)
+                here.chmod(0o755)
+            else:
+                here.symlink_to(each)
         display, number = os.pipe()
         server = subprocess.Popen(["Xvfb", "-displayfd", str(number), "-screen", "0", "1280x800x24"],
                                   pass_fds=[number], stderr=subprocess.DEVNULL)

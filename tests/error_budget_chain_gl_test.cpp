@@ -79,16 +79,13 @@ void look(Look& look, const Body& body, Random& r) {
   look.cameraOrthographic = r.below(5) == 0;
 }
 
-Image normalsOf(Stage& stage, const Scene& scene, const Look& look) {
+Image normalsOf(Stage& stage, const Scene& scene, const Look& drawn) {
+  const Look look = geometryLook(drawn);
   GpuScene gpu(scene, {});
   DrawList list = makeDrawList(scene, boundsOf(scene), look);
   for (DrawItem& item : list.items)
     item.variant = attributeVariant(item.variant, PixelOutput::normal);
   return stage.renderer().draw(gpu, std::move(list), look);
-}
-
-double largest(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 bool inside(const std::vector<reference::Attributes>& seen, int x, int y) {

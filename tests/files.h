@@ -73,18 +73,28 @@ inline std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
+/// The parts of a text between the `|` in it.
+inline std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text + "|");
+  for (std::string part; std::getline(in, part, '|');) parts.push_back(part);
+  return parts;
+}
+
 inline std::vector<std::byte> bytesOf(std::string_view text) {
   const auto* begin = reinterpret_cast<const std::byte*>(text.data());
   return {begin, begin + text.size()};
 }
 
-/// The message of the InputError that `action` throws.
+/// The message of the InputError that `action` throws, which is one line; "no error" without one.
 template <typename Action>
 std::string messageOf(const Action& action) {
   try {
     action();
   } catch (const InputError& error) {
-    return error.what();
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), message.npos) << message;
+    return message;
   }
   return "no error";
 }

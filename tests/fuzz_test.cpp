@@ -3,81 +3,37 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <map>
-// jpeglib.h needs FILE declared before it.
-#include <jpeglib.h>
 
 #include "fuzz/targets.h"
 #include "glint/budget/cost_file.h"
+#include "glint/image/file.h"
 #include "glint/image/image.h"
-#include "glint/image/picture_writer.h"
 #include "glint/options/parameters.h"
 #include "gltf_sample.h"
+#include "jpeg.h"
+#include "pictures.h"
 #include "random.h"
 #include "textures.h"
 
-namespace fuzz_test {
+namespace glint::test::fuzz_test {
 
 using Bytes = std::vector<std::byte>;
 
-Bytes bytesOf(const std::string& text) {
-  const auto span = std::as_bytes(std::span(text));
-  return {span.begin(), span.end()};
-}
-
-Bytes bytesOfFile(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return bytesOf({std::istreambuf_iterator<char>(in), {}});
-}
-
 Bytes codes(int width, int height) {
-  return glint::test::png(width, height, [](int x, int y) {
-    return glm::ivec4(40 * x % 256, 30 * y % 256, 90, 255 - x);
-  });
-}
-
-Bytes jpeg(bool progressive) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* out = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &out, &size);
-  info.image_width = info.image_height = 24;
-  info.input_components = 3;
-  info.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&info);
-  if (progressive) jpeg_simple_progression(&info);
-  jpeg_start_compress(&info, TRUE);
-  std::vector<unsigned char> row(std::size_t(3) * 24);
-  for (unsigned y = 0; y < 24; ++y) {
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<unsigned char>(5 * i + 9 * y);
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&info, &pointer, 1);
-  }
-  jpeg_finish_compress(&info);
-  const auto* begin = reinterpret_cast<const std::byte*>(out);
-  Bytes bytes(begin, begin + size);
-  jpeg_destroy_compress(&info);
-  std::free(out);
-  return bytes;
+  return png(width, height,
+             [](int x, int y) { return glm::ivec4(40 * x % 256, 30 * y % 256, 90, 255 - x); });
 }
 
 Bytes written(const std::filesystem::path& path) {
-  glint::Image image{5, 4, {}};
+  Image image{5, 4, {}};
   for (int i = 0; i < 4 * 5 * 4; ++i) image.values.push_back(float(i) / 40);
-  glint::PictureOptions options;
+  PictureOptions options;
   options.alpha = true;
   options.text = {{"glint-look", "{}"}};
-  const auto writer = glint::openPictureWriter(path.string(), 5, 4, options);
-  writer->write(image);
-  writer->finish();
-  return bytesOfFile(path);
+  writePicture(path.string(), image, options);
+  return readFile(path.string());
 }
 
 /// Grey, 2 x 2, uncompressed, one strip.
@@ -106,13 +62,13 @@ std::map<std::string, std::vector<Bytes>> seedsIn(Sample& sample) {
   sample.json["meshes"][0]["primitives"][0]["indices"] =
       sample.accessor<std::uint16_t>("SCALAR", {0, 1, 2});
   const auto file = [&](const char* name) { return sample.folder() / name; };
-  glint::Look look;
+  Look look;
   look.material["a#1"].color = glm::dvec3(0.1, 0.2, 0.3);
-  look.light = {glint::Light{.type = glint::Light::Type::camera, .direction = {1, 2, 3}}};
+  look.light = {Light{.type = Light::Type::camera, .direction = {1, 2, 3}}};
   return {
-      {"gltf", {bytesOfFile(sample.writeGlb()), bytesOfFile(sample.writeGltf())}},
+      {"gltf", {readFile(sample.writeGlb()), readFile(sample.writeGltf())}},
       {"png", {png, written(file("a.png"))}},
-      {"jpeg", {jpeg(false), jpeg(true)}},
+      {"jpeg", {makeJpeg(3, false), makeJpeg(3, true)}},
       // The smallest lossless one: one pixel.
       {"webp",
        {bytesOf(std::string("RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0/\0\0\0\x10\x07\x10\x11\x11\x88"
@@ -130,18 +86,18 @@ std::map<std::string, std::vector<Bytes>> seedsIn(Sample& sample) {
         bytesOf(std::string("BM\x2a\0\0\0\0\0\0\0\x1a\0\0\0\xc\0\0\0\2\0\2\0\1\0\x18\0", 26) +
                 "abcdef00ghijkl00"),
         bytesOf(std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\0", 18) + "abcdefghijkl")}},
-      {"look", {bytesOf(glint::saveLook(look)), bytesOf(glint::saveLook(glint::Look()))}},
+      {"look", {bytesOf(saveLook(look)), bytesOf(saveLook(Look()))}},
       {"material",
        {bytesOf("color=#c04020,exponent=200"), bytesOf("\"a=b\"#1:ior=1.5,specular=1")}},
       {"light",
        {bytesOf("spot:0,1,2:3,4,5:10,20:1,1,1:falloff,9"), bytesOf("camera@1,2,3:1,0.5,0"),
         bytesOf("directional:1,2,3")}},
       {"list", {bytesOf("a.glb\nb.glb\tb.png\r\n\nc.glb")}},
-      {"costs", {bytesOf(glint::costFileText({}))}},
+      {"costs", {bytesOf(costFileText({}))}},
   };
 }
 
-class Mutations : public glint::test::Random {
+class Mutations : public Random {
  public:
   using Random::Random;
 
@@ -188,8 +144,8 @@ class Mutations : public glint::test::Random {
 TEST(Fuzz, DamagedInputsAreReadOrRefused) {
   Sample sample;
   const auto seeds = seedsIn(sample);
-  const int draws = glint::test::drawsOf("GLINT_FUZZ_DRAWS", 300);
-  for (const glint::test::FuzzTarget& target : glint::test::fuzzTargets()) {
+  const int draws = drawsOf("GLINT_FUZZ_DRAWS", 300);
+  for (const FuzzTarget& target : fuzzTargets()) {
     SCOPED_TRACE(target.name);
     const std::vector<Bytes>& own = seeds.at(std::string(target.name));
     for (const Bytes& seed : own) ASSERT_NO_THROW(target.run(seed));
@@ -201,4 +157,4 @@ TEST(Fuzz, DamagedInputsAreReadOrRefused) {
   }
 }
 
-}  // namespace fuzz_test
+}  // namespace glint::test::fuzz_test

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "files.h"
 #include "glint/render/decode.h"
 #include "glint/scene/camera.h"
 #include "glint/shading/pbr_conversion.h"
@@ -21,12 +22,7 @@ glint::Scene loadWith(Sample& sample, const glint::PoseRequest& request) {
 }
 
 std::string refusalOf(Sample& sample, const glint::PoseRequest& request) {
-  try {
-    loadWith(sample, request);
-    return {};
-  } catch (const glint::InputError& error) {
-    return error.what();
-  }
+  return glint::test::messageOf([&] { loadWith(sample, request); });
 }
 
 TEST(GltfAllowed, InstancesOfANode) {

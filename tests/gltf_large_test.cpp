@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files.h"
 #include "glint/gltf/scene_file.h"
 #include "gltf_text.h"
 
@@ -124,12 +125,10 @@ TEST(LargeGltf, OfAFileCutShortIsRefused) {
   const std::string bytes = writeBuffer(folder);
   std::ofstream(folder + "/still.gltf") << modelOf(bytes.size());
   std::filesystem::resize_file(folder + "/large.bin", bytes.size() - 5);
-  try {
-    glint::loadGltf(folder + "/still.gltf");
-    FAIL() << "was loaded";
-  } catch (const glint::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("buffers[0] tells"), std::string::npos);
-  }
+  EXPECT_NE(glint::test::messageOf([&] {
+              glint::loadGltf(folder + "/still.gltf");
+            }).find("buffers[0] tells"),
+            std::string::npos);
 }
 
 }  // namespace gltf_large_test

@@ -6,6 +6,7 @@ one.
 """
 
 import fnmatch
+import functools
 import pathlib
 import re
 import sys
@@ -59,8 +60,9 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     files = {path: [a or b for a, b in INCLUDE.findall(path.read_text())] for path in sources(root)}
 
+    @functools.cache
     def found(name, beside):
-        for folder in (beside.parent, root / "src", root, root / "src/cli", root / "tests"):
+        for folder in (beside, root / "src", root, root / "src/cli", root / "tests"):
             if (folder / name).resolve() in files:
                 return (folder / name).resolve()
         return None
@@ -71,7 +73,7 @@ def main():
             for heavy in HEAVY:
                 if re.fullmatch(heavy, name):
                     yield heavy, [name]
-            inner = found(name, path)
+            inner = found(name, path.parent)
             if inner and inner not in seen:
                 seen.add(inner)
                 for heavy, way in ways(inner, seen):

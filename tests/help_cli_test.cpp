@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "command.h"
+#include "glint/options/parameters.h"
 
 namespace glint::test::help_cli_test {
 
@@ -106,6 +107,29 @@ TEST(Help, ExamplesRunAsPrinted) {
     }
     EXPECT_GE(count, 2u) << command;
   }
+}
+
+TEST(Help, ListsEveryOptionOfTheTable) {
+  for (const char* command : {"render", "info"}) {
+    const Ran ran = runGlint({command, "--help"});
+    expectDone(ran);
+    for (const glint::Parameter& p : glint::lookParameters())
+      EXPECT_THAT(ran.out, HasSubstr("--" + p.name)) << command;
+    for (const char* option : {"--look", "--save-look", "--json", "--help"})
+      EXPECT_THAT(ran.out, HasSubstr(option)) << command;
+  }
+  EXPECT_THAT(runGlint({"render", "--help"}).out,
+              AllOf(HasSubstr("--output"), HasSubstr("--bit-depth"), HasSubstr("--glsl"),
+                    HasSubstr("--rendering-backend")));
+}
+
+TEST(Help, OfTheProgramListsTheCommands) {
+  const Ran ran = runGlint({"--help"});
+  expectDone(ran);
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("render"), HasSubstr("info"), HasSubstr("backends")));
+  const Ran version = runGlint({"--version"});
+  expectDone(version);
+  EXPECT_THAT(version.out, testing::MatchesRegex("glint [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
 TEST(Help, ByTheWordHelp) {

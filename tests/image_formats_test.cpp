@@ -22,6 +22,7 @@
 #include "glint/image/picture_writer.h"
 #include "glint/image/read_image.h"
 #include "glint/image/stored_image.h"
+#include "pictures.h"
 
 namespace glint::test::image_formats_test {
 
@@ -236,9 +237,7 @@ TEST(Hdr, DamageIsNamed) {
 TEST(PngText, SurvivesWithItsLetters) {
   glint::PictureOptions options;
   options.text = {{"GL_RENDERER", "llvmpipe (LLVM 15)"}, {"look", "caf\u00e9"}};
-  const auto writer = glint::openPictureWriter(in("text.png"), 3, 3, options);
-  writer->write(numbered(3, 3, 0));
-  writer->finish();
+  writePicture(in("text.png"), numbered(3, 3, 0), options);
   const glint::Image image = glint::readImage(in("text.png"));
   EXPECT_EQ(image.text.at("GL_RENDERER"), "llvmpipe (LLVM 15)");
   EXPECT_EQ(image.text.at("look"), "caf\u00e9");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "../src/cli/output_names.h"
+#include "files.h"
 #include "glint/image/error.h"
 
 namespace glint::output_names_test {
@@ -20,12 +21,7 @@ std::vector<std::string> outputNames(const std::string& pattern,
 }
 
 std::string failure(const std::string& pattern, bool frames = false) {
-  try {
-    OutputPattern names(pattern, frames);
-  } catch (const glint::InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return glint::test::messageOf([&] { OutputPattern names(pattern, frames); });
 }
 
 TEST(OutputNames, StandForModelAndNumber) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files.h"
 #include "glint/gltf/scene_file.h"
 #include "glint/image/error.h"
 #include "reference_scenes.h"
@@ -314,17 +315,11 @@ TEST(ReferenceSphere, IsASphereUpToItsFacets) {
 
 TEST(ReferenceUsage, RefusesNumbersOfSamplesWithoutAPattern) {
   Scene scene = sceneOf({{rectangle({0, 0}, {1, 1}), Material{}}});
-  try {
-    Look look;
-    look.antiAliasing = {glint::AntiAliasing::Mode::msaa, 6};
-    draw(scene, look);
-    FAIL();
-  } catch (const glint::InputError& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        "--anti-aliasing msaa:6: the reference draws msaa of 2, 4, 8 and 16 samples: give one "
-        "of these, or ssaa:N");
-  }
+  Look look;
+  look.antiAliasing = {glint::AntiAliasing::Mode::msaa, 6};
+  EXPECT_EQ(test::messageOf([&] { draw(scene, look); }),
+            "--anti-aliasing msaa:6: the reference draws msaa of 2, 4, 8 and 16 samples: give one "
+            "of these, or ssaa:N");
 }
 
 }  // namespace glint::reference_shading_test

@@ -10,22 +10,17 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/file.h"
 #include "glint/image/image.h"
-#include "glint/image/picture_writer.h"
-#include "glint/options/parameters.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_key.h"
 #include "glint/scene/material_parameters.h"
 #include "gltf_sample.h"
-#include "gltf_text.h"
+#include "looks.h"
+#include "pictures.h"
 #include "random.h"
 #include "viewer/edits.h"
 #include "viewer/light_edit.h"
 #include "viewer/look_merge.h"
 #include "viewer/session.h"
-
-namespace glint {
-void PrintTo(const Look& look, std::ostream* out);  // look_test.cpp
-}  // namespace glint
 
 namespace glint::test::roundtrip_test {
 
@@ -167,12 +162,6 @@ class Texts : public test::Random {
   }
 };
 
-Look read(const std::string& text) {
-  Look look;
-  readLook(look, text, "a.json");
-  return look;
-}
-
 // Parameters of a light that its type does not use are not saved.
 Look withoutRest(Look look) {
   if (!look.light) return look;
@@ -193,15 +182,13 @@ TEST(RoundTrip, OfEveryParameterThroughTextAndPictures) {
   for (int i = 0; i < draws; ++i) {
     const Look look = texts.look();
     const std::string text = saveLook(look);
-    ASSERT_EQ(read(text), look) << text;
-    ASSERT_EQ(saveLook(read(text)), text);
+    ASSERT_EQ(lookOf(text), look) << text;
+    ASSERT_EQ(saveLook(lookOf(text)), text);
     if (i % 20 != 0) continue;
     for (const char* name : {"/look.png", "/look.exr"}) {
       PictureOptions options;
       options.text = {{"glint-look", text}};
-      const auto writer = openPictureWriter(folder + name, 1, 1, options);
-      writer->write({1, 1, {0, 0, 0, 1}});
-      writer->finish();
+      writePicture(folder + name, {1, 1, {0, 0, 0, 1}}, options);
       Look back;
       readLookFile(back, folder + name);
       ASSERT_EQ(back, look) << name;
@@ -285,7 +272,7 @@ TEST(RoundTrip, OfEveryEditOfTheWindow) {
       }
       const std::string text = saveLook(look);
       Look back;
-      ASSERT_NO_THROW(back = read(text)) << text;
+      ASSERT_NO_THROW(back = lookOf(text)) << text;
       ASSERT_EQ(withoutRest(back), withoutRest(look));
       ASSERT_EQ(saveLook(back), text);
     }

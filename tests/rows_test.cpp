@@ -9,9 +9,9 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/picture_layers.h"
-#include "glint/image/picture_writer.h"
 #include "glint/image/png_bytes.h"
 #include "gltf_text.h"
+#include "pictures.h"
 
 namespace glint::test::rows_test {
 
@@ -46,9 +46,7 @@ Bytes pngOf16Bits() {
   std::mt19937 random(3);
   for (std::size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = i % 4 == 3 ? 1.0f : float(random() % 1000) / 999;
-  const auto writer = glint::openPictureWriter(path, width, height, options);
-  writer->write(image);
-  writer->finish();
+  writePicture(path, image, options);
   return glint::readFile(path);
 }
 

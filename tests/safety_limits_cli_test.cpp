@@ -6,16 +6,14 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "command.h"
 #include "gltf_sample.h"
+#include "running.h"
 
 namespace glint::test::safety_limits_cli_test {
 
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 // The memory of a run that reads only headers, and draws; a sanitizer keeps freed memory.
 #ifdef __SANITIZE_ADDRESS__
 constexpr long fewKib = 1 << 20;
@@ -57,10 +55,6 @@ std::string hdrOf(int width, int height) {
          std::to_string(width) + "\n" + std::string(4000, '\2');
 }
 
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
 /// Extends a file with a hole, which takes no room on the disk; false if that is not supported.
 bool lengthen(const std::string& path, std::uintmax_t size) {
   std::error_code error;
@@ -68,22 +62,10 @@ bool lengthen(const std::string& path, std::uintmax_t size) {
   return !error;
 }
 
-Ran lit(const std::string& environment, const std::string& out, std::vector<std::string> more) {
-  more.insert(more.begin(), {"render", shipped + "torus.glb", "-o", out, "--shading", "environment",
-                             "--hdri-file", environment});
-  return runGlint(quick(more));
-}
-
-Ran withStdin(const fs::path& model, const std::string& command, const fs::path& folder) {
-  const std::string line = std::string("'") + GLINT_EXECUTABLE "' " + command + " > '" +
-                           (folder / "out").string() + "' 2> '" + (folder / "err").string() + "'";
-  Ran ran;
-  const int status =
-      std::system(("cat '" + model.string() + "' | sh -c \"exec " + line + "\"").c_str());
-  if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
-  ran.out = contents((folder / "out").string());
-  ran.err = contents((folder / "err").string());
-  return ran;
+Ran lit(const std::string& environment, const std::string& out, const Arguments& more = {}) {
+  return runGlint(quick({"render", shipped + "torus.glb", "-o", out, "--shading", "environment",
+                         "--hdri-file", environment},
+                        more));
 }
 
 TEST(EnvironmentPicture, IsRefusedByItsHeader) {
@@ -100,11 +82,9 @@ TEST(EnvironmentPicture, IsRefusedByItsHeader) {
   };
   for (const Case& each : cases) {
     SCOPED_TRACE(each.name);
-    write(folder / each.name, each.bytes);
-    const Ran ran = lit(folder / each.name, folder / "a.png", {});
-    EXPECT_EQ(ran.status, 2);
-    EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
-    EXPECT_THAT(ran.err, HasSubstr(each.name + ": "));
+    writeText(folder / each.name, each.bytes);
+    const Ran ran = lit(folder / each.name, folder / "a.png");
+    expectRefusal(ran, each.name + ": ");
     EXPECT_THAT(ran.err, HasSubstr("pixels are too many"));
     EXPECT_THAT(ran.err, HasSubstr("raise --decode-limit"));
     EXPECT_LT(ran.peakKib, fewKib);
@@ -117,14 +97,12 @@ TEST(EnvironmentPicture, KeepsToTheDecodeLimit) {
   // 512 x 256 pixels, all 1: 2 MiB as floats, and three times 0.66 MiB.
   std::string picture = "PF\n512 256\n-1.0\n";
   for (int i = 0; i < 3 * 512 * 256; ++i) picture += std::string("\0\0\x80\x3f", 4);
-  write(folder / "e.pfm", picture);
-  EXPECT_EQ(lit(folder / "e.pfm", folder / "a.png", {}).status, 0);
+  writeText(folder / "e.pfm", picture);
+  EXPECT_EQ(lit(folder / "e.pfm", folder / "a.png").status, 0);
   EXPECT_EQ(lit(folder / "e.pfm", folder / "a.png", {"--decode-limit", "1"}).status, 0);
-  write(folder / "large.pfm", "PF\n512 512\n-1.0\n" + std::string(3 * 4 * 512 * 512, '\0'));
-  const Ran ran = lit(folder / "large.pfm", folder / "b.png", {"--decode-limit", "1"});
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err,
-              HasSubstr("512 x 512 pixels are too many: decoded they take more than 3 MiB"));
+  writeText(folder / "large.pfm", "PF\n512 512\n-1.0\n" + std::string(3 * 4 * 512 * 512, '\0'));
+  expectRefusal(lit(folder / "large.pfm", folder / "b.png", {"--decode-limit", "1"}),
+                "512 x 512 pixels are too many: decoded they take more than 3 MiB");
 }
 
 TEST(DamagedExr, AsksForNoMoreThanItHas) {
@@ -133,10 +111,9 @@ TEST(DamagedExr, AsksForNoMoreThanItHas) {
   std::string bytes = exrOf(8, 8);
   const std::size_t at = bytes.find("chlist") + 7;
   bytes.replace(at, 4, littleEndian(0x7fffffff));
-  write(folder / "a.exr", bytes);
-  const Ran ran = lit(folder / "a.exr", folder / "a.png", {});
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("the EXR is cut short"));
+  writeText(folder / "a.exr", bytes);
+  const Ran ran = lit(folder / "a.exr", folder / "a.png");
+  expectRefusal(ran, "the EXR is cut short");
   EXPECT_LT(ran.peakKib, fewKib);
   const Ran compared = runGlint({"diff", folder / "a.exr", folder / "a.exr"});
   EXPECT_EQ(compared.status, 2);
@@ -145,8 +122,8 @@ TEST(DamagedExr, AsksForNoMoreThanItHas) {
 
 TEST(Holes, OfAFileAreNotRead) {
   const Folder folder("holes");
-  write(folder / "nothing", "");
-  write(folder / "begun.gltf", "{");
+  writeText(folder / "nothing", "");
+  writeText(folder / "begun.gltf", "{");
   if (!lengthen(folder / "nothing", std::uintmax_t(1) << 40) ||
       !lengthen(folder / "begun.gltf", std::uintmax_t(1) << 40))
     GTEST_SKIP() << "this file system has no files of a terabyte";
@@ -188,7 +165,7 @@ TEST(Holes, OfAGlbAreNotRead) {
                             littleEndian(chunk) + std::string("BIN\0", 4) +
                             std::string(sample.binary.begin(), sample.binary.end());
   const std::string model = (sample.folder() / "m.glb").string();
-  write(model, bytes);
+  writeText(model, bytes);
   if (!lengthen(model, 12 + head.size() + 8 + std::uintmax_t(chunk)))
     GTEST_SKIP() << "this file system has no files of four gigabytes";
   const auto secondsOf = [&](const std::string& of) {
@@ -208,11 +185,10 @@ TEST(Confine, TakesAModelFromStdinThatNamesNoFiles) {
   sample.triangle();
   const fs::path folder = sample.folder();
   const std::string picture = (folder / "a.png").string();
-  const std::string draw =
-      "render - --confine --rendering-backend osmesa --resolution 40,30 -o '" + picture + "'";
+  const Arguments draw = quick({"render", "-", "--confine", "-o", picture});
   const fs::path whole = sample.writeGlb();
-  EXPECT_EQ(withStdin(whole, "info - --confine", folder).status, 0);
-  const Ran drawn = withStdin(whole, draw, folder);
+  EXPECT_EQ(piped(contents(whole.string()), {"info", "-", "--confine"}).status, 0);
+  const Ran drawn = piped(contents(whole.string()), draw);
   EXPECT_EQ(drawn.status, 0) << drawn.err;
   EXPECT_TRUE(fs::exists(picture));
   fs::remove(picture);
@@ -222,9 +198,7 @@ TEST(Confine, TakesAModelFromStdinThatNamesNoFiles) {
                                   std::string("../maps"), std::string("../../../etc/passwd")}) {
     SCOPED_TRACE(name);
     sample.buffers = Json::array({{{"uri", name}, {"byteLength", sample.binary.size()}}});
-    const Ran ran = withStdin(sample.writeGltf(), draw, folder);
-    EXPECT_EQ(ran.status, 2);
-    EXPECT_THAT(ran.err, HasSubstr("stdin: buffers[0]"));
+    expectRefusal(piped(contents(sample.writeGltf().string()), draw), "stdin: buffers[0]");
     EXPECT_FALSE(fs::exists(picture));
   }
 }

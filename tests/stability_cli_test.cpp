@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "command.h"
@@ -14,10 +13,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-Ran stability(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "stability");
-  arguments.insert(arguments.end(), {"--rendering-backend", "osmesa"});
-  return runGlint(arguments);
+Ran stability(const Arguments& arguments) {
+  return runGlint(joined({"stability", "--rendering-backend", "osmesa"}, arguments));
 }
 
 TEST(StabilityCommand, ListsTheWholeCatalogue) {
@@ -50,9 +47,8 @@ TEST(StabilityCommand, ACaseThatPassesAndOneThatFails) {
 
 TEST(StabilityCommand, ReportAndPage) {
   Folder folder("stability");
-  const Ran ran = stability({"--case", "K1", "--json", "-", "--output", folder / "new/page"});
-  ASSERT_EQ(ran.status, 0) << ran.err;
-  const auto json = nlohmann::json::parse(ran.out);
+  const Json json =
+      reportOf(stability({"--case", "K1", "--json", "-", "--output", folder / "new/page"}));
   EXPECT_TRUE(json.at("passed"));
   EXPECT_EQ(json.at("cases").at(0).at("id"), "K1");
   EXPECT_FALSE(json.at("cases").at(0).at("checks").empty());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -115,6 +116,10 @@ inline bool isFinite(const Image& image) {
   return true;
 }
 
+inline double largest(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 inline double largestDifference(const Image& a, const Image& b) {
   EXPECT_EQ(a.values.size(), b.values.size());
   double most = 0;
@@ -123,6 +128,16 @@ inline double largestDifference(const Image& a, const Image& b) {
     most = d <= most ? most : d;  // keeps NaN
   }
   return most;
+}
+
+/// The same view, for pictures of attributes: of one program, form and light, so that few variants
+/// of it are compiled for many looks.
+inline Look geometryLook(Look look) {
+  look.shading = Shading::phong;
+  look.highlight = {};
+  look.light = {directional({0, 0, 1})};
+  look.noLights = false;
+  return look;
 }
 
 /// The number of pixels whose bits differ.

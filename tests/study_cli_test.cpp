@@ -2,34 +2,28 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "command.h"
 
-namespace glint::test {
-namespace study_cli_test {
+namespace glint::test::study_cli_test {
 
-using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
 const std::string sphere = GLINT_SOURCE_DIR "/models/sphere-series/sphere-3.glb";
 
 /// Three frames of a few pixels may have any spread.
-std::vector<std::string> tiny(std::vector<std::string> more) {
-  more.insert(more.begin(), {"study", "--quick", "--resolution", "48,48", "--repetitions", "3"});
-  if (std::find(more.begin(), more.end(), "--spread-limit") == more.end())
-    more.insert(more.end(), {"--spread-limit", "1e6"});
-  return more;
+Ran study(const std::string& options) {
+  const bool limited = options.find("--spread-limit") != options.npos;
+  return runGlint(split("study --quick --resolution 48,48 --repetitions 3 " + options +
+                        (limited ? "" : " --spread-limit 1e6")));
 }
 
 // Only the exact forms, which omits the series; study_page_test.py has a whole study.
 TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
   const std::string file = temporaryFolder() + "/results.md";
-  const Ran ran = runGlint(
-      tiny({"--highlight", "exact", "--fresnel", "exact", "--json", "-", "--markdown", file}));
+  const Ran ran = study("--highlight exact --fresnel exact --json - --markdown " + file);
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(contents(file), HasSubstr("glint study --quick --repetitions 3"));
   const Json json = Json::parse(ran.out);
@@ -88,9 +82,8 @@ TEST(StudyCommand, TellsTimesErrorsAndFrontsOfTheBuiltInSphere) {
 // No spread is 0, so nothing is concluded, and every output says what to do.
 TEST(StudyCommand, MakesNoFrontOfWhatItCannotTell) {
   const Folder folder("study-no-front");
-  const Ran ran =
-      runGlint(tiny({"--highlight", "exact", "--fresnel", "exact", "--spread-limit", "0", "--clock",
-                     "cpu", "--output", folder / "out", "--markdown", folder / "results.md"}));
+  const Ran ran = study("--highlight exact --fresnel exact --spread-limit 0 --clock cpu --output " +
+                        folder / "out" + " --markdown " + folder / "results.md");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Json json = Json::parse(contents(folder / "out/study.json"));
   EXPECT_EQ(json["clock"], "cpu");
@@ -108,7 +101,7 @@ TEST(StudyCommand, MakesNoFrontOfWhatItCannotTell) {
 }
 
 TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
-  const Ran ran = runGlint(tiny({sphere, "--shading", "phong", "--json", "-"}));
+  const Ran ran = study(sphere + " --shading phong --json -");
   ASSERT_EQ(ran.status, 0) << ran.err;
   // The model's material has no highlight: all forms are one.
   const Json json = Json::parse(ran.out);
@@ -118,20 +111,18 @@ TEST(StudyCommand, StudiesOnlyWhatIsAskedFor) {
 
 // A form that is in no list, with any parameter: by every program that has it, and by no other.
 TEST(StudyCommand, StudiesAnyFormThatIsAskedFor) {
-  const Ran lobes = runGlint(tiny({"--highlight", "lyon:8"}));
+  const Ran lobes = study("--highlight lyon:8");
   EXPECT_EQ(lobes.status, 0) << lobes.err;
   EXPECT_THAT(lobes.out, HasSubstr("blinn-phong lyon:8"));
   EXPECT_THAT(lobes.out, Not(HasSubstr("environment")));
-  const Ran fresnels = runGlint(tiny({"--fresnel", "rational"}));
+  const Ran fresnels = study("--fresnel rational");
   EXPECT_EQ(fresnels.status, 0) << fresnels.err;
   EXPECT_THAT(fresnels.out, HasSubstr("environment rational"));
   EXPECT_THAT(fresnels.out, Not(HasSubstr("gouraud")));
 }
 
 TEST(StudyCommand, EndsWithWhatThereIsWhenTheTimeIsUp) {
-  const Ran ran = runGlint(tiny({"--time-budget", "0.001", "--json", "-"}));
-  ASSERT_EQ(ran.status, 0) << ran.err;
-  const Json json = Json::parse(ran.out);
+  const Json json = reportOf(study("--time-budget 0.001 --json -"));
   EXPECT_FALSE(json["complete"].get<bool>());
   EXPECT_FALSE(json["missing"].empty());
 }
@@ -155,41 +146,32 @@ TEST(StudyCommand, KeepsWhatIsDoneWhenInterrupted) {
 }
 
 TEST(StudyCommand, RefusesWhatItCannotDo) {
-  const auto refused = [](std::vector<std::string> arguments, const std::string& words) {
-    const Ran ran = runGlint(tiny(std::move(arguments)));
-    EXPECT_EQ(ran.status, 2);
-    EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
-    EXPECT_THAT(ran.err, HasSubstr(words));
-    EXPECT_EQ(ran.out, "");
-  };
-  refused({"--rendering-backend", "reference"}, "a study measures GL against the reference");
-  refused({"--anti-aliasing", "ssaa:2"}, "single samples");
-  refused({"no-such.glb"}, "no-such.glb");
-  refused({"--time-budget", "0"}, "--time-budget");
-  refused({"--clock", "sundial"}, "--clock");
-  refused({"--clock", "gpu", "--rendering-backend", "osmesa"}, "--clock gpu");
-  refused({"--repetitions", "0"}, "--repetitions");
-  refused({"--material", "Nobody:ior=2"}, "Nobody");
-  refused({"--measure-costs", "/tmp/costs.json"}, "leave --quick out");
-  refused({"--cost-table", "/no/such.json"}, "/no/such.json");
-  refused({"--camera-position", "0,0,9", "--camera-focal-point", "0,0,20"}, "no pixel");
+  expectRefusal(study("--rendering-backend reference"),
+                "a study measures GL against the reference");
+  expectRefusal(study("--anti-aliasing ssaa:2"), "single samples");
+  expectRefusal(study("no-such.glb"), "no-such.glb");
+  expectRefusal(study("--time-budget 0"), "--time-budget");
+  expectRefusal(study("--clock sundial"), "--clock");
+  expectRefusal(study("--clock gpu --rendering-backend osmesa"), "--clock gpu");
+  expectRefusal(study("--repetitions 0"), "--repetitions");
+  expectRefusal(study("--material Nobody:ior=2"), "Nobody");
+  expectRefusal(study("--measure-costs /tmp/costs.json"), "leave --quick out");
+  expectRefusal(study("--cost-table /no/such.json"), "/no/such.json");
+  expectRefusal(study("--camera-position 0,0,9 --camera-focal-point 0,0,20"), "no pixel");
 }
 
 // A model with nothing to compare: one line, without the model's other warnings.
 TEST(StudyCommand, SaysOneLineOfAnEmptyModel) {
   const Folder folder("study-empty");
   std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
-  const Ran ran = runGlint(tiny({folder / "empty.gltf", "--output", folder / "deep/report"}));
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_EQ(ran.errorLines().size(), 1u) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("empty: no pixel"));
+  const Ran ran = study(folder / "empty.gltf" + " --output " + folder / "deep/report");
+  expectRefusal(ran, "empty: no pixel");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"empty.gltf"});  // nor an empty folder
 }
 
 // The choice for a budget appears with the others, within its bound.
 TEST(StudyCommand, ShowsWhatABudgetChooses) {
-  const Ran ran = runGlint(
-      tiny({"--max-error", "0.01", "--highlight", "exact", "--fresnel", "exact", "--json", "-"}));
+  const Ran ran = study("--max-error 0.01 --highlight exact --fresnel exact --json -");
   ASSERT_EQ(ran.status, 0) << ran.err;
   int chosen = 0;
   const Json json = Json::parse(ran.out);
@@ -204,8 +186,8 @@ TEST(StudyCommand, ShowsWhatABudgetChooses) {
     EXPECT_EQ(v["times"]["wall"]["frames"], 3);
   }
   EXPECT_EQ(chosen, 3);  // phong, blinn-phong, environment
-  const Ran automatic = runGlint(tiny({"--max-error", "0.01", "--shading", "auto", "--highlight",
-                                       "exact", "--fresnel", "exact", "--json", "-"}));
+  const Ran automatic =
+      study("--max-error 0.01 --shading auto --highlight exact --fresnel exact --json -");
   ASSERT_EQ(automatic.status, 0) << automatic.err;
   EXPECT_EQ(Json::parse(automatic.out)["variants"].size(), 5u + 3u);
 }
@@ -219,9 +201,7 @@ TEST(StudyCommand, TellsWhatHalfFloatsLose) {
   EXPECT_THAT(contents(GLINT_SOURCE_DIR "/docs/approximations.md"),
               HasSubstr(ran.out.substr(0, end)));
   EXPECT_THAT(ran.out.substr(end), HasSubstr("`mediump`"));
-  const Ran refused = runGlint({"study", "--half-precision", "-", "--quick"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("leave --quick out"));
+  expectRefusal(runGlint({"study", "--half-precision", "-", "--quick"}), "leave --quick out");
 }
 
 TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {
@@ -234,5 +214,4 @@ TEST(StudyCommand, LeavesNoTableOfCostsWhenInterrupted) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-}  // namespace study_cli_test
-}  // namespace glint::test
+}  // namespace glint::test::study_cli_test

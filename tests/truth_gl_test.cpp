@@ -7,19 +7,16 @@
 #include <cstdio>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "formulas.h"
 #include "glint/gltf/scene_file.h"
-#include "glint/image/file.h"
-#include "glint/image/picture_writer.h"
-#include "glint/image/srgb.h"
 #include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_parameters.h"
-#include "gltf_text.h"
+#include "pictures.h"
 #include "random.h"
 #include "stage.h"
+#include "textures.h"
 
 namespace glint::test::truth_gl_test {
 
@@ -55,23 +52,8 @@ glm::dvec3 quadratic(const glm::dvec3& d) {
 constexpr int pictureRows = 256;
 constexpr double texel = std::numbers::pi / pictureRows;
 
-// Written once, because files that were read must not be overwritten.
 std::string pictureOf(const std::string& name, const Radiance& radiance) {
-  const std::string path = temporaryFolder() + "/" + name + ".pfm";
-  static std::set<std::string> written;
-  if (!written.insert(name).second) return path;
-  Image image{2 * pictureRows, pictureRows, {}};
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const double down = texel * (y + 0.5), turn = texel * (x + 0.5) - std::numbers::pi;
-      const glm::dvec3 e = radiance(
-          {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
-      image.values.insert(image.values.end(), {float(e.r), float(e.g), float(e.b), 1.0f});
-    }
-  const auto writer = openPictureWriter(path, image.width, image.height);
-  writer->write(image);
-  writer->finish();
-  return path;
+  return environmentPicture(name, pictureRows, radiance);
 }
 
 // The direction that an environment rotated by an angle about +Y shows.
@@ -102,10 +84,6 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
     const std::string picture = pictureOf("radiance" + std::to_string(i++), radiance);
     const double tolerance = bend * texel * texel / 4 + 2e-6;
     double mirrored = 0, seenThrough = 0;
-    const auto apart = [](const glm::dvec3& a, const glm::dvec3& b) {
-      const glm::dvec3 d = glm::abs(a - b);
-      return std::max({d.x, d.y, d.z});
-    };
     for (const double turn : {0.0, 33.0, 180.0, -120.0})
       for (const glm::dvec3& to : directions)
         for (const double cosine : {1.0, 0.6, 0.02}) {  // 0.02: grazing
@@ -133,7 +111,7 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
                 std::swap(mesh.indices[4], mesh.indices[5]);
           const glm::dvec3 shown = middle(draw(sceneOf(mesh, mirror), look));
           expectColor(shown, radiance(turnedBack(seen, turn)), tolerance, "mirror");
-          mirrored = std::max(mirrored, apart(shown, radiance(turnedBack(seen, turn))));
+          mirrored = std::max(mirrored, largest(shown - radiance(turnedBack(seen, turn))));
           // Glass: the same direction by reflection, another one by refraction.
           Material glass = materialOf(0, 0, 0, 1);
           glass.shading.transmission = 1;
@@ -144,7 +122,7 @@ TEST_P(Truth, MirrorsAndPanesShowWhatIsThere) {
           const glm::dvec3 both =
               r * radiance(turnedBack(seen, turn)) + (1 - r) * radiance(turnedBack(through, turn));
           expectColor(pane, both, tolerance + 1e-5, "glass");
-          seenThrough = std::max(seenThrough, apart(pane, both));
+          seenThrough = std::max(seenThrough, largest(pane - both));
           if (HasFailure())
             FAIL() << "to " << seen.x << " " << seen.y << " " << seen.z << " cosine " << cosine
                    << " turn " << turn;
@@ -173,28 +151,11 @@ TEST_P(Truth, NeighboursInTotalReflection) {
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x) {
       covered += color(truth, x, y) != color(truth, 0, 0);
-      const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
-      off += std::max({d.x, d.y, d.z}) > 2e-3;
+      off += largest(color(drawn, x, y) - color(truth, x, y)) > 2e-3;
     }
   EXPECT_GT(covered, 5000);
   // At the outline, and where the square root at the critical angle takes the root of a rounding.
   EXPECT_LE(off, covered / 500);
-}
-
-std::vector<std::byte> png(const std::string& name, int size,
-                           const std::function<glm::ivec3(int x, int y)>& code) {
-  const std::string path = temporaryFolder() + "/" + name;
-  const auto writer = openPictureWriter(path, size, size);
-  Image image{size, size, {}};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const glm::ivec3 c = code(x, y);
-      for (int k = 0; k < 3; ++k) image.values.push_back(decodeSrgb8(std::uint8_t(c[k])));
-      image.values.push_back(1);
-    }
-  writer->write(image);
-  writer->finish();
-  return readFile(path);
 }
 
 // With an odd size, so that the levels have weights other than a half.
@@ -208,8 +169,8 @@ Scene texturedQuad(Sampler sampler, double repeats) {
   mesh.texcoords = {{{0, r}, {r, r}, {r, 0}, {0, 0}}};
   Scene scene = sceneOf(mesh, m);
   Random random(3);
-  static const std::vector<std::byte> noise = png("noise.png", 61, [&](int, int) {
-    return glm::ivec3(random.below(256), random.below(256), random.below(256));
+  static const std::vector<std::byte> noise = png(61, 61, [&](int, int) {
+    return glm::ivec4(random.below(256), random.below(256), random.below(256), 255);
   });
   scene.images.push_back({"noise", noise, false});
   return scene;
@@ -247,8 +208,7 @@ TEST_P(Truth, TexturesAreFilteredByTheRule) {
           int jumps = 0;
           for (int y = 1; y < 63; ++y)
             for (int x = 1; x < 63; ++x) {
-              const glm::dvec3 d = glm::abs(color(drawn, x, y) - color(truth, x, y));
-              const double most = std::max({d.x, d.y, d.z});
+              const double most = largest(color(drawn, x, y) - color(truth, x, y));
               // A nearest texel, or a nearest level, may be either of two that are equally near.
               const bool jump = (magnify == Filter::nearest || minify == Filter::nearest ||
                                  mip == MipFilter::nearest || color(drawn, x, y) == glm::dvec3(0) ||
@@ -304,10 +264,6 @@ TEST_P(Truth, WhollyCoveredPixelsAreShadedInTheirMiddle) {
       }
     EXPECT_GT(whole, 300);
   }
-}
-
-double largest(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 /// The number of pixels that differ from the reference, and the largest difference relative to the

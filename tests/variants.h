@@ -5,7 +5,15 @@
 #include <set>
 
 #include "glint/render/variant.h"
+#include "glint/scene/look_text.h"
 #include "scenes.h"
+
+namespace glint {
+inline void PrintTo(const Variant& v, std::ostream* out) {
+  *out << shadingName(v.program) << (v.multisampled ? " multisampled" : "");
+  for (const std::string& name : featureNames(v)) *out << " " << name;
+}
+}  // namespace glint
 
 namespace glint::test {
 

@@ -1,6 +1,7 @@
 """A viewer in a real window under Xvfb, operated with xdotool and observed through the X server's
 pixels. No wait relies on time alone, because the machine may be busy."""
 
+import ctypes
 import json
 import os
 import shutil
@@ -27,9 +28,22 @@ def wait_for(what, condition, patience=PATIENCE):
         time.sleep(0.03)
 
 
-def pixels_of(png):
-    return subprocess.run(["convert", png, "-depth", "8", "rgb:-"], capture_output=True,
-                          check=True).stdout
+class PngImage(ctypes.Structure):
+    """Of libpng's simplified interface."""
+    _fields_ = [("opaque", ctypes.c_void_p), *((name, ctypes.c_uint32) for name in (
+        "version", "width", "height", "format", "flags", "colormap_entries", "failed")),
+                ("message", ctypes.c_char * 64)]
+
+
+def pixels_of(path):
+    """The codes of a PNG, RGB, rows from the top."""
+    png = ctypes.CDLL("libpng16.so.16")
+    image = PngImage(version=1)
+    assert png.png_image_begin_read_from_file(ctypes.byref(image), path.encode()), image.message
+    image.format = 2  # RGB, as it is stored
+    codes = ctypes.create_string_buffer(3 * image.width * image.height)
+    assert png.png_image_finish_read(ctypes.byref(image), None, codes, 0, None), image.message
+    return codes.raw
 
 
 def pfm_pixel(data, x, y):
@@ -129,23 +143,20 @@ class Viewer:
         return done.stdout.strip()
 
     def key(self, *keys):
-        for each in keys:
-            self.xdotool("key", each)
-            time.sleep(0.05)
+        self.xdotool(*(word for each in keys for word in ("key", each, "sleep", "0.05")))
 
     def move(self, x, y):
         self.xdotool("mousemove", str(x), str(y))
 
     def click(self, x, y, repeat=1):
-        self.move(x, y)
-        self.xdotool("click", "--repeat", str(repeat), "--delay", "1", "1")
+        self.xdotool("mousemove", str(x), str(y), "click", "--repeat", str(repeat), "--delay", "1", "1")
 
     def drag(self, x0, y0, x1, y1, button=1, steps=8):
-        self.move(x0, y0)
-        self.xdotool("mousedown", str(button))
-        for i in range(1, steps + 1):
-            self.move(x0 + (x1 - x0) * i // steps, y0 + (y1 - y0) * i // steps)
-        self.xdotool("mouseup", str(button))
+        places = [(x0 + (x1 - x0) * i // steps, y0 + (y1 - y0) * i // steps)
+                  for i in range(steps + 1)]
+        moves = [["mousemove", str(x), str(y), "sleep", "0.01"] for x, y in places]
+        moves.insert(1, ["mousedown", str(button), "sleep", "0.01"])
+        self.xdotool(*(word for move in moves for word in move), "mouseup", str(button))
 
     def screenshot(self, path):
         subprocess.run(["import", "-window", "root", path], env=self.environment)
@@ -154,19 +165,21 @@ class Viewer:
         """The bytes of the whole screen, RGB."""
         return self.x.capture(0, 0, *self.screen)
 
-    def settled(self, shaded=False, quiet=0.35):
+    def settled(self, shaded=False, quiet=0.25):
         """The screen once it has not changed for a while."""
-        last, since = self.capture(), time.monotonic()
+        last, since = None, time.monotonic()
         picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65 - self.top)
 
         def still():
-            nonlocal last, since
-            now = self.capture()
-            if now != last or (shaded and len(set(self.crop(now, picture))) <= 20):
+            nonlocal last, since, shaded
+            now = self.x.raw(0, 0, *self.screen)
+            if shaded:
+                shaded = len(set(self.crop(x11.rgb_of(now), picture))) <= 20
+            if now != last or shaded:
                 last, since = now, time.monotonic()
             return time.monotonic() - since > quiet
         wait_for("the picture to be still", still)
-        return last
+        return x11.rgb_of(last)
 
     def shows(self, size, expected, what):
         """Waits until the window shows the picture `expected`."""
@@ -181,6 +194,12 @@ class Viewer:
             differ = sum(a != b for a, b in zip(shown[0], expected))
             raise AssertionError(f"waited in vain for {what}: {differ} of {len(expected)} bytes differ")
 
+    def shows_halves(self, size, at, left, right):
+        """Whether the picture is `left` up to the divider at a column, and `right` beyond."""
+        shown = self.crop(self.capture(), size)
+        return columns(shown, size, 0, at - 3) == columns(left, size, 0, at - 3) and \
+            columns(shown, size, at + 3, size[0]) == columns(right, size, at + 3, size[0])
+
     def crop(self, screen, size, width=None):
         across = 3 * (width or self.screen[0])
         return b"".join(screen[y * across:y * across + 3 * size[0]]
@@ -193,9 +212,10 @@ class Viewer:
         path = os.path.join(self.folder, os.path.splitext(os.path.basename(self.model))[0]
                             + "_1.json")
         before = os.stat(path).st_mtime_ns if os.path.exists(path) else None
+        shown = self.x.raw(0, 0, *self.screen)
         self.key("ctrl+s")
         if before is None:
-            time.sleep(0.3)
+            wait_for("the name that is offered", lambda: self.x.raw(0, 0, *self.screen) != shown)
             self.key("Return")
 
         def written():
@@ -215,6 +235,13 @@ class Viewer:
                 return file.read()
         return pixels_of(out)
 
+    def check_saved(self, name):
+        """A picture that the window has saved is the file that glint render wrote last."""
+        path = os.path.join(self.folder, name)
+        wait_for(name, lambda: os.path.exists(path))
+        with open(path, "rb") as a, open(os.path.join(self.folder, "offscreen.png"), "rb") as b:
+            assert a.read() == b.read(), name + " is another file than glint render's"
+
     def picture(self):
         """Checks the window's picture against glint render of the saved look. Returns its bytes and
         the look."""
@@ -224,6 +251,19 @@ class Viewer:
         assert len(set(drawn)) > 20, "the picture is one colour"
         self.shows(tuple(look["resolution"]), drawn, "the picture to be glint render's")
         return drawn, look
+
+    def processor_seconds(self):
+        """What its threads have taken, to 0.01 s."""
+        with open(f"/proc/{self.process.pid}/stat") as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def share_at_rest(self, seconds):
+        """Of a core, while nothing changes."""
+        self.settled(quiet=1)
+        before = self.processor_seconds()
+        time.sleep(seconds)
+        return (self.processor_seconds() - before) / seconds
 
     def alive(self):
         return self.process.poll() is None

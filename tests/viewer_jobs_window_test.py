@@ -98,9 +98,7 @@ def test_job_an_animation_is_looked_through():
         _, look = job.picture()
         assert abs(look["animation-time"] - 1) < 1e-9
         job.key("F12")
-        still = job.bytes_of("bend_1.png")
-        with open(job.path("offscreen.png"), "rb") as file:
-            assert still == file.read()
+        job.check_saved("bend_1.png")
         job.key("shift+b")
         assert job.picture()[0] == bent  # B's time
 
@@ -154,9 +152,7 @@ def test_job_by_keys_alone():
         job.answer("keys.json")
         assert json.loads(job.bytes_of("keys.json"))["material"]["Glazed ceramic"]["diffuse"] == 0.5
         job.key("F12")
-        drawn = job.bytes_of("teapot_1.png")
-        with open(job.path("offscreen.png"), "rb") as file:
-            assert file.read() == drawn
+        job.check_saved("teapot_1.png")
         job.key("q")
         assert job.left() == 0
 
@@ -211,17 +207,12 @@ def test_job_a_heavy_model_is_turned():
             after = os.times()
             return sum(after[2:4]) - sum(before[2:4])
         whole = (cost("--turntable", "21") - cost("--turntable", "1")) / 20
-
-        def ticks():
-            with open(f"/proc/{job.process.pid}/stat") as file:
-                fields = file.read().rsplit(")", 1)[1].split()
-            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
         job.move(400, 400)
         job.xdotool("mousedown", "1")
 
         def light():
             """Whether a frame on the screen takes well below that."""
-            begin, seen, pictures, i = ticks(), None, 0, 0
+            begin, seen, pictures, i = job.processor_seconds(), None, 0, 0
             end = time.monotonic() + 2
             while time.monotonic() < end or pictures < 5:
                 i += 1
@@ -229,7 +220,7 @@ def test_job_a_heavy_model_is_turned():
                 shown = job.x.capture(400, 300, 200, 200)
                 pictures += shown != seen
                 seen = shown
-            each = (ticks() - begin) / pictures
+            each = (job.processor_seconds() - begin) / pictures
             print(f"{1000 * each:.0f} ms of processor time for a picture in a drag, "
                   f"{1000 * whole:.0f} for a whole one without anti-aliasing")
             return each < 0.65 * whole

@@ -161,16 +161,7 @@ def main():
             viewer.key("Return")
             tell("slider to picture", moves(viewer, tester, (left + span * 0.35, row), slider, body))
         viewer.move(20, 20)
-        viewer.settled(quiet=1)
-
-        def ticks():
-            with open(f"/proc/{viewer.process.pid}/stat") as file:
-                fields = file.read().rsplit(")", 1)[1].split()
-            return int(fields[11]) + int(fields[12])
-        before = ticks()
-        time.sleep(20)
-        share = (ticks() - before) / os.sysconf("SC_CLK_TCK") / 20
-        print(f"at rest, 20 s: {100 * share:.2f} % of a core", flush=True)
+        print(f"at rest, 20 s: {100 * viewer.share_at_rest(20):.2f} % of a core", flush=True)
         measure_first(viewer)
 
 

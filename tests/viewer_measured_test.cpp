@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "files.h"
 #include "glint/image/error.h"
 #include "viewer/measured.h"
 
@@ -17,12 +18,6 @@ namespace viewer_measured_test {
 
 using std::numbers::pi;
 namespace fs = std::filesystem;
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("glint-measured-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 // The light at a bin's centre, as in the format; written independently of the code that reads it.
 void directions(glm::ivec3 bins, int h, int d, int p, glm::dvec3& L, glm::dvec3& V) {
@@ -80,9 +75,9 @@ ShadingParameters gold() {
 }
 
 TEST(Measured, ReadsWhatStandsInTheFile) {
-  const Folder folder;
+  const test::Folder folder("measured");
   const ShadingParameters s = paint();
-  const MeasuredMaterial m(written(folder.path / "paint.binary", s, {}));
+  const MeasuredMaterial m(written(folder / "paint.binary", s, {}));
   EXPECT_EQ(m.bins(), glm::ivec3(90, 30, 36));
   int compared = 0;
   for (const int h : {2, 20, 45})
@@ -105,10 +100,10 @@ TEST(Measured, ReadsWhatStandsInTheFile) {
 
 // Fitting a model's own light recovers the model, with either lobe; the other lobe fits less well.
 TEST(Measured, TheFitFindsTheModelAgain) {
-  const Folder folder;
+  const test::Folder folder("measured");
   for (const FitForm form : {FitForm{false, 4}, FitForm{true, 4}})
     for (const ShadingParameters& s : {paint(), gold()}) {
-      const MeasuredMaterial m(written(folder.path / "a.binary", s, form));
+      const MeasuredMaterial m(written(folder / "a.binary", s, form));
       ShadingParameters from;
       from.ior = 1.8;
       const ShadingParameters fit = fitted(m, form, from);
@@ -129,26 +124,21 @@ TEST(Measured, TheFitFindsTheModelAgain) {
 }
 
 TEST(Measured, RefusesWhatIsNone) {
-  const Folder folder;
+  const test::Folder folder("measured");
   const auto refuses = [&](const fs::path& path) {
-    try {
-      MeasuredMaterial m(path);
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(path.filename().string()));
-      return;
-    }
-    ADD_FAILURE() << path << " was read";
+    EXPECT_THAT(test::messageOf([&] { MeasuredMaterial m(path); }),
+                testing::HasSubstr(path.filename().string()));
   };
-  refuses(folder.path / "missing.binary");
+  refuses(folder / "missing.binary");
   const auto file = [&](const char* name, const std::string& bytes) {
-    std::ofstream(folder.path / name, std::ios::binary) << bytes;
-    return folder.path / name;
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+    return folder / name;
   };
   refuses(file("empty.binary", ""));
   refuses(file("short.binary", std::string("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0 and no more", 25)));
   refuses(file("huge.binary", std::string(12, '\x7f')));
   refuses(file("negative.binary", std::string(12, '\xff')));
-  refuses(folder.path);
+  refuses(folder.path());
 }
 
 }  // namespace viewer_measured_test

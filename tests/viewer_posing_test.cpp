@@ -3,6 +3,7 @@
 #include <cmath>
 #include <thread>
 
+#include "files.h"
 #include "glint/image/error.h"
 #include "viewer/session.h"
 
@@ -74,14 +75,7 @@ TEST(Posing, TellsWhichMeshesHaveChanged) {
 
 TEST(Posing, AnUnknownAnimationIsRefusedAndTheNextPoseIsRight) {
   const auto bend = model("bend.glb");
-  try {
-    posed(bend, {1.0, "Jump"});
-    FAIL() << "an animation that is not there";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("Jump"), std::string::npos);
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-  }
+  EXPECT_NE(test::messageOf([&] { posed(bend, {1.0, "Jump"}); }).find("Jump"), std::string::npos);
   expectSameScene(posed(bend, {1.0, ""})->scene, model("bend.glb", {1.0, ""})->scene);
 }
 

@@ -13,7 +13,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 import viewer_driver
 from viewer_driver import TWO_SIDED, Viewer, drag_slider, wait_for
@@ -23,10 +22,7 @@ def test_the_window_shows_what_glint_render_draws():
     with Viewer(TEAPOT) as viewer:
         viewer.picture()
         viewer.key("F12")
-        png = os.path.join(viewer.folder, "teapot_1.png")
-        wait_for("the screenshot", lambda: os.path.exists(png))
-        with open(png, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
-            assert a.read() == b.read(), "the screenshot is another file than glint render's"
+        viewer.check_saved("teapot_1.png")
 
 
 def test_what_a_budget_chooses_is_what_glint_render_draws():
@@ -49,10 +45,7 @@ def test_what_a_budget_chooses_is_what_glint_render_draws():
         assert automatic != phong
         viewer.shows(tuple(look["resolution"]), automatic, "the program chosen")
         viewer.key("F12")
-        png = os.path.join(viewer.folder, "sphere_1.png")
-        wait_for("the screenshot", lambda: os.path.exists(png))
-        with open(png, "rb") as a, open(os.path.join(viewer.folder, "offscreen.png"), "rb") as b:
-            assert a.read() == b.read(), "the screenshot is another file than glint render's"
+        viewer.check_saved("sphere_1.png")
 
 
 def test_a_slider_changes_the_picture_and_undo_brings_the_first_bytes_back():
@@ -296,15 +289,7 @@ def test_edits_survive_a_crash():
 
 def test_rests_when_nothing_changes():
     with Viewer(TEAPOT) as viewer:
-        viewer.settled(quiet=1)
-
-        def ticks():
-            with open(f"/proc/{viewer.process.pid}/stat") as file:
-                fields = file.read().rsplit(")", 1)[1].split()
-            return int(fields[11]) + int(fields[12])
-        before = ticks()
-        time.sleep(5)
-        share = (ticks() - before) / os.sysconf("SC_CLK_TCK") / 5
+        share = viewer.share_at_rest(3)
         print(f"at rest: {100 * share:.2f} % of a core")
         assert share < 0.01
 

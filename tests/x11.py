@@ -43,6 +43,12 @@ def library():
     return x
 
 
+def rgb_of(raw):
+    rgb = bytearray(len(raw) // 4 * 3)
+    rgb[0::3], rgb[1::3], rgb[2::3] = raw[2::4], raw[1::4], raw[0::4]
+    return bytes(rgb)
+
+
 class Server:
     def __init__(self, display):
         self.x = library()
@@ -63,16 +69,18 @@ class Server:
                                self.atom("STRING"), 8, 0, text, len(text))
         self.x.XSync(self.display, 0)
 
-    def capture(self, left, top, width, height):
-        """The bytes of a region of the screen, RGB, rows from the top."""
+    def raw(self, left, top, width, height):
+        """The bytes of a part of the screen as the server has them, four to a pixel, for comparing."""
         image = self.x.XGetImage(self.display, self.root, left, top, width, height, 0xFFFFFFFF, 2)
         assert image and image.contents.bits_per_pixel == 32
         size = image.contents.bytes_per_line * height
         data = ctypes.string_at(image.contents.data, size)
         self.x.XDestroyImage(image)
-        rgb = bytearray(3 * width * height)
-        rgb[0::3], rgb[1::3], rgb[2::3] = data[2::4], data[1::4], data[0::4]
-        return bytes(rgb)
+        return data
+
+    def capture(self, left, top, width, height):
+        """The same as RGB, rows from the top."""
+        return rgb_of(self.raw(left, top, width, height))
 
     def _window(self):
         return self.x.XCreateSimpleWindow(self.display, self.root, 0, 0, 1, 1, 0, 0, 0)

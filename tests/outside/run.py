@@ -5,33 +5,12 @@ import json
 import os
 import pathlib
 import re
-import shutil
-import subprocess
-import sys
+
+from steps import check, install, outside, prefix, run, scratch
 
 HERE = pathlib.Path(__file__).resolve().parent
-build, scratch = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
-prefix, outside = scratch / "prefix", scratch / "build"
-shutil.rmtree(scratch, ignore_errors=True)
-environment = {k: v for k, v in os.environ.items() if not k.startswith("GLINT_")}
 
-
-def run(*words, status=0, **variables):
-    ran = subprocess.run([str(w) for w in words], env={**environment, **variables}, text=True,
-                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if ran.returncode != status:
-        sys.exit("%s\n%s\nended with status %d, not %d" % (" ".join(map(str, words)), ran.stdout,
-                                                         ran.returncode, status))
-    return ran.stdout
-
-
-def check(holds, what):
-    if not holds:
-        sys.exit("not so: " + what)
-
-
-for component in ("glint", "dev"):
-    run("cmake", "--install", build, "--prefix", prefix, "--component", component)
+install("glint", "dev")
 check(not list(prefix.rglob("glint-viewer*")), "the viewer is a part of its own")
 include = prefix / "include"
 check((include / "glint/scene/scene.h").is_file(), "headers are installed")

@@ -2,33 +2,14 @@
 it, and checks the report: run.py BUILD_FOLDER SCRATCH_FOLDER"""
 
 import json
-import os
 import pathlib
-import shutil
 import struct
-import subprocess
 import sys
 import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
-build, scratch = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
-prefix, outside = scratch / "prefix", scratch / "build"
-shutil.rmtree(scratch, ignore_errors=True)
-environment = {k: v for k, v in os.environ.items() if not k.startswith("GLINT_")}
-
-
-def run(*words, status=0, **variables):
-    ran = subprocess.run([str(w) for w in words], env={**environment, **variables}, text=True,
-                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if ran.returncode != status:
-        sys.exit("%s\n%s\nended with status %d, not %d" % (" ".join(map(str, words)), ran.stdout,
-                                                         ran.returncode, status))
-    return ran.stdout
-
-
-def check(holds, what):
-    if not holds:
-        sys.exit("not so: %s" % (what,))
+sys.path.insert(0, str(HERE.parent))
+from steps import check, install, outside, prefix, run, scratch
 
 
 def write(name, more=0):
@@ -45,7 +26,7 @@ def write(name, more=0):
                      chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-run("cmake", "--install", build, "--prefix", prefix, "--component", "glint")
+install("glint")
 glint = prefix / "bin/glint"
 write("made/plain.png")
 write("made/slight.png", 2)
