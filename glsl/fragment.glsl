@@ -31,7 +31,7 @@ void main() {
   if (base.a < material.alphaCutoff) discard;
 #endif
   vec3 emission = vec3(0.0);
-#if !UNLIT && EMISSION
+#if EMISSION
   emission = material.emission;
 #if EMISSION_TEXTURE
   emission *= TEXTURE_AT(emissionTexture, EMISSION_RULE, vEmissionTexcoord).rgb;
@@ -59,7 +59,7 @@ void main() {
   fragment = vec4(AT_PLACE(vPosition), 1.0);
 #else
 #if UNLIT
-  vec3 radiance = base.rgb;
+  vec3 radiance = base.rgb + emission;
 #else
   vec3 radiance = shade(base) + emission;
 #endif

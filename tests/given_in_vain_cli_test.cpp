@@ -47,6 +47,48 @@ TEST(Signals, EndWhatWaitsForInput) {
   EXPECT_THAT(folder.names(), testing::ElementsAre("pipe"));
 }
 
+// What a file cannot hold, or has no place for, is said.
+TEST(Convert, SaysWhatTheFileDoesNotHold) {
+  Folder folder("convert_in_vain");
+  const Ran form = runGlint({"convert", sphere, folder / "a.glb", "--material", "highlight=none"});
+  EXPECT_EQ(form.status, 0);
+  EXPECT_THAT(form.err, testing::HasSubstr("highlight and fresnel are not parameters"));
+  std::ofstream(folder / "empty.gltf") << R"({"asset":{"version":"2.0"}})";
+  const Ran none =
+      runGlint({"convert", folder / "empty.gltf", folder / "b.gltf", "--material", "exponent=2"});
+  EXPECT_EQ(none.status, 0);
+  EXPECT_THAT(none.err, testing::HasSubstr("has no material that --material or the look edits"));
+  EXPECT_EQ(contents(folder / "b.gltf"), contents(folder / "empty.gltf"));
+}
+
+// A baseline that cannot be looked at is not one that is missing: status 2, not 4.
+TEST(Baselines, ThatCannotBeReadAreNotMissing) {
+  Folder folder("unreadable_baseline");
+  std::filesystem::create_symlink("loop.png", folder / "loop.png");
+  const std::string picture = std::string(GLINT_SOURCE_DIR) + "/docs/programs.png";
+  const std::string words = "loop.png: Too many levels of symbolic links";
+  expectRefusal(runGlint({"diff", folder / "loop.png", picture}), words);
+  expectRefusal(runGlint({"diff", picture, folder / "loop.png"}), words);
+}
+
+// What the picture is compared with must be of its kind; both are named.
+TEST(Render, AReferenceOfAnotherKindIsNamed) {
+  Folder folder("reference_kind");
+  expectDone(runGlint(quick({"render", sphere, "-o", folder / "a.png"})));
+  expectRefusal(
+      runGlint(quick({"render", sphere, "-o", folder / "a.exr", "--reference", folder / "a.png"})),
+      "a.exr and " + (folder / "a.png") + ": one is sRGB, the other linear light");
+}
+
+// Without a place for its cache Mesa would print a line of its own.
+TEST(Environment, AHomeThatCannotBeWrittenIsNoMatter) {
+  Folder folder("no_home");
+  const CommandOptions nowhere{.environment = {{"HOME", "/proc/none"},
+                                               {"XDG_CACHE_HOME", ""},
+                                               {"MESA_SHADER_CACHE_DIR", ""}}};
+  expectDone(runGlint(quick({"render", sphere, "-o", folder / "a.png"}), nowhere));
+}
+
 // A system's error about a file is not one about threads.
 TEST(LinkLoops, AreCalledSo) {
   Folder folder("link_loop");

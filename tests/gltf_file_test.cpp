@@ -18,15 +18,17 @@ TEST(GltfFile, GltfGlbAndDataUriGiveTheSameScene) {
   EXPECT_EQ(glint::loadGltf(sample.writeGltf()).meshes.at(0).positions.at(1).x, 1);
   EXPECT_EQ(glint::loadGltf(sample.writeGlb()).meshes.at(0).positions.at(1).x, 1);
   // 36 bytes: nine floats, the fourth and the eighth 1.0.
-  sample.buffers = {{{"byteLength", 36},
-                     {"uri",
-                      "data:application/octet-stream;base64,"
-                      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}};
-  const glint::Scene scene = sample.load();
-  EXPECT_EQ(scene.meshes.at(0).positions.at(1), glm::vec3(1, 0, 0));
-  EXPECT_EQ(scene.meshes.at(0).positions.at(2), glm::vec3(0, 1, 0));
-  EXPECT_EQ(scene.name, "sample");
-  EXPECT_THAT(scene.warnings, ElementsAre());
+  for (const char* type : {"application/octet-stream;base64", "application/gltf-buffer;BASE64",
+                           "; base64 ", ";charset=x;Base64"}) {
+    sample.buffers = {{{"byteLength", 36},
+                       {"uri", "data:" + std::string(type) +
+                                   ",AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}};
+    const glint::Scene scene = sample.load();
+    EXPECT_EQ(scene.meshes.at(0).positions.at(1), glm::vec3(1, 0, 0)) << type;
+    EXPECT_EQ(scene.meshes.at(0).positions.at(2), glm::vec3(0, 1, 0)) << type;
+    EXPECT_EQ(scene.name, "sample");
+    EXPECT_THAT(scene.warnings, ElementsAre());
+  }
 }
 
 TEST(GltfFile, KindIsToldByContent) {

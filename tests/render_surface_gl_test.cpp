@@ -7,6 +7,7 @@
 
 #include "formulas.h"
 #include "glint/image/srgb.h"
+#include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
 #include "stage.h"
 #include "variants.h"
@@ -174,6 +175,7 @@ TEST_P(Surface, VertexColoursMultiplyUnclamped) {  // F11 of colours
   }
 }
 
+// glTF 2.0, section 3.9.7: without normals they show the sum of base colour and emission.
 TEST_P(Surface, PointsAndLinesAreUnlit) {
   for (Shading shading : everyShading)
     for (auto topology : {glint::Topology::points, glint::Topology::lines}) {
@@ -186,8 +188,12 @@ TEST_P(Surface, PointsAndLinesAreUnlit) {
       Look look = parallelLook({0, 0, 1}, 33);
       look.shading = shading;
       look.light = {directional({0, 0, 1}, glm::dvec3(50))};
-      const glm::dvec3 c(0.5, 0.25, 0.75);
-      const Image image = draw(sceneOf(mesh, materialOf(1, 1, 1, 1, 0, c)), look);
+      const glm::dvec3 c(0.5, 0.25, 0.75), e(0.125, 0.5, 0);
+      Material m = materialOf(1, 1, 1, 1, 0, c);
+      m.emission = e;
+      const Image image = draw(sceneOf(mesh, m), look);
+      const Scene scene = sceneOf(mesh, m);
+      const Image exact = ReferenceRenderer(scene, {}, boundsOf(scene), look).draw();
       const std::size_t covered = coveredPixels(image);
       // Four points of one pixel; four lines of 16 or 17 pixels.
       EXPECT_GE(covered, topology == glint::Topology::points ? 4u : 60u);
@@ -195,7 +201,8 @@ TEST_P(Surface, PointsAndLinesAreUnlit) {
       for (int y = 0; y < 33; ++y)
         for (int x = 0; x < 33; ++x) {
           const glm::dvec3 p = color(image, x, y);
-          EXPECT_TRUE(p == glm::dvec3(0) || p == c);
+          EXPECT_TRUE(p == glm::dvec3(0) || p == c + e);
+          EXPECT_EQ(p, color(exact, x, y));
         }
     }
 }

@@ -112,8 +112,14 @@ const Case cases[] = {
      },
      [](Variant& v, Shading) {
        v = Variant{};
-       v.unlit = v.vertexColors = true;
+       v.unlit = v.vertexColors = v.emission = true;
      }},
+    {"an unlit material that emits",
+     [](In& in) {
+       in.material.unlit = true;
+       in.material.emission = glm::dvec3(1);
+     },
+     unlit},
     {"no lights", [](In& in) { in.look.noLights = true; }, dark},
     {"an empty list of lights", [](In& in) { in.look.light.emplace(); }, dark},
     {"no lights on an uneven two-sided mesh",

@@ -152,8 +152,17 @@ int convert(const ConvertOptions& options, const std::string& in) {
   const std::vector<std::byte> bytes = readFile(in);
   checkKind(options, isGlb(bytes));
   const auto patches = patchesFor(scene, look);
-  if (patches.empty())
+  if (look.material.empty())
     printWarning("convert: no --material is given and the look has none: the same file is written");
+  else if (patches.empty())
+    printWarning("convert: " + nameOf(options.in) +
+                 ": has no material that --material or the look edits: the same file is written");
+  if (std::ranges::any_of(look.material, [](const auto& each) {
+        return each.second.highlight || each.second.fresnel;
+      }))
+    printWarning(
+        "convert: highlight and fresnel are not parameters of a file's material: draw with them "
+        "(--material, or --save-look and --look)");
   const auto patched = patchGltf(bytes, patches, in);
   if (options.inPlace) forgetReadFile(in);
   OutputFile file(options.out);

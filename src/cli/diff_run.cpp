@@ -30,11 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-bool isThere(const std::string& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 /// Compares, and returns the JSON of the pairs.
 Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>& conditions,
                   DiffHtml* page, std::vector<DiffEntry>& entries) {
@@ -233,8 +228,8 @@ int diffPictures(const DiffRequest& request) {
   if (request.a == "-" && request.b == "-")
     throw InputError("diff - -: one of the two may come from stdin");
   entry.name = request.b == "-" ? "stdin" : fs::path(request.b).filename().string();
-  if (request.a == "-" || isThere(request.a)) entry.a = request.a;
-  if (request.b == "-" || isThere(request.b)) entry.b = request.b;
+  if (request.a == "-" || !isMissing(request.a)) entry.a = request.a;
+  if (request.b == "-" || !isMissing(request.b)) entry.b = request.b;
   if (!entry.a.empty() && entry.a != "-") entry.others = otherBaselines(entry.a);
   if (request.updating && (request.a == "-" || request.b == "-"))
     throw InputError("--update with stdin: give both pictures as files");
@@ -299,8 +294,8 @@ int runDiff(DiffRequest request) {
   std::error_code ignored;
   const bool folderA = fs::is_directory(request.a, ignored);
   const bool folderB = fs::is_directory(request.b, ignored);
-  if (folderB && (folderA || !isThere(request.a))) return diffFolders(request);
-  if (folderA != folderB && isThere(request.a) && isThere(request.b))
+  if (folderB && (folderA || isMissing(request.a))) return diffFolders(request);
+  if (folderA != folderB && !isMissing(request.a) && !isMissing(request.b))
     throw InputError(printablePath(request.a) + " and " + printablePath(request.b) +
                      ": one is a folder, the other a file: give two of a kind");
   if (folderA)

@@ -159,19 +159,14 @@ void ModelLoader::readOwnLook(LoadedModel& model) const {
 void ModelLoader::lookThroughFrames(LoadedModel& model) const {
   const auto& animations = model.scene.animations;
   const bool all = model.look.animation == "all" && !animations.empty();
-  const auto chosen = [&](const FileAnimation& each) {
-    return all || model.look.animation.empty() || each.name == model.look.animation ||
-           std::to_string(&each - animations.data()) == model.look.animation;
-  };
-  const auto found = std::find_if(animations.begin(), animations.end(), chosen);
-  if (found == animations.end())
+  if (animations.empty())
     throw InputError("--frames: " + printablePath(model.entry.model) +
-                     (animations.empty() ? " has no animation: leave the option out"
-                                         : " has no animation '" + model.look.animation + "'"));
-  model.duration = found->duration;
+                     " has no animation: leave the option out");
   if (all)
     for (const FileAnimation& each : animations)
       model.duration = std::max(model.duration, each.duration);
+  else
+    model.duration = animations[findAnimation(model.scene, model.look.animation)].duration;
   for (int frame = 0; frame < options_.frames; ++frame) {
     PoseRequest pose = poseOf(model.look);
     pose.time = model.duration * frame / options_.frames;

@@ -7,6 +7,7 @@
 #include "glint/image/clock.h"
 #include "glint/image/compare.h"
 #include "glint/image/error.h"
+#include "glint/image/file.h"
 #include "glint/options/exit_status.h"
 #include "glint/options/parameters.h"
 #include "glint/options/picture_text.h"
@@ -38,7 +39,7 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
   try {
     reference = readStoredImage(picture.reference);
   } catch (const std::exception& error) {
-    const bool missing = !std::filesystem::exists(picture.reference);
+    const bool missing = isMissing(picture.reference);
     fail(result,
          missing ? printablePath(picture.reference) + ": no such picture to compare with: take " +
                        printablePath(picture.output) + " if it is as it should be"
@@ -50,7 +51,12 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
     CompareOptions how;
     how.metrics = {"flip", "max"};
     if (options.referenceThreshold) how.conditions = {{"flip", *options.referenceThreshold}};
-    const Comparison found = compare(*reference, readStoredImage(picture.output), how);
+    const StoredImage drawn = readStoredImage(picture.output);
+    if (drawn.isEncoded() != reference->isEncoded())
+      throw InputError(printablePath(picture.output) + " and " + printablePath(picture.reference) +
+                       ": one is sRGB, the other linear light: give --reference a picture of the "
+                       "kind that -o names");
+    const Comparison found = compare(*reference, drawn, how);
     comparison["same"] = found.same;
     comparison["flip"] = found.values.at("flip");
     comparison["max"] = found.values.at("max");

@@ -2,6 +2,7 @@
 
 #include <glad/gl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -58,6 +59,22 @@ bool hasThreadsForMesa() {
   return threads.size() == count;
 }
 
+/// Whether Mesa can keep its cache of compiled shaders. Where it cannot make the folder it prints a
+/// line of its own.
+bool hasShaderCache() {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value ? value : "");
+  };
+  std::filesystem::path folder = variable("MESA_SHADER_CACHE_DIR");
+  if (folder.empty()) folder = variable("XDG_CACHE_HOME");
+  if (folder.empty() && !variable("HOME").empty()) folder = variable("HOME") / ".cache";
+  if (folder.empty()) return true;  // that of the user's entry in the password file
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) folder = folder.parent_path();
+  return ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
 /// Sets the environment variables that Mesa reads when a backend is opened; the user's own values
 /// take precedence. Otherwise Mesa's warnings, including one per driver it skips, go to stderr.
 void prepareEnvironment(Backend backend) {
@@ -65,6 +82,7 @@ void prepareEnvironment(Backend backend) {
   static bool softwareIsOurs = false;
   const std::lock_guard lock(mutex);
   setenv("EGL_LOG_LEVEL", "fatal", 0);
+  if (!hasShaderCache()) setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   // Mesa waits forever for a thread that could not be started; with 0 threads it draws in the
   // caller's.
   static const bool hasThreads = hasThreadsForMesa();

@@ -112,6 +112,20 @@ bool decodeBase64(std::string_view text, std::vector<unsigned char>& bytes) {
   return true;
 }
 
+// Whether the part of a data URI before its comma ends with ";base64", in any case and with spaces
+// about the word (WHATWG fetch standard, "data: URLs").
+bool saysBase64(std::string_view type) {
+  const auto trim = [&] { type = type.substr(0, type.find_last_not_of(' ') + 1); };
+  constexpr std::string_view word = "base64";
+  trim();
+  const std::string_view end = type.substr(type.size() - std::min(type.size(), word.size()));
+  if (!std::ranges::equal(end, word, {}, [](unsigned char c) { return std::tolower(c); }))
+    return false;
+  type.remove_suffix(word.size());
+  trim();
+  return type.ends_with(';');
+}
+
 std::vector<unsigned char> readDataUri(const std::string& uri, std::string& error) {
   std::vector<unsigned char> bytes;
   const std::size_t comma = uri.find(',');
@@ -122,7 +136,7 @@ std::vector<unsigned char> readDataUri(const std::string& uri, std::string& erro
   std::string_view payload = std::string_view(uri).substr(comma + 1);
   std::string decoded;
   if (payload.find('%') != payload.npos) payload = decoded = percentDecoded(payload);
-  if (std::string_view(uri).substr(0, comma).ends_with(";base64")) {
+  if (saysBase64(std::string_view(uri).substr(0, comma))) {
     if (!decodeBase64(payload, bytes)) error = "is a data URI whose base64 is damaged";
   } else {
     bytes.assign(payload.begin(), payload.end());

@@ -44,14 +44,14 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
                    "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
 }
 
+}  // namespace
+
 std::size_t findAnimation(const Scene& scene, const std::string& text) {
   if (text.empty()) return 0;
   std::vector<std::string> names;
   for (const FileAnimation& each : scene.animations) names.push_back(each.name);
   return findNamed(names, text, "--animation", "animation", scene.name);
 }
-
-}  // namespace
 
 PoseRequest poseOf(const Look& look) {
   return {look.animationTime, look.animation, look.scene, look.variant, look.up};

@@ -24,6 +24,10 @@ struct PoseRequest {
 
 PoseRequest poseOf(const Look&);
 
+/// The index of the animation that `--animation` names: a name before a number; the first for an
+/// empty text. Throws InputError with the known ones for another.
+std::size_t findAnimation(const Scene& scene, const std::string& text);
+
 /// A glTF 2.0 model that stays open to be posed repeatedly: file, materials and textures are read
 /// once, and posing rebuilds only what moves.
 class SceneFile {

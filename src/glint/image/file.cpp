@@ -107,6 +107,11 @@ std::string openFilePath(int file) { return "/proc/self/fd/" + std::to_string(fi
 
 std::string printablePath(std::string_view path) { return path.empty() ? "''" : printable(path); }
 
+bool isMissing(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
+}
+
 std::string writeFailure(int error) { return words(error) + ": " + writeAdvice(error); }
 
 std::vector<std::byte> readFile(const std::string& path, Noted noted) {

@@ -15,6 +15,10 @@ namespace glint {
 /// empty.
 std::string printablePath(std::string_view path);
 
+/// Whether nothing has this name. False where that cannot be told (no permission, a link loop):
+/// reading the file then says why.
+bool isMissing(const std::string& path);
+
 /// "No space left on device: free some space or write elsewhere" for an errno from writing.
 std::string writeFailure(int error);
 

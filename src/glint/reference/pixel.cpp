@@ -201,8 +201,8 @@ Attributes PixelShader::attributes(int itemNumber, std::uint32_t number, int col
   };
   const auto normalAt = [&](const Footprint& at) { return normalOf(item, v, at, faceNormal_); };
   a.position = positionAt(f);
-  if (item.surface.unlit) return a;
   a.emission = emissionOf(item, f);
+  if (item.surface.unlit) return a;
   a.faceNormal = faceNormal_;
   const bool toksvig = item.surface.filter == SpecularAntialiasing::toksvig;
   a.normal = normalOf(item, v, f, faceNormal_, toksvig ? &a.normalWidth : nullptr);

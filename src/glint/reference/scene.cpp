@@ -169,12 +169,12 @@ Item itemFor(const DrawItem& from, const Scene& scene, const DecodedImages& imag
     item.colorTexture = samplerFor(*material.colorTexture, scene, images);
     item.colorTexcoords = texcoordsOf(*item.mesh, *material.colorTexture);
   }
-  if (item.surface.unlit) return item;
-  item.emission = material.emission;
+  if (from.variant.emission) item.emission = material.emission;
   if (from.variant.emissionTexture) {
     item.emissionTexture = samplerFor(*material.emissionTexture, scene, images);
     item.emissionTexcoords = texcoordsOf(*item.mesh, *material.emissionTexture);
   }
+  if (item.surface.unlit) return item;
   if (from.variant.normalTexture) {
     item.normalTexture = samplerFor(*material.normalTexture, scene, images);
     item.normalTexcoords = texcoordsOf(*item.mesh, *material.normalTexture);

@@ -151,7 +151,7 @@ Terms shade(const Frame& frame, const Surface& surface, const Attributes& a) {
   Terms terms;
   const glm::dvec3 C(a.base);
   if (surface.unlit) {
-    terms.radiance = C;
+    terms.radiance = C + a.emission;
     return terms;
   }
   const bool carried = !isPerPixel(surface.program);

@@ -107,7 +107,7 @@ struct Terms {
   glm::dvec3 reflection{0.0};            ///< F E(reflect)
   glm::dvec3 refraction{0.0};            ///< t (1 - F) C E(refract)
   double transparency = 0;               ///< t: 1 - t of the sum is left
-  /// (1 - t) sum + reflection + refraction + emission, or C if unlit.
+  /// (1 - t) sum + reflection + refraction + emission; if unlit C + emission.
   glm::dvec3 radiance{0.0};
 };
 

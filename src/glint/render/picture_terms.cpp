@@ -73,7 +73,9 @@ void keepOneLight(DrawItem& item, const LightPlace& place, const PictureTerm& te
 void keepLight(DrawItem& item, const LightPlace& place, const PictureTerm& term) {
   Variant& v = item.variant;
   if (v.unlit) {
-    if (term.kind != Kind::emission) item.materialBlock.color = glm::vec3(0);
+    if (term.kind == Kind::emission) return;
+    item.materialBlock.color = glm::vec3(0);
+    v.dropEmission();
     return;
   }
   const bool oneLight = term.kind == Kind::diffuse || term.kind == Kind::specular;

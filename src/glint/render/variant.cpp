@@ -199,13 +199,15 @@ Variant variantFor(const Mesh& mesh, const Material& given, const glm::dmat4& wo
   if (v.colorTexture) v.samplers[0] = material.colorTexture->sampler;
   v.alphaMask = material.alphaMode == AlphaMode::mask;
   v.alphaBlend = isBlended(mesh, material);
+  // KHR_materials_unlit shows the base colour only; points and lines without normals show the sum
+  // of base colour and emission (glTF 2.0, section 3.9.7).
+  v.emission = !material.unlit && material.emission != glm::dvec3(0.0);
+  v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
+  if (v.emissionTexture) v.samplers[1] = material.emissionTexture->sampler;
   if (v.unlit) {
     v.program = Shading::phong;  // any program: all unlit variants are the same
     return v;
   }
-  v.emission = material.emission != glm::dvec3(0.0);
-  v.emissionTexture = v.emission && readsTexture(mesh, material.emissionTexture);
-  if (v.emissionTexture) v.samplers[1] = material.emissionTexture->sampler;
 
   const bool pixels = isPerPixel(look.shading);
   const ShadingParameters& s = material.shading;

@@ -32,8 +32,8 @@ enum class PixelOutput {
 /// share one GLSL program. A pure function of scene and look; needs no GL.
 struct Variant {
   Shading program = Shading::phong;
-  bool unlit = false;  ///< colour only: unlit materials, points and lines without normals; no
-                       ///< light, no emission
+  bool unlit = false;  ///< no light: unlit materials, and points and lines without normals (these
+                       ///< add emission to their colour)
   int directionalLights = 0, pointLights = 0, spotLights = 0;
   bool lightFalloff = false;  ///< points and spots weaken with distance
   bool diffuse = false;       ///< some light and m_d > 0
