@@ -9,6 +9,7 @@
 #include <set>
 
 #include "command.h"
+#include "glint/image/file.h"
 #include "glint/image/picture_layers.h"
 #include "glint/image/read_image.h"
 #include "gltf_text.h"
@@ -525,7 +526,8 @@ TEST(Terms, FilesAddUpAndLayersAreTheSame) {
             ASSERT_EQ(image.values[i + c], image.values[i]);
             ASSERT_TRUE(image.values[i] == 0 || image.values[i] == -1);
           }
-        const auto layers = glint::readPictureLayers(folder / "a.exr", "id.mesh").layers;
+        const std::string exr = folder / "a.exr";
+        const auto layers = glint::decodePictureLayers(glint::readFile(exr), exr, "id.mesh").layers;
         ASSERT_EQ(layers.size(), 1u);
         const auto& codes = std::get<2>(layers[0].image.values);
         const std::size_t channels = std::size_t(layers[0].image.channels);

@@ -48,7 +48,7 @@ BaselineResult compareWithBaseline(const Image& picture, const std::string& base
   fs::remove(difference, ignored);
   writePicture(picture, result.actual, options.file);
   const bool updating = variable("GLINT_UPDATE_BASELINES") == "1";
-  const bool there = fs::exists(baseline, ignored);
+  const bool there = isThere(baseline);
   if (there) {
     const StoredImage a = readStoredImage(baseline), b = readStoredImage(result.actual);
     result.comparison = compare(a, b, options.compare);

@@ -107,6 +107,11 @@ std::string openFilePath(int file) { return "/proc/self/fd/" + std::to_string(fi
 
 std::string printablePath(std::string_view path) { return path.empty() ? "''" : printable(path); }
 
+bool isThere(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
 std::string writeFailure(int error) { return words(error) + ": " + writeAdvice(error); }
 
 std::vector<std::byte> readFile(const std::string& path, Noted noted) {

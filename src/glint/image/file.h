@@ -15,6 +15,9 @@ namespace glint {
 /// empty.
 std::string printablePath(std::string_view path);
 
+/// Whether there is anything at a path.
+bool isThere(const std::string& path);
+
 /// "No space left on device: free some space or write elsewhere" for an errno from writing.
 std::string writeFailure(int error);
 
@@ -56,6 +59,7 @@ class OutputFile {
 
   /// Appends. Small pieces are collected, so an error may be reported by a later call.
   void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
   /// Writes at an offset in bytes from the beginning, which may lie beyond the current end (the gap
   /// reads as zeros). Not for standard output, FIFOs and sockets. Must not be mixed with write().
