@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isFileThere(const std::string& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 /// The pictures in a folder and its subfolders, as paths relative to it. The folders that hold the
 /// baselines of a driver begin with "driver-".
 std::vector<std::string> picturesIn(const std::string& folder, bool baselines) {
@@ -50,14 +45,13 @@ std::string plainPath(const std::string& path) {
 
 std::vector<PairConditions> conditionsOf(const DiffRequest& request) {
   std::string path = request.conditions;
-  if (path.empty() && isFileThere(request.a + "/glint-diff.txt"))
-    path = request.a + "/glint-diff.txt";
+  if (path.empty() && isThere(request.a + "/glint-diff.txt")) path = request.a + "/glint-diff.txt";
   return path.empty() ? std::vector<PairConditions>() : readConditions(path);
 }
 
 std::vector<DiffEntry> pairsOf(const DiffRequest& request,
                                const std::vector<PairConditions>& conditions) {
-  auto inA = isFileThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
+  auto inA = isThere(request.a) ? picturesIn(request.a, true) : std::vector<std::string>();
   // A mask is not a baseline, wherever it is.
   std::set<std::string> masks;
   if (!request.mask.empty()) masks.insert(plainPath(request.mask));
