@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "backend_name.h"
+#include "error_record.h"
 #include "glint/gl/context.h"
 #include "glint/render/probe.h"
-#include "glint/render/probe_error.h"
 #include "glint/render/probe_search.h"
 
 namespace glint {

@@ -32,21 +32,21 @@ std::vector<int> membersOf(const std::vector<FrontPlace>& places) {
   return members;
 }
 
-TEST(StudyStatistics, BootstrapIntervalHoldsTheMedianAndNarrowsWithTheNoise) {
-  const Interval wide = medianInterval(framesOf(5, 1, 0.4)),
-                 narrow = medianInterval(framesOf(5, 1));
-  EXPECT_LT(wide.low, 5);
-  EXPECT_GT(wide.high, 5);
+TEST(StudyStatistics, BootstrapIntervalHoldsTheRatioAndNarrowsWithTheNoise) {
+  const TimeRatio wide = timeRatio(framesOf(5, 1, 0.4), framesOf(5, 2, 0.4)),
+                  narrow = timeRatio(framesOf(5, 1), framesOf(5, 2));
+  EXPECT_LT(wide.low, 1);
+  EXPECT_GT(wide.high, 1);
   EXPECT_LT(narrow.high - narrow.low, (wide.high - wide.low) / 2);
-  EXPECT_EQ(medianInterval({3, 3, 3}).low, 3);
+  EXPECT_EQ(timeRatio(Times{3, 3, 3}, Times{3, 3, 3}).low, 1);
 }
 
-// About 95 of 100 intervals contain the true median; 80 would have a probability of 1e-8.
-TEST(StudyStatistics, BootstrapIntervalCoversTheTrueMedian) {
+// About 95 of 100 intervals contain the true ratio; 80 would have a probability of 1e-8.
+TEST(StudyStatistics, BootstrapIntervalCoversTheTrueRatio) {
   int covered = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
-    const Interval interval = medianInterval(framesOf(1, seed));
-    covered += interval.low <= 1 && interval.high >= 1;
+    const TimeRatio ratio = timeRatio(framesOf(1, seed), framesOf(1, seed + 1000));
+    covered += ratio.low <= 1 && ratio.high >= 1;
   }
   EXPECT_GE(covered, 85);
 }

@@ -118,14 +118,20 @@ class App {
 
   // app_actions.cpp: what keys and buttons do
   void execute(Action);
-  void executeCamera(Action);
+  std::string stem() const;  ///< of the names of files that are saved
+  void askLook(const std::function<void()>& then = {});
+  void showPlot(int step);
+  void turnCamera(double right, double up);  ///< degrees
   glm::dmat3 cameraAxes() const;
-  void setCompare(CompareMode, bool exact);
+  void setCompare(CompareMode, bool alsoExact = false);
   void pick(glm::dvec2 pixel);
   /// Runs an action; an error goes to the log.
   void attempt(const std::function<void()>& action);
 
   // app_files.cpp: models, looks, shaders and pictures
+  /// Where there is a file and it is not sure that it goes: asks, and `replace` is run on a yes.
+  bool asksFirst(const std::string& path, bool sure, const std::function<void()>& replace,
+                 const char* word = "Replace", const std::string& question = "Replace it?");
   void keepPresetAt(const std::string& path, bool sure);
   void saveLookTo(const std::string& path, bool sure, std::function<void()> then = {});
   void saveModelTo(const std::string& path, bool sure);

@@ -21,6 +21,26 @@ bool framesAnew(Action command) {
          command == Action::resetCamera || command == Action::nextCamera;
 }
 
+void toggle(Session& session, Overlay which) {
+  session.overlay = session.overlay == which ? Overlay::none : which;
+}
+
+void amplify(Session& session, double factor) {
+  double& amplification = session.document.amplification;
+  amplification = std::clamp(amplification * factor, 1.0, 256.0);
+  session.say("difference x " + numberText(amplification));
+}
+
+void nextCamera(Session& session) {
+  if (!session.model || session.model->scene.cameras.empty())
+    return session.say("the file has no camera");
+  Look& look = session.document.a;
+  const int count = int(session.model->scene.cameras.size());
+  const int next = look.cameraIndex ? *look.cameraIndex + 1 : 0;
+  resetCamera(look);
+  if (next < count) look.cameraIndex = next;
+}
+
 }  // namespace
 
 void App::attempt(const std::function<void()>& action) {
@@ -31,8 +51,9 @@ void App::attempt(const std::function<void()>& action) {
   }
 }
 
-void App::setCompare(CompareMode mode, bool exact) {
+void App::setCompare(CompareMode mode, bool alsoExact) {
   Document& d = session_.document;
+  const bool exact = alsoExact || d.exact;
   if (!exact && !d.b) {
     session_.say("keep a look as B first (B), or compare with the exact reference (R)");
     return;
@@ -58,285 +79,220 @@ glm::dmat3 App::cameraAxes() const {
   return shownResult_.a ? shownResult_.a->list.camera.axes : glm::dmat3(1.0);
 }
 
-void App::execute(Action command) {
-  Document& d = session_.document;
-  const auto key = [&] {
-    return session_.model ? materialKey(session_.model->scene, session_.material) : std::string();
-  };
-  if (edit(session_, command, cameraAxes())) return;
-  executeCamera(command);
-  const std::string stem = session_.model ? session_.model->path.stem().string() : "glint";
-  const auto overlay = [&](Overlay which) {
-    session_.overlay = session_.overlay == which ? Overlay::none : which;
-  };
-  switch (command) {
-    case Action::help:
-      helpShown_ = !helpShown_;
-      break;
-    case Action::palette:
-      openPalette(false);
-      break;
-    case Action::menu:
-      menuWanted_ = true;
-      break;
-    case Action::toPanel:
-      options_.settings.panel = true;
-      ringWanted_ = 2;
-      session_.say(
-          "in the panel: arrows go on, Space changes, Enter types, Backspace resets, "
-          "Escape leaves");
-      break;
-    case Action::allMaterials:
-      session_.material = -1;
-      session_.say("selected all materials");
-      break;
-    case Action::tabShading:
-    case Action::tabLights:
-    case Action::tabCamera:
-    case Action::tabPicture:
-    case Action::tabCompare:
-    case Action::tabInfo:
-      options_.settings.panel = true;
-      session_.wantedTab = int(command) - int(Action::tabShading);
-      break;
-    case Action::nextPlot:
-    case Action::previousPlot: {
-      const int step = command == Action::nextPlot ? 1 : plotCount - 1;
-      if (session_.plotShown) session_.plot = PlotView((int(session_.plot) + step) % plotCount);
-      options_.settings.panel = session_.plotWanted = true;
-      session_.wantedTab = 0;
-      break;
-    }
-    case Action::findMaterial:
-      openPalette(true);
-      break;
-    case Action::togglePanel:
-      options_.settings.panel = !options_.settings.panel;
-      break;
-    case Action::quit:
-      quit();
-      break;
-    case Action::open:
-      dialogs_.askPath("Open a model, look, environment or measured material",
-                       session_.model && session_.model->path.has_parent_path()
-                           ? session_.model->path.parent_path().string() + "/"
-                           : "./",
-                       true, [this](const std::string& path) { open(path); });
-      break;
-    case Action::reload:
-      if (session_.model) load(session_.model->path);
-      break;
-    case Action::saveLook:
-      if (!session_.lookPath.empty()) {
-        saveLookTo(session_.lookPath.string(), true);
-        break;
-      }
-      [[fallthrough]];
-    case Action::saveLookAs:
-      dialogs_.askPath(
-          "Save the look as",
-          session_.lookPath.empty() ? freeName(stem, ".json") : session_.lookPath.string(), false,
-          [this](const std::string& path) { saveLookTo(path, false); });
-      break;
-    case Action::saveModel:
-      if (session_.model) saveModelTo(session_.model->path.string(), false);
-      break;
-    case Action::saveModelAs:
-      if (session_.model)
-        dialogs_.askPath("Save the model with its materials as", session_.model->path.string(),
-                         false, [this](const std::string& path) { saveModelTo(path, false); });
-      break;
-    case Action::screenshot:
-      savePictureTo(freeName(stem, ".png"), resolution_, d.a.noBackground, false);
-      break;
-    case Action::screenshotAs:
-      dialogs_.askPicture(freeName(stem, ".png"), resolution_, d.a.noBackground,
-                          [this](const std::string& path, glm::ivec2 size, bool transparent) {
-                            savePictureTo(path, size, transparent, false);
-                          });
-      break;
-    case Action::undo:
-      if (!session_.history.undo(d, session_.playing)) session_.say("nothing to undo");
-      break;
-    case Action::redo:
-      if (!session_.history.redo(d, session_.playing)) session_.say("nothing to redo");
-      break;
-    case Action::keepPreset:
-      if (session_.model)
-        dialogs_.askPath(
-            "Keep the material as a preset",
-            ownPresetPath(materialLabel(session_.model->scene, session_.material)).string(), false,
-            [this](const std::string& path) { keepPresetAt(path, false); });
-      break;
-    case Action::copyMaterial:
-      if (session_.model) {
-        window_.setClipboard(
-            materialText(effectiveParameters(session_.model->scene, d.a, session_.material)));
-        session_.say("copied " + materialLabel(session_.model->scene, session_.material));
-      }
-      break;
-    case Action::pasteMaterial:
-      if (session_.model)
-        attempt([&] {
-          pasteMaterial(d.a, key(), window_.clipboard());
-          session_.say("pasted");
-        });
-      break;
-    case Action::keepAsB:
-      d.b = d.a;
-      d.exact = false;
-      if (d.compare == CompareMode::off) d.compare = CompareMode::split;
-      session_.say("kept the look as B");
-      break;
-    case Action::swapAB:
-      if (d.b) std::swap(d.a, *d.b);
-      break;
-    case Action::compareSplit:
-      setCompare(CompareMode::split, d.exact);
-      break;
-    case Action::compareBlink:
-      setCompare(CompareMode::blink, d.exact);
-      break;
-    case Action::compareDifference:
-      setCompare(CompareMode::difference, d.exact);
-      break;
-    case Action::compareExact:
-      if (comparesExact(d))
-        d.compare = CompareMode::off;
-      else
-        setCompare(d.compare == CompareMode::off ? CompareMode::split : d.compare, true);
-      break;
-    case Action::compareOff:
-      d.compare = CompareMode::off;
-      break;
-    case Action::stronger:
-    case Action::weaker:
-      d.amplification =
-          std::clamp(d.amplification * (command == Action::stronger ? 2 : 0.5), 1.0, 256.0);
-      session_.say("difference x " + numberText(d.amplification));
-      break;
-    case Action::copyPixel:
-      if (probe_) {
-        window_.setClipboard(probeText(session_.model->scene, *probe_));
-        session_.say("copied the values of the pixel");
-      } else {
-        session_.say("point at a pixel, with the tab Info open");
-      }
-      break;
-    case Action::wireframe:
-      overlay(Overlay::wireframe);
-      break;
-    case Action::normals:
-      overlay(Overlay::normals);
-      break;
-    case Action::facing:
-      overlay(Overlay::facing);
-      break;
-    case Action::clipped:
-      overlay(Overlay::clipped);
-      break;
-    case Action::lightHandles:
-      session_.lightHandles = !session_.lightHandles;
-      break;
-    case Action::outline:
-      overlay(Overlay::outline);
-      break;
-    default:  // camera commands
-      break;
-  }
+std::string App::stem() const {
+  return session_.model ? session_.model->path.stem().string() : "glint";
 }
 
-void App::executeCamera(Action command) {
-  Document& d = session_.document;
+void App::askLook(const std::function<void()>& then) {
+  dialogs_.askPath(
+      "Save the look as",
+      session_.lookPath.empty() ? freeName(stem(), ".json") : session_.lookPath.string(), false,
+      [this, then](const std::string& path) { saveLookTo(path, false, then); });
+}
+
+void App::showPlot(int step) {
+  if (session_.plotShown) session_.plot = PlotView((int(session_.plot) + step) % plotCount);
+  options_.settings.panel = session_.plotWanted = true;
+  session_.wantedTab = 0;
+}
+
+void App::turnCamera(double right, double up) {
+  moveCamera([&](const Pose& p) { return orbited(p, right, up, pivot_); });
+}
+
+void App::execute(Action command) {
+  if (edit(session_, command, cameraAxes())) return;
   if (framesAnew(command)) pivot_.reset();
-  switch (command) {
-    case Action::front:
-      setView(d.a, StandardView::front);
-      break;
-    case Action::back:
-      setView(d.a, StandardView::back);
-      break;
-    case Action::right:
-      setView(d.a, StandardView::right);
-      break;
-    case Action::left:
-      setView(d.a, StandardView::left);
-      break;
-    case Action::top:
-      setView(d.a, StandardView::top);
-      break;
-    case Action::bottom:
-      setView(d.a, StandardView::bottom);
-      break;
-    case Action::isometric:
-      setView(d.a, StandardView::isometric);
-      break;
-    case Action::orthographic:
-      d.a.cameraOrthographic = !d.a.cameraOrthographic;
-      if (d.a.cameraOrthographic) d.a.cameraIntrinsics.reset();
-      break;
-    case Action::fit:
-      if (session_.model)
-        attempt([&] {
-          Look look = d.a;
-          look.resolution = resolution_;
-          fit(look, session_.model->scene, session_.model->bounds);
-          look.resolution = d.a.resolution;
-          d.a = look;
-        });
-      break;
-    case Action::resetCamera:
-      resetCamera(d.a);
-      break;
-    case Action::turnLeft:
-      moveCamera([&](const Pose& p) { return orbited(p, -turnStep, 0, pivot_); });
-      break;
-    case Action::turnRight:
-      moveCamera([&](const Pose& p) { return orbited(p, turnStep, 0, pivot_); });
-      break;
-    case Action::turnUp:
-      moveCamera([&](const Pose& p) { return orbited(p, 0, turnStep, pivot_); });
-      break;
-    case Action::turnDown:
-      moveCamera([&](const Pose& p) { return orbited(p, 0, -turnStep, pivot_); });
-      break;
-    case Action::shiftLeft:
-      moveCamera([&](const Pose& p) { return panned(p, shiftStep, 0); });
-      break;
-    case Action::shiftRight:
-      moveCamera([&](const Pose& p) { return panned(p, -shiftStep, 0); });
-      break;
-    case Action::shiftUp:
-      moveCamera([&](const Pose& p) { return panned(p, 0, shiftStep); });
-      break;
-    case Action::shiftDown:
-      moveCamera([&](const Pose& p) { return panned(p, 0, -shiftStep); });
-      break;
-    case Action::nearer:
-      dolly(glm::dvec2(resolution_) / 2.0, nearerStep);
-      break;
-    case Action::farther:
-      dolly(glm::dvec2(resolution_) / 2.0, 1 / nearerStep);
-      break;
-    case Action::rollLeft:
-      moveCamera([&](const Pose& p) { return rolled(p, turnStep); });
-      break;
-    case Action::rollRight:
-      moveCamera([&](const Pose& p) { return rolled(p, -turnStep); });
-      break;
-    case Action::nextCamera:
-      if (session_.model && !session_.model->scene.cameras.empty()) {
-        const int count = int(session_.model->scene.cameras.size());
-        const int next = d.a.cameraIndex ? *d.a.cameraIndex + 1 : 0;
-        resetCamera(d.a);
-        if (next < count) d.a.cameraIndex = next;
-      } else {
-        session_.say("the file has no camera");
-      }
-      break;
-    default:
-      break;
+  if (command >= Action::front && command <= Action::isometric)
+    return setView(session_.document.a, StandardView(int(command) - int(Action::front)));
+  if (command >= Action::tabShading && command <= Action::tabInfo) {
+    options_.settings.panel = true;
+    session_.wantedTab = int(command) - int(Action::tabShading);
+    return;
   }
+  static constexpr std::pair<Action, void (*)(App&)> table[] = {
+      {Action::help, [](App& a) { a.helpShown_ = !a.helpShown_; }},
+      {Action::palette, [](App& a) { a.openPalette(false); }},
+      {Action::menu, [](App& a) { a.menuWanted_ = true; }},
+      {Action::toPanel,
+       [](App& a) {
+         a.options_.settings.panel = true;
+         a.ringWanted_ = 2;
+         a.session_.say(
+             "in the panel: arrows go on, Space changes, Enter types, Backspace resets, "
+             "Escape leaves");
+       }},
+      {Action::allMaterials,
+       [](App& a) {
+         a.session_.material = -1;
+         a.session_.say("selected all materials");
+       }},
+      {Action::nextPlot, [](App& a) { a.showPlot(1); }},
+      {Action::previousPlot, [](App& a) { a.showPlot(plotCount - 1); }},
+      {Action::findMaterial, [](App& a) { a.openPalette(true); }},
+      {Action::togglePanel, [](App& a) { a.options_.settings.panel = !a.options_.settings.panel; }},
+      {Action::quit, [](App& a) { a.quit(); }},
+      {Action::open,
+       [](App& a) {
+         const auto& model = a.session_.model;
+         a.dialogs_.askPath("Open a model, look, environment or measured material",
+                            model && model->path.has_parent_path()
+                                ? model->path.parent_path().string() + "/"
+                                : "./",
+                            true, [&a](const std::string& path) { a.open(path); });
+       }},
+      {Action::reload,
+       [](App& a) {
+         if (a.session_.model) a.load(a.session_.model->path);
+       }},
+      {Action::saveLook,
+       [](App& a) {
+         if (a.session_.lookPath.empty())
+           a.askLook();
+         else
+           a.saveLookTo(a.session_.lookPath.string(), true);
+       }},
+      {Action::saveLookAs, [](App& a) { a.askLook(); }},
+      {Action::saveModel,
+       [](App& a) {
+         if (a.session_.model) a.saveModelTo(a.session_.model->path.string(), false);
+       }},
+      {Action::saveModelAs,
+       [](App& a) {
+         if (a.session_.model)
+           a.dialogs_.askPath("Save the model with its materials as",
+                              a.session_.model->path.string(), false,
+                              [&a](const std::string& path) { a.saveModelTo(path, false); });
+       }},
+      {Action::screenshot,
+       [](App& a) {
+         a.savePictureTo(a.freeName(a.stem(), ".png"), a.resolution_,
+                         a.session_.document.a.noBackground, false);
+       }},
+      {Action::screenshotAs,
+       [](App& a) {
+         a.dialogs_.askPicture(a.freeName(a.stem(), ".png"), a.resolution_,
+                               a.session_.document.a.noBackground,
+                               [&a](const std::string& path, glm::ivec2 size, bool transparent) {
+                                 a.savePictureTo(path, size, transparent, false);
+                               });
+       }},
+      {Action::undo,
+       [](App& a) {
+         if (!a.session_.history.undo(a.session_.document, a.session_.playing))
+           a.session_.say("nothing to undo");
+       }},
+      {Action::redo,
+       [](App& a) {
+         if (!a.session_.history.redo(a.session_.document, a.session_.playing))
+           a.session_.say("nothing to redo");
+       }},
+      {Action::keepPreset,
+       [](App& a) {
+         const auto& model = a.session_.model;
+         if (model)
+           a.dialogs_.askPath(
+               "Keep the material as a preset",
+               ownPresetPath(materialLabel(model->scene, a.session_.material)).string(), false,
+               [&a](const std::string& path) { a.keepPresetAt(path, false); });
+       }},
+      {Action::copyMaterial,
+       [](App& a) {
+         Session& s = a.session_;
+         if (!s.model) return;
+         a.window_.setClipboard(
+             materialText(effectiveParameters(s.model->scene, s.document.a, s.material)));
+         s.say("copied " + materialLabel(s.model->scene, s.material));
+       }},
+      {Action::pasteMaterial,
+       [](App& a) {
+         Session& s = a.session_;
+         if (!s.model) return;
+         a.attempt([&] {
+           pasteMaterial(s.document.a, materialKey(s.model->scene, s.material),
+                         a.window_.clipboard());
+           s.say("pasted");
+         });
+       }},
+      {Action::keepAsB,
+       [](App& a) {
+         Document& d = a.session_.document;
+         d.b = d.a;
+         d.exact = false;
+         if (d.compare == CompareMode::off) d.compare = CompareMode::split;
+         a.session_.say("kept the look as B");
+       }},
+      {Action::swapAB,
+       [](App& a) {
+         Document& d = a.session_.document;
+         if (d.b) std::swap(d.a, *d.b);
+       }},
+      {Action::compareSplit, [](App& a) { a.setCompare(CompareMode::split); }},
+      {Action::compareBlink, [](App& a) { a.setCompare(CompareMode::blink); }},
+      {Action::compareDifference, [](App& a) { a.setCompare(CompareMode::difference); }},
+      {Action::compareExact,
+       [](App& a) {
+         Document& d = a.session_.document;
+         if (comparesExact(d))
+           d.compare = CompareMode::off;
+         else
+           a.setCompare(d.compare == CompareMode::off ? CompareMode::split : d.compare, true);
+       }},
+      {Action::compareOff, [](App& a) { a.session_.document.compare = CompareMode::off; }},
+      {Action::stronger, [](App& a) { amplify(a.session_, 2); }},
+      {Action::weaker, [](App& a) { amplify(a.session_, 0.5); }},
+      {Action::copyPixel,
+       [](App& a) {
+         if (!a.probe_) return a.session_.say("point at a pixel, with the tab Info open");
+         a.window_.setClipboard(probeText(a.session_.model->scene, *a.probe_));
+         a.session_.say("copied the values of the pixel");
+       }},
+      {Action::wireframe, [](App& a) { toggle(a.session_, Overlay::wireframe); }},
+      {Action::normals, [](App& a) { toggle(a.session_, Overlay::normals); }},
+      {Action::facing, [](App& a) { toggle(a.session_, Overlay::facing); }},
+      {Action::clipped, [](App& a) { toggle(a.session_, Overlay::clipped); }},
+      {Action::lightHandles, [](App& a) { a.session_.lightHandles = !a.session_.lightHandles; }},
+      {Action::outline, [](App& a) { toggle(a.session_, Overlay::outline); }},
+      {Action::orthographic,
+       [](App& a) {
+         Look& look = a.session_.document.a;
+         look.cameraOrthographic = !look.cameraOrthographic;
+         if (look.cameraOrthographic) look.cameraIntrinsics.reset();
+       }},
+      {Action::fit,
+       [](App& a) {
+         if (!a.session_.model) return;
+         a.attempt([&] {
+           Look look = a.session_.document.a;
+           look.resolution = a.resolution_;
+           fit(look, a.session_.model->scene, a.session_.model->bounds);
+           look.resolution = a.session_.document.a.resolution;
+           a.session_.document.a = look;
+         });
+       }},
+      {Action::resetCamera, [](App& a) { resetCamera(a.session_.document.a); }},
+      {Action::turnLeft, [](App& a) { a.turnCamera(-turnStep, 0); }},
+      {Action::turnRight, [](App& a) { a.turnCamera(turnStep, 0); }},
+      {Action::turnUp, [](App& a) { a.turnCamera(0, turnStep); }},
+      {Action::turnDown, [](App& a) { a.turnCamera(0, -turnStep); }},
+      {Action::shiftLeft,
+       [](App& a) { a.moveCamera([](const Pose& p) { return panned(p, shiftStep, 0); }); }},
+      {Action::shiftRight,
+       [](App& a) { a.moveCamera([](const Pose& p) { return panned(p, -shiftStep, 0); }); }},
+      {Action::shiftUp,
+       [](App& a) { a.moveCamera([](const Pose& p) { return panned(p, 0, shiftStep); }); }},
+      {Action::shiftDown,
+       [](App& a) { a.moveCamera([](const Pose& p) { return panned(p, 0, -shiftStep); }); }},
+      {Action::nearer, [](App& a) { a.dolly(glm::dvec2(a.resolution_) / 2.0, nearerStep); }},
+      {Action::farther, [](App& a) { a.dolly(glm::dvec2(a.resolution_) / 2.0, 1 / nearerStep); }},
+      {Action::rollLeft,
+       [](App& a) { a.moveCamera([](const Pose& p) { return rolled(p, turnStep); }); }},
+      {Action::rollRight,
+       [](App& a) { a.moveCamera([](const Pose& p) { return rolled(p, -turnStep); }); }},
+      {Action::nextCamera, [](App& a) { nextCamera(a.session_); }},
+  };
+  const auto* found = std::ranges::find(table, command, &std::pair<Action, void (*)(App&)>::first);
+  if (found != std::end(table)) found->second(*this);
 }
 
 }  // namespace glint::viewer

@@ -201,13 +201,15 @@ void App::open(const std::string& path) {
                {{"Open, and lose them", [this, file] { load(file); }}, {"Cancel", {}}});
 }
 
+bool App::asksFirst(const std::string& path, bool sure, const std::function<void()>& replace,
+                    const char* word, const std::string& question) {
+  if (sure || !fs::exists(path)) return false;
+  dialogs_.ask("Replace?", path + " exists. " + question, {{word, replace}, {"Cancel", {}}});
+  return true;
+}
+
 void App::saveLookTo(const std::string& path, bool sure, std::function<void()> then) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask(
-        "Replace?", path + " exists. Replace it?",
-        {{"Replace", [this, path, then] { saveLookTo(path, true, then); }}, {"Cancel", {}}});
-    return;
-  }
+  if (asksFirst(path, sure, [this, path, then] { saveLookTo(path, true, then); })) return;
   attempt([&] {
     session_.saveLook(path, resolution_);
     lookState_ = stateOf(path);
@@ -216,11 +218,7 @@ void App::saveLookTo(const std::string& path, bool sure, std::function<void()> t
 }
 
 void App::keepPresetAt(const std::string& path, bool sure) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?", path + " exists. Replace it?",
-                 {{"Replace", [this, path] { keepPresetAt(path, true); }}, {"Cancel", {}}});
-    return;
-  }
+  if (asksFirst(path, sure, [this, path] { keepPresetAt(path, true); })) return;
   attempt([&] {
     keepPreset(path, materialText(effectiveParameters(session_.model->scene, session_.document.a,
                                                       session_.material)));
@@ -231,12 +229,10 @@ void App::keepPresetAt(const std::string& path, bool sure) {
 void App::saveModelTo(const std::string& path, bool sure) {
   // A file whose replacement was confirmed may be written again without asking.
   sure = sure || mayReplace_.contains(fs::weakly_canonical(path));
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask("Replace?",
-                 path + " exists. Write the materials into it? Everything else in it stays.",
-                 {{"Write", [this, path] { saveModelTo(path, true); }}, {"Cancel", {}}});
+  if (asksFirst(
+          path, sure, [this, path] { saveModelTo(path, true); }, "Write",
+          "Write the materials into it? Everything else in it stays."))
     return;
-  }
   attempt([&] {
     session_.saveModel(path);
     modelState_ = stateOf(session_.model->path);
@@ -245,12 +241,7 @@ void App::saveModelTo(const std::string& path, bool sure) {
 }
 
 void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure) {
-  if (!sure && fs::exists(path)) {
-    dialogs_.ask(
-        "Replace?", path + " exists. Replace it?",
-        {{"Replace", [=, this] { savePictureTo(path, size, transparent, true); }}, {"Cancel", {}}});
-    return;
-  }
+  if (asksFirst(path, sure, [=, this] { savePictureTo(path, size, transparent, true); })) return;
   Look look = session_.document.a;
   look.resolution = size;
   look.noBackground = transparent;
@@ -280,14 +271,10 @@ void App::quit() {
   std::vector<Dialogs::Answer> answers;
   answers.push_back({"Save the look", [this] {
                        const auto quitNow = [this] { quitting_ = !session_.unsaved(); };
-                       if (!session_.lookPath.empty())
-                         return saveLookTo(session_.lookPath.string(), true, quitNow);
-                       const std::string stem =
-                           session_.model ? session_.model->path.stem().string() : "glint";
-                       dialogs_.askPath("Save the look as", freeName(stem, ".json"), false,
-                                        [this, quitNow](const std::string& path) {
-                                          saveLookTo(path, false, quitNow);
-                                        });
+                       if (session_.lookPath.empty())
+                         askLook(quitNow);
+                       else
+                         saveLookTo(session_.lookPath.string(), true, quitNow);
                      }});
   if (session_.model) {
     Look rest = session_.document.a;

@@ -2,6 +2,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "app.h"
 #include "widgets.h"
 
@@ -10,22 +13,10 @@ namespace {
 
 // Keys that move and operate the ring, a list or a menu.
 bool isMove(int code) {
-  switch (code) {
-    case GLFW_KEY_LEFT:
-    case GLFW_KEY_RIGHT:
-    case GLFW_KEY_UP:
-    case GLFW_KEY_DOWN:
-    case GLFW_KEY_SPACE:
-    case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER:
-    case GLFW_KEY_ESCAPE:
-    case GLFW_KEY_BACKSPACE:
-    case GLFW_KEY_PAGE_UP:
-    case GLFW_KEY_PAGE_DOWN:
-      return true;
-    default:
-      return false;
-  }
+  constexpr int keys[] = {GLFW_KEY_LEFT,      GLFW_KEY_RIGHT,   GLFW_KEY_UP,       GLFW_KEY_DOWN,
+                          GLFW_KEY_SPACE,     GLFW_KEY_ENTER,   GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE,
+                          GLFW_KEY_BACKSPACE, GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN};
+  return std::ranges::find(keys, code) != std::end(keys);
 }
 
 bool popupOpen() {
@@ -34,25 +25,21 @@ bool popupOpen() {
 
 // With Ctrl, these edit the text that has the caret.
 bool editsText(int code) {
-  switch (code) {
-    case 'A':
-    case 'C':
-    case 'V':
-    case 'X':
-    case 'Y':
-    case 'Z':
-    case GLFW_KEY_LEFT:
-    case GLFW_KEY_RIGHT:
-    case GLFW_KEY_UP:
-    case GLFW_KEY_DOWN:
-    case GLFW_KEY_BACKSPACE:
-    case GLFW_KEY_DELETE:
-    case GLFW_KEY_HOME:
-    case GLFW_KEY_END:
-      return true;
-    default:
-      return false;
-  }
+  constexpr int keys[] = {'A',
+                          'C',
+                          'V',
+                          'X',
+                          'Y',
+                          'Z',
+                          GLFW_KEY_LEFT,
+                          GLFW_KEY_RIGHT,
+                          GLFW_KEY_UP,
+                          GLFW_KEY_DOWN,
+                          GLFW_KEY_BACKSPACE,
+                          GLFW_KEY_DELETE,
+                          GLFW_KEY_HOME,
+                          GLFW_KEY_END};
+  return std::ranges::find(keys, code) != std::end(keys);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "glint/image/error.h"
 #include "glint/options/parameters.h"
@@ -162,123 +163,117 @@ void fitToMeasured(Session& session) {
   session.say(materialLabel(scene, session.material) + ": " + text);
 }
 
-bool editMaterial(Session& session, Action command) {
-  Look& look = session.document.a;
-  switch (command) {
-    case Action::nextMaterial:
-      selectMaterial(session, 1);
-      return true;
-    case Action::previousMaterial:
-      selectMaterial(session, -1);
-      return true;
-    case Action::nextPreset:
-      takePreset(session, 1);
-      return true;
-    case Action::previousPreset:
-      takePreset(session, -1);
-      return true;
-    case Action::resetMaterial:
-      resetMaterial(look, materialKey(session.model->scene, session.material));
-      session.say(materialLabel(session.model->scene, session.material) + " as in the file");
-      return true;
-    case Action::fitMeasured:
-      fitToMeasured(session);
-      return true;
-    default:
-      return false;
-  }
+void resetSelected(Session& session) {
+  const Scene& scene = session.model->scene;
+  resetMaterial(session.document.a, materialKey(scene, session.material));
+  session.say(materialLabel(scene, session.material) + " as in the file");
 }
 
-bool editAnimation(Session& session, Action command) {
-  if (command != Action::earlier && command != Action::later && command != Action::nextAnimation &&
-      command != Action::play)
-    return false;
-  if (session.model->scene.animations.empty()) {
-    session.say("the file has no animation");
-    return true;
-  }
-  if (command == Action::earlier) moveTime(session, -0.1);
-  if (command == Action::later) moveTime(session, 0.1);
-  if (command == Action::nextAnimation) nextAnimation(session);
-  if (command == Action::play) sayFlag(session, "playing", session.playing);
-  return true;
+void switchMaxError(Session& session) {
+  Look& look = session.document.a;
+  look.maxError = look.maxError ? std::nullopt : std::optional(0.01);
+  look.maxErrorInCodes = false;
+  session.say(look.maxError ? "the cheapest forms within 0.01" : "max error: off");
+}
+
+void nextEnvironment(Session& session) {
+  session.document.a.hdriFile.clear();
+  sayChoice(session, "environment");
+}
+
+void defaultLights(Session& session) {
+  session.document.a.light.reset();
+  session.lightsOff.clear();
+  session.document.a.noLights = false;
+  session.say("the lights that stand without any of your own");
+}
+
+void moveExposure(Session& session, double step) {
+  Look& look = session.document.a;
+  const Parameter& p = parameterNamed("exposure");
+  look.exposure = std::clamp(look.exposure + step, p.min, p.max);
+  session.say("exposure " + numberText(look.exposure) + " EV");
+}
+
+void nextAntiAliasing(Session& session) {
+  using Mode = AntiAliasing::Mode;
+  AntiAliasing& now = session.document.a.antiAliasing;
+  now = now.mode == Mode::none   ? AntiAliasing{Mode::msaa, 4}
+        : now.mode == Mode::msaa ? AntiAliasing{Mode::ssaa, 2}
+                                 : AntiAliasing{Mode::none, 1};
+  session.say("anti-aliasing " + antiAliasingText(now));
+}
+
+struct Edit {
+  Action command;
+  void (*make)(Session&);
+};
+
+constexpr Edit lookEdits[] = {
+    {Action::nextProgram, [](Session& s) { sayChoice(s, "shading"); }},
+    {Action::nextHighlight, [](Session& s) { sayForm(s, "highlight"); }},
+    {Action::nextFresnel, [](Session& s) { sayForm(s, "fresnel"); }},
+    {Action::maxError, switchMaxError},
+    {Action::viewer, [](Session& s) { sayChoice(s, "viewer"); }},
+    {Action::twoSided, [](Session& s) { sayFlag(s, "two-sided", s.document.a.twoSided); }},
+    {Action::nextEnvironment, nextEnvironment},
+    {Action::environmentBackground,
+     [](Session& s) {
+       sayFlag(s, "environment as background", s.document.a.environmentBackground);
+     }},
+    {Action::noLights, [](Session& s) { sayFlag(s, "no lights", s.document.a.noLights); }},
+    {Action::brighter, [](Session& s) { scaleLights(s, 1.05); }},
+    {Action::darker, [](Session& s) { scaleLights(s, 1 / 1.05); }},
+    {Action::defaultLights, defaultLights},
+    {Action::exposureUp, [](Session& s) { moveExposure(s, 0.25); }},
+    {Action::exposureDown, [](Session& s) { moveExposure(s, -0.25); }},
+    {Action::noBackground,
+     [](Session& s) { sayFlag(s, "transparent background", s.document.a.noBackground); }},
+    {Action::antiAliasing, nextAntiAliasing},
+};
+
+// Of a model.
+constexpr Edit materialEdits[] = {
+    {Action::nextMaterial, [](Session& s) { selectMaterial(s, 1); }},
+    {Action::previousMaterial, [](Session& s) { selectMaterial(s, -1); }},
+    {Action::nextPreset, [](Session& s) { takePreset(s, 1); }},
+    {Action::previousPreset, [](Session& s) { takePreset(s, -1); }},
+    {Action::resetMaterial, resetSelected},
+    {Action::fitMeasured, fitToMeasured},
+};
+
+// Of a model with an animation.
+constexpr Edit animationEdits[] = {
+    {Action::earlier, [](Session& s) { moveTime(s, -0.1); }},
+    {Action::later, [](Session& s) { moveTime(s, 0.1); }},
+    {Action::nextAnimation, nextAnimation},
+    {Action::play, [](Session& s) { sayFlag(s, "playing", s.playing); }},
+};
+
+constexpr Action lightEdits[] = {Action::nextLight, Action::addLight, Action::removeLight,
+                                 Action::switchLight, Action::soloLight};
+
+const Edit* find(std::span<const Edit> edits, Action command) {
+  const auto found = std::ranges::find(edits, command, &Edit::command);
+  return found == edits.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 bool edit(Session& session, Action command, const glm::dmat3& axes) {
-  Look& look = session.document.a;
-  switch (command) {
-    case Action::nextProgram:
-      sayChoice(session, "shading");
-      return true;
-    case Action::nextHighlight:
-      sayForm(session, "highlight");
-      return true;
-    case Action::nextFresnel:
-      sayForm(session, "fresnel");
-      return true;
-    case Action::maxError:
-      look.maxError = look.maxError ? std::nullopt : std::optional(0.01);
-      look.maxErrorInCodes = false;
-      session.say(look.maxError ? "the cheapest forms within 0.01" : "max error: off");
-      return true;
-    case Action::viewer:
-      sayChoice(session, "viewer");
-      return true;
-    case Action::twoSided:
-      sayFlag(session, "two-sided", look.twoSided);
-      return true;
-    case Action::nextEnvironment:
-      look.hdriFile.clear();
-      sayChoice(session, "environment");
-      return true;
-    case Action::environmentBackground:
-      sayFlag(session, "environment as background", look.environmentBackground);
-      return true;
-    case Action::noLights:
-      sayFlag(session, "no lights", look.noLights);
-      return true;
-    case Action::brighter:
-      scaleLights(session, 1.05);
-      return true;
-    case Action::darker:
-      scaleLights(session, 1 / 1.05);
-      return true;
-    case Action::nextLight:
-    case Action::addLight:
-    case Action::removeLight:
-    case Action::switchLight:
-    case Action::soloLight:
-      editLights(session, command, axes);
-      return true;
-    case Action::defaultLights:
-      look.light.reset();
-      session.lightsOff.clear();
-      look.noLights = false;
-      session.say("the lights that stand without any of your own");
-      return true;
-    case Action::exposureUp:
-    case Action::exposureDown:
-      look.exposure = std::clamp(look.exposure + (command == Action::exposureUp ? 0.25 : -0.25),
-                                 parameterNamed("exposure").min, parameterNamed("exposure").max);
-      session.say("exposure " + numberText(look.exposure) + " EV");
-      return true;
-    case Action::noBackground:
-      sayFlag(session, "transparent background", look.noBackground);
-      return true;
-    case Action::antiAliasing:
-      look.antiAliasing = look.antiAliasing.mode == AntiAliasing::Mode::none
-                              ? AntiAliasing{AntiAliasing::Mode::msaa, 4}
-                          : look.antiAliasing.mode == AntiAliasing::Mode::msaa
-                              ? AntiAliasing{AntiAliasing::Mode::ssaa, 2}
-                              : AntiAliasing{AntiAliasing::Mode::none, 1};
-      session.say("anti-aliasing " + antiAliasingText(look.antiAliasing));
-      return true;
-    default:
-      // The remaining actions need a model.
-      return session.model && (editMaterial(session, command) || editAnimation(session, command));
+  if (std::ranges::find(lightEdits, command) != std::end(lightEdits)) {
+    editLights(session, command, axes);
+    return true;
   }
+  const Edit* edit = find(lookEdits, command);
+  if (!edit && session.model) edit = find(materialEdits, command);
+  if (!edit && session.model) edit = find(animationEdits, command);
+  if (!edit) return false;
+  if (find(animationEdits, command) && session.model->scene.animations.empty())
+    session.say("the file has no animation");
+  else
+    edit->make(session);
+  return true;
 }
 
 void nextChoice(Look& look, std::string_view parameter) {

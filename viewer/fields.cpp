@@ -4,14 +4,15 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "glint/image/clock.h"
 #include "glint/image/error.h"
+#include "glint/image/srgb.h"
 #include "glint/scene/look_text.h"
 #include "imgui_versions.h"
 #include "theme.h"
@@ -20,8 +21,6 @@
 
 namespace glint::viewer::widgets {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double tooltipAfter = 0.6;  // seconds
 
@@ -153,12 +152,6 @@ bool numberBy(const char* id, double& value, const Reading& read) {
   return false;
 }
 
-double toSrgb(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-}
-
-double toLinear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
-
 // Three number fields side by side.
 bool three(glm::dvec3& v, float width, const Reading& read) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -199,12 +192,12 @@ void tooltip(const std::string& text) {
   if (place.x != rest.place.x || place.y != rest.place.y || frame > rest.frame + 1)
     rest = {place, Clock::now(), frame};
   rest.frame = frame;
-  if (std::chrono::duration<double>(Clock::now() - rest.since).count() < tooltipAfter) return;
+  if (secondsSince(rest.since) < tooltipAfter) return;
   showBeside(text, colorOf(theme::text));
 }
 
 double tooltipDue() {
-  const double passed = std::chrono::duration<double>(Clock::now() - rest.since).count();
+  const double passed = secondsSince(rest.since);
   const bool waits = rest.frame >= ImGui::GetFrameCount() - 1 && passed < tooltipAfter + 0.05;
   return waits ? std::max(0.005, tooltipAfter - passed) : std::numeric_limits<double>::infinity();
 }
@@ -258,7 +251,7 @@ std::string takeProblem() { return std::exchange(problem, {}); }
 
 bool color(const char* id, glm::dvec3& linear) {
   float shown[3];
-  for (int i = 0; i < 3; ++i) shown[i] = float(toSrgb(linear[i]));
+  for (int i = 0; i < 3; ++i) shown[i] = float(srgbEncoded(linear[i]));
   const float before[3] = {shown[0], shown[1], shown[2]};
   const ImGuiColorEditFlags flags = ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoTooltip;
   ImGui::PushID(id);
@@ -295,7 +288,7 @@ bool color(const char* id, glm::dvec3& linear) {
                                 ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel))
       for (int i = 0; i < 3; ++i) {
         if (shown[i] == before[i]) continue;
-        linear[i] = std::clamp(std::round(toLinear(double(shown[i])) * 1e6) / 1e6, 0.0, 1e6);
+        linear[i] = std::clamp(std::round(srgbLinear(double(shown[i])) * 1e6) / 1e6, 0.0, 1e6);
         changed = true;
       }
     ImGui::EndPopup();

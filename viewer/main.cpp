@@ -1,14 +1,13 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "app.h"
+#include "glint/options/add_option.h"
 #include "glint/options/exit_status.h"
 #include "glint/options/heap.h"
 #include "glint/options/help.h"
 #include "glint/options/look_options.h"
 #include "glint/options/process.h"
-#include "glint/options/ranges.h"
 #include "glint/options/read_options.h"
 
 int main(int argc, char** argv) {
@@ -26,15 +25,12 @@ int main(int argc, char** argv) {
   std::string model, glsl;
   app.add_option("MODEL", model,
                  "a glTF 2.0 model, .gltf or .glb; models can also be dropped on the window");
-  app.add_option(
-         "--glsl", glsl,
-         "use the shader files in this folder in place of the built-in ones; changes to them are "
-         "shown at once")
-      ->type_name("DIR");
-  app.add_option("--scale", options.scale,
-                 "size of text and widgets, 0.5 to 4 [default: the screen's]")
-      ->type_name("FACTOR")
-      ->check(glint::numberIn(0.5, 4.0));
+  glint::addOption(
+      app, "--glsl", glsl, "DIR",
+      "use the shader files in this folder in place of the built-in ones; changes to them are "
+      "shown at once");
+  glint::addNumber(app, "--scale", options.scale, "FACTOR", 0.5, 4.0,
+                   "size of text and widgets, 0.5 to 4 [default: the screen's]");
   glint::addConfineOption(app);
   glint::addDecodeLimitOption(app);
   const auto makeLook = glint::addLookOptions(app);

@@ -4,7 +4,7 @@
 #include <span>
 #include <system_error>
 
-#include "glint/image/file.h"
+#include "glint/options/outputs.h"
 #include "xdg.h"
 
 namespace glint::viewer {
@@ -41,10 +41,6 @@ std::string ownPresetText(const OwnPreset& preset) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void keepPreset(const fs::path& path, const std::string& text) {
-  OutputFile file(path.string());
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
-}
+void keepPreset(const fs::path& path, const std::string& text) { writeText(path.string(), text); }
 
 }  // namespace glint::viewer

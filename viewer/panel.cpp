@@ -16,19 +16,32 @@
 
 namespace glint::viewer {
 
-bool actionButton(PanelContext& context, Action command, const char* text, float width) {
+void actionButton(PanelContext& context, Action command, const char* text, float width) {
   const bool pressed = ImGui::Button(text, ImVec2(width, 0));
+  actionTooltip(command);
+  if (pressed) context.run(command);
+}
+
+void actionRow(PanelContext& context, float width,
+               std::initializer_list<std::pair<Action, const char*>> buttons) {
+  for (const auto& button : buttons) {
+    if (&button != buttons.begin()) ImGui::SameLine();
+    actionButton(context, button.first, button.second, width);
+  }
+}
+
+void actionTooltip(Action command) {
   const ActionInfo& info = infoOf(command);
   widgets::tooltip(std::string(info.help) + " (" + keyText(info) + ")");
-  if (pressed) context.run(command);
-  return pressed;
 }
 
 namespace {
 
-void drawParameter(Session& session, const Parameter& p) {
+void drawParameter(Session& session, const Parameter& p,
+                   const std::optional<glm::dvec3>& shown = {}) {
   try {
-    widgets::parameter(p, session.document.a, session.model ? &session.model->scene : nullptr);
+    widgets::parameter(p, session.document.a, session.model ? &session.model->scene : nullptr,
+                       shown);
   } catch (const InputError& error) {
     session.fail(error.what());
   }
@@ -77,25 +90,20 @@ void drawCameraTab(PanelContext& context) {
   Session& session = context.session;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  const auto row = [&](std::initializer_list<std::pair<Action, const char*>> buttons) {
-    bool first = true;
-    for (const auto& [command, text] : buttons) {
-      if (!first) ImGui::SameLine();
-      first = false;
-      actionButton(context, command, text, width);
-    }
-  };
-  row({{Action::front, "Front"},
-       {Action::right, "Right"},
-       {Action::top, "Top"},
-       {Action::isometric, "Isometric"}});
-  row({{Action::back, "Back"},
-       {Action::left, "Left"},
-       {Action::bottom, "Bottom"},
-       {Action::fit, "Fit"}});
-  row({{Action::resetCamera, "Reset"},
-       {Action::orthographic, "Parallel"},
-       {Action::nextCamera, "File's"}});
+  actionRow(context, width,
+            {{Action::front, "Front"},
+             {Action::right, "Right"},
+             {Action::top, "Top"},
+             {Action::isometric, "Isometric"}});
+  actionRow(context, width,
+            {{Action::back, "Back"},
+             {Action::left, "Left"},
+             {Action::bottom, "Bottom"},
+             {Action::fit, "Fit"}});
+  actionRow(context, width,
+            {{Action::resetCamera, "Reset"},
+             {Action::orthographic, "Parallel"},
+             {Action::nextCamera, "File's"}});
   ImGui::Separator();
   std::optional<Pose> pose;
   if (session.model) {
@@ -126,12 +134,7 @@ void drawCameraTab(PanelContext& context) {
         if (length > 0) shown = tidy(ahead / length);
       }
     }
-    try {
-      widgets::parameter(p, session.document.a, session.model ? &session.model->scene : nullptr,
-                         shown);
-    } catch (const InputError& error) {
-      session.fail(error.what());
-    }
+    drawParameter(session, p, shown);
   }
   if (session.model && !session.model->scene.cameras.empty()) {
     ImGui::Separator();
@@ -203,14 +206,13 @@ void drawPictureTab(PanelContext& context) {
   ImGui::Separator();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
-  actionButton(context, Action::screenshot, "Save picture", width);
-  ImGui::SameLine();
-  actionButton(context, Action::screenshotAs, "Save picture as...", width);
+  actionRow(context, width,
+            {{Action::screenshot, "Save picture"}, {Action::screenshotAs, "Save picture as..."}});
   ImGui::TextDisabled("Overlays (never in saved pictures)");
   const auto overlay = [&](Overlay which, Action command, const char* text) {
     bool on = session.overlay == which;
     if (ImGui::Checkbox(text, &on)) context.run(command);
-    widgets::tooltip(std::string(infoOf(command).help) + " (" + keyText(infoOf(command)) + ")");
+    actionTooltip(command);
   };
   overlay(Overlay::wireframe, Action::wireframe, "edges");
   ImGui::SameLine(width + 2 * gap);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "actions.h"
 #include "picture.h"
@@ -64,7 +67,11 @@ void drawMeasured(PanelContext&, const FitForm&);
 void drawSection(PanelContext&, const std::string& section,
                  std::initializer_list<std::string_view> without = {});
 
-/// A button for an action, with its help and key as tooltip. A `width` of 0 fits the text.
-bool actionButton(PanelContext&, Action, const char* text, float width = 0);
+/// A command's help and key as tooltip.
+void actionTooltip(Action);
+/// A button for an action, with its tooltip. A `width` of 0 fits the text.
+void actionButton(PanelContext&, Action, const char* text, float width = 0);
+void actionRow(PanelContext&, float width,
+               std::initializer_list<std::pair<Action, const char*>> buttons);
 
 }  // namespace glint::viewer

@@ -173,8 +173,7 @@ void drawCompareTab(PanelContext& context) {
   for (int i = 0; i < 4; ++i) {
     if (ImGui::RadioButton(names[i], document.compare == modes[i].first))
       document.compare = modes[i].first;
-    widgets::tooltip(std::string(infoOf(modes[i].second).help) + " (" +
-                     keyText(infoOf(modes[i].second)) + ")");
+    actionTooltip(modes[i].second);
   }
   if (document.compare == CompareMode::split) {
     widgets::label("divider");

@@ -157,14 +157,12 @@ void drawLightsTab(PanelContext& context) {
     session.light = *switched;
     context.run(Action::switchLight);
   }
-  actionButton(context, Action::addLight, "Add", third);
-  ImGui::SameLine();
-  actionButton(context, Action::removeLight, "Remove", third);
-  ImGui::SameLine();
-  actionButton(context, Action::defaultLights, "Default", third);
+  actionRow(context, third,
+            {{Action::addLight, "Add"},
+             {Action::removeLight, "Remove"},
+             {Action::defaultLights, "Default"}});
   ImGui::Checkbox("handles in the picture", &session.lightHandles);
-  widgets::tooltip(std::string(infoOf(Action::lightHandles).help) + " (" +
-                   keyText(infoOf(Action::lightHandles)) + ")");
+  actionTooltip(Action::lightHandles);
   ImGui::SameLine(0, 2 * gap);
   actionButton(context, Action::soloLight, "Solo");
   // The buttons may have changed the lights.

@@ -54,12 +54,8 @@ void polarLobe(const LobePlot& plot) {
 
 void lobeOverAngle(const LobePlot& plot, const std::string& form) {
   const Plot axes({-90, 0}, {90, 1.05}, 150);
-  for (const auto& [x, text] :
-       {std::pair{-90.0, "-90"}, {-45.0, "-45"}, {0.0, "0"}, {45.0, "45"}, {90.0, "90"}})
-    axes.gridX(x, text);
-  axes.gridY(0, "0");
-  axes.gridY(0.5, ".5");
-  axes.gridY(1, "1");
+  axes.grid({{-90, "-90"}, {-45, "-45"}, {0, "0"}, {45, "45"}, {90, "90"}},
+            {{0, "0"}, {0.5, ".5"}, {1, "1"}});
   axes.curve(plot.exact, exactColor, 2.2f);
   axes.curve(plot.chosen, chosenColor, 1.2f);
   if (const auto x = axes.hovered())

@@ -196,11 +196,10 @@ void materialButtons(PanelContext& context) {
       keyText(infoOf(Action::previousPreset)) + " the previous); " +
       keyText(infoOf(Action::keepPreset)) + " keeps the selected one among your own");
   ImGui::SameLine();
-  actionButton(context, Action::copyMaterial, "Copy", width);
-  ImGui::SameLine();
-  actionButton(context, Action::pasteMaterial, "Paste", width);
-  ImGui::SameLine();
-  actionButton(context, Action::resetMaterial, "Reset", width);
+  actionRow(context, width,
+            {{Action::copyMaterial, "Copy"},
+             {Action::pasteMaterial, "Paste"},
+             {Action::resetMaterial, "Reset"}});
 }
 
 }  // namespace

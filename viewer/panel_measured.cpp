@@ -81,13 +81,10 @@ void plotOf(Settings& settings, const MeasuredMaterial& material, const ShadingP
       for (const glm::dvec2& p : curves[c].points)
         if (std::abs(p.x) <= 80) most = std::max(most, p.y);
   const Plot axes({-90, 0}, {90, 1.05 * most}, 170, 2.8f);
-  for (const auto& [x, text] :
-       {std::pair{-90.0, "-90"}, {-45.0, "-45"}, {0.0, "0"}, {45.0, "45"}, {90.0, "90"}})
-    axes.gridX(x, text);
-  axes.gridY(0, "0");
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", most);
-  axes.gridY(most, text);
+  axes.grid({{-90, "-90"}, {-45, "-45"}, {0, "0"}, {45, "45"}, {90, "90"}},
+            {{0, "0"}, {most, text}});
   axes.markX(settings.incidence, IM_COL32(255, 255, 255, 60));
   for (int c = 0; c < 3; ++c) {
     axes.curve(measured[c], thickColors[c], 4.0f);

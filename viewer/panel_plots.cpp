@@ -29,11 +29,7 @@ void fresnelPlots(bool& inside, Fresnel fresnel, double n1, double n2, double sc
   const std::string form(fresnelText(fresnel));
   const FresnelPlot plot = fresnelPlot(fresnel, n1, n2, schlickExponent);
   const Plot axes({0, 0}, {90, 1.02}, 170);
-  for (const auto& [x, text] : {std::pair{0.0, "0"}, {30.0, "30"}, {60.0, "60"}, {90.0, "90"}})
-    axes.gridX(x, text);
-  axes.gridY(0, "0");
-  axes.gridY(0.5, ".5");
-  axes.gridY(1, "1");
+  axes.grid({{0, "0"}, {30, "30"}, {60, "60"}, {90, "90"}}, {{0, "0"}, {0.5, ".5"}, {1, "1"}});
   axes.markX(plot.brewster, IM_COL32(225, 120, 190, 130));
   if (plot.critical) axes.markX(*plot.critical, IM_COL32(255, 255, 255, 130));
   axes.curve(plot.perpendicular, sColor, 1);
@@ -61,9 +57,7 @@ void fresnelPlots(bool& inside, Fresnel fresnel, double n1, double n2, double sc
 void widthPlots(double exponent) {
   const WidthPlot plot = widthPlot(exponent);
   const Plot axes({0, 0}, {85, 5}, 140);
-  for (const auto& [x, text] : {std::pair{0.0, "0"}, {30.0, "30"}, {60.0, "60"}})
-    axes.gridX(x, text);
-  for (const auto& [y, text] : {std::pair{0.0, "0"}, {2.0, "2"}, {4.0, "4"}}) axes.gridY(y, text);
+  axes.grid({{0, "0"}, {30, "30"}, {60, "60"}}, {{0, "0"}, {2, "2"}, {4, "4"}});
   axes.curve(plot.inPlane, exactColor);
   axes.curve(plot.across, chosenColor);
   if (const auto x = axes.hovered())

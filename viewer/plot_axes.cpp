@@ -39,6 +39,10 @@ ImVec2 Plot::at(glm::dvec2 p) const {
                 end_.y - float(std::clamp(share.y, -0.01, 1.01)) * (end_.y - begin_.y));
 }
 
+void Plot::grid(Lines xs, Lines ys) const {
+  for (const auto& [x, text] : xs) gridX(x, text);
+  for (const auto& [y, text] : ys) gridY(y, text);
+}
 void Plot::gridX(double x, const char* text) const {
   const ImVec2 p = at({x, low_.y});
   draw_->AddLine(ImVec2(p.x, begin_.y), ImVec2(p.x, end_.y), gridColor());

@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <utility>
 
 #include "plots.h"
 
@@ -19,6 +20,8 @@ class Plot {
   Plot(glm::dvec2 low, glm::dvec2 high, float height, float margin = 2.2f);
 
   ImVec2 at(glm::dvec2 p) const;
+  using Lines = std::initializer_list<std::pair<double, const char*>>;
+  void grid(Lines xs, Lines ys) const;
   void gridX(double x, const char* text) const;
   void gridY(double y, const char* text) const;
   void markX(double x, ImU32 color) const;

@@ -11,6 +11,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/json_text.h"
+#include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 
 namespace glint::viewer {
@@ -88,10 +89,7 @@ void Recovery::keep(const Look& look, bool unsaved, const fs::path& model) {
     json["glint-recovery"] = 1;
     json["model"] = model.empty() ? "" : fs::weakly_canonical(model, error).string();
     json["look"] = parsedJson<Json>(saveLook(look));
-    const std::string text = json.dump(2) + "\n";
-    OutputFile file(file_.string());
-    file.write(std::as_bytes(std::span(text)));
-    file.commit();
+    writeText(file_.string(), json.dump(2) + "\n");
     written_ = true;
     last_ = look;
   } catch (const InputError&) {

@@ -8,6 +8,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_files.h"
+#include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/material_key.h"
 #include "look_merge.h"
@@ -91,9 +92,7 @@ void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution)
   look.resolution = resolution;
   const std::string text = glint::saveLook(look);
   forgetReadFile(lookPath.string());  // the edited look's own file
-  OutputFile file(path.string());
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
+  writeText(path.string(), text);
   lookPath = path;
   saved = document.a;
   lookOnDisk = look;

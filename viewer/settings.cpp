@@ -9,6 +9,7 @@
 
 #include "glint/image/file.h"
 #include "glint/image/json_text.h"
+#include "glint/options/outputs.h"
 #include "xdg.h"
 
 namespace glint::viewer {
@@ -90,9 +91,7 @@ void saveSettings(const Settings& settings) {
   if (path.empty() || textOf(path) == text) return;
   std::error_code error;  // OutputFile reports a missing folder
   std::filesystem::create_directories(path.parent_path(), error);
-  OutputFile file(path.string());
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
+  writeText(path.string(), text);
 }
 
 }  // namespace glint::viewer

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <span>
-#include <string_view>
 
 namespace glint::viewer {
 
@@ -19,15 +17,5 @@ inline constexpr glm::dvec3 window{0.13, 0.13, 0.135}, popup{0.16, 0.16, 0.166},
 /// and unchecked radio buttons.
 inline constexpr glm::dvec3 mark{0.34, 0.58, 0.92};
 }  // namespace theme
-
-/// A text colour and a background that it has somewhere in the window.
-struct ThemePair {
-  std::string_view where;
-  glm::dvec3 text, ground;
-};
-std::span<const ThemePair> themePairs();
-
-/// The contrast of two sRGB colours by WCAG 2.1, from 1 to 21; legible text needs at least 4.5.
-double contrast(const glm::dvec3&, const glm::dvec3&);
 
 }  // namespace glint::viewer

@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "glint/gl/context.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 
 namespace glint {
@@ -14,7 +14,7 @@ Command addBackends(CLI::App& app) {
       app.add_subcommand("backends", "list the GL backends, which of them work here, and why not");
   command->footer(examples({"backends", "backends --json -"}));
   auto json = std::make_shared<std::string>();
-  command->add_option("--json", *json, "write the list as JSON; - is stdout")->type_name("FILE");
+  addOption(*command, "--json", *json, "FILE", "write the list as JSON; - is stdout");
   return [json] {
     bool any = false;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/read_files.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 #include "glint/options/parameters.h"
 #include "glint/options/read_options.h"
@@ -189,19 +189,12 @@ Command addConvert(CLI::App& app) {
           "extras.glint and the nearest values that other viewers read; everything else is kept "
           "byte for byte. Files that it refers to are copied next to it. - is stdout")
       ->required();
-  command
-      ->add_option("--material", options->materials,
-                   "set parameters as in glint render: of every material, of those called NAME, "
-                   "of the N-th of these, or of the file's N-th; repeatable")
-      ->type_name("[NAME:|NAME#N:|#N:]key=value,...")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option("--look", options->look,
-                   "take the material parameters of this look (JSON), or of a picture that glint "
-                   "has drawn")
-      ->type_name("FILE");
+  addList(*command, "--material", options->materials, "[NAME:|NAME#N:|#N:]key=value,...",
+          "set parameters as in glint render: of every material, of those called NAME, "
+          "of the N-th of these, or of the file's N-th; repeatable");
+  addOption(*command, "--look", options->look, "FILE",
+            "take the material parameters of this look (JSON), or of a picture that glint "
+            "has drawn");
   addConfineOption(*command);
   command->add_flag("--in-place", options->inPlace, "allow OUT to be the same file as IN");
   return [options] {

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "commands.h"
@@ -6,8 +5,8 @@
 #include "diff_run.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
-#include "glint/options/ranges.h"
 
 namespace glint {
 namespace {
@@ -48,14 +47,8 @@ int diff(const CLI::App& command, DiffArguments given) {
   DiffSettings& settings = request.settings;
   settings.output = output;
   settings.scale = scale;
-  if (given.difference == "absolute") {
-    settings.difference = DifferenceKind::absolute;
-  } else if (given.difference == "side-by-side") {
-    settings.difference = DifferenceKind::sideBySide;
-  } else if (given.difference != "flip") {
-    throw InputError("--difference '" + printablePath(given.difference) +
-                     "': give flip, absolute or side-by-side");
-  }
+  settings.difference = DifferenceKind(
+      choiceOf(given.difference, {"flip", "absolute", "side-by-side"}, "--difference"));
   settings.allMetrics = !request.json.empty() || !request.junit.empty() || !request.html.empty() ||
                         !request.markdown.empty();
   settings.compare.regions = settings.allMetrics;
@@ -75,7 +68,7 @@ Command addDiff(CLI::App& app) {
   auto given = std::make_shared<DiffArguments>();
   DiffRequest& request = given->request;
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
-    return command->add_option(name, value, help)->type_name(type)->take_last();
+    return addOption(*command, name, value, type, help)->take_last();
   };
   command->add_option(
       "A", request.a,
@@ -86,32 +79,23 @@ Command addDiff(CLI::App& app) {
   text("-o,--output", request.settings.output, "FILE", "write a picture of the differences");
   text("--difference", given->difference, "flip|absolute|side-by-side",
        "content of this picture: the FLIP map, |a - b|, or a, b and |a - b| [default: flip]");
-  command
-      ->add_option("--scale", request.settings.scale,
-                   "factor for |a - b| in this picture [default: 1]")
-      ->type_name("K")
-      ->check(numberIn(0.0, 1e6));
+  addNumber(*command, "--scale", request.settings.scale, "K", 0.0, 1e6,
+            "factor for |a - b| in this picture [default: 1]");
   text("--json", request.json, "FILE", "write all metrics as JSON; - is stdout");
   text("--junit", request.junit, "FILE", "write the results as JUnit XML, for a CI server");
   text("--markdown", request.markdown, "FILE", "write a summary for a merge request; - is stdout");
   text("--html", request.html, "FILE", "write a report as one HTML file");
   command->add_flag("--pictures-beside", request.picturesBeside,
                     "with --html: put the pictures into a folder next to it, FILE.pictures");
-  command
-      ->add_option("--jobs", request.jobs,
-                   "number of pairs compared at the same time [default: the number of processors]")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 256));
+  addNumber(*command, "--jobs", request.jobs, "N", 1, 256,
+            "number of pairs compared at the same time [default: the number of processors]");
   text("--conditions", request.conditions, "FILE",
        "file with the conditions of some pairs of folders, in lines PATTERN OPTION... "
        "[default: glint-diff.txt in A]");
   CLI::Option* updating =
-      command
-          ->add_option(
-              "--update", request.named,
-              "replace baselines that B differs from, and create missing ones; for all pairs, or "
-              "only for these names, patterns (*, ?) or folders; lists the files written")
-          ->type_name("[NAME...]")
+      addOption(*command, "--update", request.named, "[NAME...]",
+                "replace baselines that B differs from, and create missing ones; for all pairs, or "
+                "only for these names, patterns (*, ?) or folders; lists the files written")
           ->expected(0, 1 << 20);
   command->add_flag(
       "--prune", request.pruning,

@@ -94,7 +94,7 @@ void DiffHtml::writePictures(std::size_t index, const PairPictures& pictures, bo
     // A page opened from a file must not read other files, but it may run their scripts.
     const std::string text = "picture('" + name + "','" + base64(*bytes) + "')\n";
     OutputFile file(folder_ + "/" + name + ".js");
-    file.write(std::as_bytes(std::span(text)));
+    file.write(text);
     file.commit();
   }
   places_[index] = {begin, written_};
@@ -108,7 +108,7 @@ void DiffHtml::copyKept(std::size_t begin, std::size_t end) {
     const std::size_t count =
         std::fread(piece.data(), 1, std::min(piece.size(), end - begin), kept_.get());
     if (count == 0) throw InputError("the temporary file of the report cannot be read: set TMPDIR");
-    file_.write(std::as_bytes(std::span(piece.data(), count)));
+    file_.write(std::string_view(piece.data(), count));
     begin += count;
   }
 }
@@ -120,11 +120,10 @@ void DiffHtml::finish(const nlohmann::ordered_json& json) {
   for (const auto& [index, kinds] : kinds_) whole["pairs"][index]["pictures"] = kinds;
   for (const auto& [index, bytes] : thumbnails_)
     if (!bytes.empty()) whole["pairs"][index]["thumbnail"] = base64(bytes);
-  const auto write = [&](std::string_view text) { file_.write(std::as_bytes(std::span(text))); };
-  write(diffPage.begin);
-  write(jsonElement("data",
-                    whole.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
-  write(diffPage.end);
+  file_.write(diffPage.begin);
+  file_.write(jsonElement(
+      "data", whole.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
+  file_.write(diffPage.end);
   // The pair that is shown first is written first: the others may be 100 MB.
   const auto [begin, end] = places_[firstShown(whole["pairs"])];
   copyKept(begin, end);

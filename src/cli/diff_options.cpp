@@ -2,7 +2,6 @@
 
 #include <fnmatch.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,7 +10,7 @@
 
 #include "glint/image/error.h"
 #include "glint/image/file.h"
-#include "glint/options/ranges.h"
+#include "glint/options/add_option.h"
 
 namespace glint {
 namespace {
@@ -77,57 +76,54 @@ std::array<float, 3> colourOf(const std::string& text) {
 
 }  // namespace
 
+int choiceOf(const std::string& text, std::initializer_list<std::string_view> words,
+             const char* option) {
+  const auto found = std::ranges::find(words, text);
+  if (found != words.end()) return int(found - words.begin());
+  std::string all;
+  for (const auto* word = words.begin(); word != words.end(); ++word)
+    all += (word == words.begin()     ? ""
+            : word + 1 == words.end() ? " or "
+                                      : ", ") +
+           std::string(*word);
+  throw InputError(std::string(option) + " '" + printablePath(text) + "': give " + all);
+}
+
 void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
-    return command.add_option(name, value, help)->type_name(type)->take_last();
+    return addOption(command, name, value, type, help)->take_last();
   };
   std::string names, similarities;
   for (const std::string& name : metricNames()) {
     names += name + (name == metricNames().back() ? "" : ", ");
     if (isSimilarity(name)) similarities += (similarities.empty() ? "" : ", ") + name;
   }
-  given.metric = command
-                     .add_option("--metric", given.metricNames,
-                                 "metric to compute: " + names +
-                                     "; repeatable; without a threshold it is only reported")
-                     ->type_name("NAME")
+  given.metric = addOption(command, "--metric", given.metricNames, "NAME",
+                           "metric to compute: " + names +
+                               "; repeatable; without a threshold it is only reported")
                      ->allow_extra_args(false);
   given.threshold =
-      command
-          .add_option("--threshold", given.thresholds,
-                      "limit of the metric before it: the largest value that passes (" +
-                          similarities +
-                          ": the smallest); without any limit the pictures must be identical")
-          ->type_name("T")
+      addOption(command, "--threshold", given.thresholds, "T",
+                "limit of the metric before it: the largest value that passes (" + similarities +
+                    ": the smallest); without any limit the pictures must be identical")
           ->allow_extra_args(false);
-  command
-      .add_option("--max-pixels", given.maxPixels,
-                  "how many pixels may exceed the tolerance; repeatable: all limits must hold")
-      ->type_name("N|P%")
+  addOption(command, "--max-pixels", given.maxPixels, "N|P%",
+            "how many pixels may exceed the tolerance; repeatable: all limits must hold")
       ->allow_extra_args(false);
-  command
-      .add_option("--tolerance", given.tolerance,
-                  "largest colour distance at which a pixel counts as the same (0 to 1, like "
-                  "pixelmatch's threshold) [default: 0.1]")
-      ->type_name("T")
-      ->check(numberIn(0.0, 1.0));
+  addNumber(command, "--tolerance", given.tolerance, "T", 0.0, 1.0,
+            "largest colour distance at which a pixel counts as the same (0 to 1, like "
+            "pixelmatch's threshold) [default: 0.1]");
   text("--pixelmatch", given.pixelmatch, "7|8",
        "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab "
        "[default: 7]");
-  command
-      .add_option("--shift", given.shift,
-                  "do not count pixels that the other picture has up to N pixels away")
-      ->type_name("N")
-      ->check(wholeNumberIn(0, 16));
-  command
-      .add_option("--window", given.window,
-                  "count in the worst window of N x N pixels instead of in the whole picture")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 1 << 20));
+  addNumber(command, "--shift", given.shift, "N", 0, 16,
+            "do not count pixels that the other picture has up to N pixels away");
+  addNumber(command, "--window", given.window, "N", 1, 1 << 20,
+            "count in the worst window of N x N pixels instead of in the whole picture");
   command.add_flag("--ignore-anti-aliasing", given.ignoreAntiAliasing,
                    "do not count pixels that look anti-aliased");
-  command.add_option("--ignore", given.ignored, "ignore a rectangle, corners included; repeatable")
-      ->type_name("x1,y1-x2,y2")
+  addOption(command, "--ignore", given.ignored, "x1,y1-x2,y2",
+            "ignore a rectangle, corners included; repeatable")
       ->allow_extra_args(false);
   text("--mask", given.mask, "FILE", "ignore the pixels that are black in this picture");
   text("--alpha", given.alpha, "straight|ignored|over:COLOUR",
@@ -139,11 +135,8 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
   text("--layer", given.layer, "NAME|main|all",
        "part of EXR files to compare: a layer, channel or part by name, the main picture, or all "
        "[default: all]");
-  command
-      .add_option("--pixels-per-degree", given.pixelsPerDegree,
-                  "viewing condition for FLIP [default: 67.0206]")
-      ->type_name("P")
-      ->check(numberIn(1e-3, 1000.0));
+  addNumber(command, "--pixels-per-degree", given.pixelsPerDegree, "P", 1e-3, 1000.0,
+            "viewing condition for FLIP [default: 67.0206]");
   text("--screen", given.screen, "distance,pixels,width",
        "viewing condition for FLIP, instead: distance to the screen in metres, its width in "
        "pixels and in metres");
@@ -151,11 +144,8 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "first exposure of HDR-FLIP [default: from the baseline]");
   text("--stop-exposure", given.stopExposure, "EV",
        "last exposure of HDR-FLIP [default: from the baseline]");
-  command
-      .add_option("--exposures", given.exposures,
-                  "number of exposures of HDR-FLIP [default: one a stop]")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 64));
+  addNumber(command, "--exposures", given.exposures, "N", 1, 64,
+            "number of exposures of HDR-FLIP [default: one a stop]");
   text("--tone-mapper", given.toneMapper, "aces|hable|reinhard",
        "tone mapper of HDR-FLIP [default: aces]");
 }
@@ -197,33 +187,13 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
   if (alpha.starts_with("over:")) {
     options.alpha = AlphaUse::over;
     options.background = colourOf(alpha.substr(5));
-  } else if (alpha == "ignored") {
+  } else if (choiceOf(alpha, {"straight", "ignored", "over:COLOUR"}, "--alpha") == 1) {
     options.alpha = AlphaUse::ignored;
-  } else if (alpha != "straight") {
-    throw InputError("--alpha '" + printablePath(alpha) +
-                     "': give straight, ignored or over:COLOUR");
   }
-  if (given.values == "encoded") {
-    options.values = ValueSpace::encoded;
-  } else if (given.values == "linear") {
-    options.values = ValueSpace::linear;
-  } else if (given.values != "stored") {
-    throw InputError("--values '" + printablePath(given.values) +
-                     "': give stored, encoded or linear");
-  }
-  if (given.pixelmatch == "8") {
-    options.distance = PixelDistance::oklab;
-  } else if (given.pixelmatch != "7") {
-    throw InputError("--pixelmatch '" + printablePath(given.pixelmatch) + "': give 7 or 8");
-  }
-  if (given.toneMapper == "hable") {
-    options.flip.toneMapper = ToneMapper::hable;
-  } else if (given.toneMapper == "reinhard") {
-    options.flip.toneMapper = ToneMapper::reinhard;
-  } else if (given.toneMapper != "aces") {
-    throw InputError("--tone-mapper '" + printablePath(given.toneMapper) +
-                     "': give aces, hable or reinhard");
-  }
+  options.values = ValueSpace(choiceOf(given.values, {"stored", "encoded", "linear"}, "--values"));
+  options.distance = PixelDistance(choiceOf(given.pixelmatch, {"7", "8"}, "--pixelmatch"));
+  options.flip.toneMapper =
+      ToneMapper(choiceOf(given.toneMapper, {"aces", "hable", "reinhard"}, "--tone-mapper"));
   const auto exposure = [](const std::string& text, const char* option) {
     std::optional<double> value;
     if (!text.empty()) value = numberOf(text, option);

@@ -25,6 +25,10 @@ struct ComparisonArguments {
   CLI::Option *metric = nullptr, *threshold = nullptr;  ///< whose order counts
 };
 
+/// The place of a word among those that an option takes. Throws InputError for any other.
+int choiceOf(const std::string& text, std::initializer_list<std::string_view> words,
+             const char* option);
+
 /// Adds the options to a command, which must live until `given` has been read.
 void addComparisonOptions(CLI::App& command, ComparisonArguments& given);
 

@@ -1,17 +1,8 @@
-'use strict';
 // The pictures of a pair, decoded when it is shown.
-const $ = id => document.getElementById(id);
-const report = JSON.parse($('data').textContent);
 const clamp = (v, low, high) => Math.min(high, Math.max(low, v));
 const format = v => v === undefined ? '' : v === null ? '∞' : typeof v === 'number' ? String(+v.toPrecision(5)) : v;
 const exact = v => Number.isFinite(v) ? String(+v.toPrecision(6)) : String(v);
 
-function element(tag, text, className) {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (className) e.className = className;
-  return e;
-}
 function contextOf(canvas) { return canvas.getContext('2d', {willReadFrequently: true}); }
 function canvasOf(width, height) {
   const canvas = element('canvas');

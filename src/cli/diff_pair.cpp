@@ -337,8 +337,7 @@ void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
     return;  // reported by the comparison
   }
   const std::string path = driverBaseline(folder, entry);
-  std::error_code ignored;
-  if (fs::exists(path, ignored)) entry.a = path;
+  if (isThere(path)) entry.a = path;
 }
 
 std::vector<std::string> otherBaselines(const std::string& path) {

@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json numberJson(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 std::string shortNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.5g", value);
@@ -48,11 +46,6 @@ std::string xmlText(const std::string& text) {
     }
   }
   return safe;
-}
-
-std::string textOf(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 std::size_t countOf(const Json& json, const char* key) {
@@ -92,19 +85,19 @@ Json metricsJson(const Comparison& r, const CompareOptions& options) {
     const auto found = r.values.find(name);
     if (found == r.values.end()) continue;
     Json& metric = metrics[name];
-    metric["value"] = numberJson(found->second);
+    metric["value"] = jsonNumber(found->second);
     const bool hdr = name == "hdr-flip";
     if (name == "flip" || hdr) {
       const FlipResult& flip = hdr ? r.hdrFlip : r.flip;
-      metric["mean"] = numberJson(flip.mean);
-      metric["max"] = numberJson(flip.maximum);
+      metric["mean"] = jsonNumber(flip.mean);
+      metric["max"] = jsonNumber(flip.maximum);
       metric["weightedMedian"] = flip.median;
       metric["weightedQuartiles"] = {flip.firstQuartile, flip.thirdQuartile};
       metric["pixelsPerDegree"] = options.flip.pixelsPerDegree;
       if (hdr) {
         const ToneMapper mapper = options.flip.toneMapper;
-        metric["startExposure"] = numberJson(flip.startExposure);
-        metric["stopExposure"] = numberJson(flip.stopExposure);
+        metric["startExposure"] = jsonNumber(flip.startExposure);
+        metric["stopExposure"] = jsonNumber(flip.stopExposure);
         metric["exposures"] = flip.exposures;
         metric["toneMapper"] = mapper == ToneMapper::aces    ? "aces"
                                : mapper == ToneMapper::hable ? "hable"
@@ -134,14 +127,14 @@ Json worstJson(const Comparison& r) {
   for (const WorstPixel& pixel : r.worst) {
     Json a = Json::array(), b = Json::array();
     for (std::size_t c = 0; c < 4; ++c) {
-      a.push_back(numberJson(pixel.a[c]));
-      b.push_back(numberJson(pixel.b[c]));
+      a.push_back(jsonNumber(pixel.a[c]));
+      b.push_back(jsonNumber(pixel.b[c]));
     }
     worst.push_back({{"x", pixel.x},
                      {"y", pixel.y},
                      {"a", a},
                      {"b", b},
-                     {"difference", numberJson(pixel.difference)}});
+                     {"difference", jsonNumber(pixel.difference)}});
   }
   return worst;
 }
@@ -158,11 +151,16 @@ void addRegions(const Comparison& r, Json& json) {
                                {"right", region.box.right},
                                {"bottom", region.box.bottom},
                                {"pixels", region.pixels},
-                               {"difference", numberJson(region.difference)}});
+                               {"difference", jsonNumber(region.difference)}});
   }
 }
 
 }  // namespace
+
+std::string textOf(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
 
 std::string driverNote(const DiffEntry& entry) {
   for (const char* key : {"GL_RENDERER", "GL_VERSION", "GL_VENDOR"}) {

@@ -35,6 +35,9 @@ struct DiffEntry {
   double milliseconds = 0;
 };
 
+/// A text of an object; empty if it has none of that key.
+std::string textOf(const nlohmann::ordered_json& json, const char* key);
+
 /// JSON as written to files; invalid UTF-8 is replaced.
 std::string jsonText(const nlohmann::ordered_json& json);
 

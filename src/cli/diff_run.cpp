@@ -22,7 +22,7 @@
 #include "glint/image/read_files.h"
 #include "glint/image/task.h"
 #include "glint/options/outputs.h"
-#include "progress.h"
+#include "status_line.h"
 
 namespace glint {
 namespace {
@@ -38,7 +38,7 @@ Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>&
   std::vector<Json> pairs(entries.size());
   const int jobs = std::min(threadsFor(request.jobs), 64);
   if (jobs > 1 && entries.size() > 1) settings.compare.flip.threads = 1;
-  Progress progress("comparing");
+  StatusLine line;
   std::size_t compared = 0;
   std::mutex mutex;
   inParallel(jobs, entries.size(), [&](std::size_t i, int) {
@@ -49,7 +49,7 @@ Json comparePairs(const DiffRequest& request, const std::vector<PairConditions>&
     pairs[i] = diffJson(entries[i], own.compare);
     const std::lock_guard lock(mutex);
     if (page) page->add(i, entries[i].result.differing > 0, std::move(pictures));
-    progress.show(double(++compared) / double(entries.size()), entries[i].name);
+    line.show("comparing", double(++compared) / double(entries.size()), entries[i].name);
   });
   return Json(pairs);
 }

@@ -40,11 +40,6 @@ std::vector<std::string> linesIn(const std::string& path) {
   return lines;
 }
 
-std::string textAt(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 /// The result of a test according to how far it came.
 Json pairOf(const std::string& folder, const std::string& file, const TestRecord& record,
             const std::vector<std::string>& options) {
@@ -172,8 +167,8 @@ TestRun readTestRun(const std::string& folder) {
 
 PairPictures picturesOf(const TestRecord& record, const DiffEntry& entry, const Json& pair) {
   PairPictures pictures;
-  std::string wanted = textAt(pair, "shown");
-  if (wanted.empty()) wanted = textAt(pair, "layer");
+  std::string wanted = textOf(pair, "shown");
+  if (wanted.empty()) wanted = textOf(pair, "layer");
   struct Side {
     std::string path;
     std::vector<std::byte>*picture, *values;

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -6,6 +5,7 @@
 #include "commands.h"
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 #include "glint/shading/environment_map.h"
 
@@ -58,16 +58,12 @@ Command addEnvironment(CLI::App& app) {
   command->footer(examples({"environment sky -o sky.exr", "environment studio -o studio.png"}));
   auto options = std::make_shared<EnvironmentOptions>();
   command->add_option("NAME", options->name, "studio, sky or white")->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "the picture: .exr or .pfm (linear float), .png, .jpg or .webp (8 bit sRGB)")
-      ->type_name("OUT")
+  addOption(*command, "-o,--output", options->output, "OUT",
+            "the picture: .exr or .pfm (linear float), .png, .jpg or .webp (8 bit sRGB)")
       ->required()
       ->take_last();
-  command
-      ->add_option("--height", options->height,
-                   "height in pixels; the picture is twice as wide [default: 512]")
-      ->type_name("PIXELS");
+  addOption(*command, "--height", options->height, "PIXELS",
+            "height in pixels; the picture is twice as wide [default: 512]");
   return [options] { return writeEnvironment(*options); };
 }
 

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "glint/image/picture_format.h"
 #include "glint/image/printable.h"
 #include "glint/image/texture.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/read_options.h"
@@ -303,8 +303,7 @@ Command addInfo(CLI::App& app) {
                             "info helmet.glb --shading environment --json -"}));
   auto model = std::make_shared<std::string>(), jsonFile = std::make_shared<std::string>();
   command->add_option("MODEL", *model, "a glTF 2.0 model, .gltf or .glb; - is stdin")->required();
-  command->add_option("--json", *jsonFile, "write the list as JSON; - is stdout")
-      ->type_name("FILE");
+  addOption(*command, "--json", *jsonFile, "FILE", "write the list as JSON; - is stdout");
   addConfineOption(*command);
   addDecodeLimitOption(*command);
   auto makeLook = addLookOptions(*command);

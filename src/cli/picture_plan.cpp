@@ -73,10 +73,7 @@ void PicturePlan::forEachOutput(const std::function<void(const std::string&)>& v
 }
 
 void PicturePlan::noteInputs(bool replaces) {
-  forEachOutput([&](const std::string& output) {
-    std::error_code error;
-    replaces = replaces || std::filesystem::exists(output, error);
-  });
+  forEachOutput([&](const std::string& output) { replaces = replaces || isThere(output); });
   list_.lookThrough([&](const ModelEntry& entry) {
     if (!entry.error.empty()) return;
     if (!entry.lookFile.empty()) noteReadFile(entry.lookFile);

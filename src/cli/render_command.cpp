@@ -41,9 +41,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   const Interrupt interrupt;
   const auto list = listOf(options);
   PicturePlan plan(options, *list);
-  std::error_code ignored;
-  plan.noteInputs(std::filesystem::exists(options.json, ignored) ||
-                  std::filesystem::exists(saveFile, ignored));
+  plan.noteInputs(isThere(options.json) || isThere(saveFile));
   const std::vector<Sweep> sweeps(options.sweeps.begin(), options.sweeps.end());
   const Look look = makeLook(reference ? referenceDefaults() : Look{});
   if (reference) checkReferenceAntiAliasing(look.antiAliasing);

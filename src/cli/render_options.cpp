@@ -1,77 +1,49 @@
 #include "render_options.h"
 
-#include <CLI/CLI.hpp>
-
 #include "glint/image/error.h"
 #include "glint/image/picture_writer.h"
-#include "glint/options/ranges.h"
+#include "glint/options/add_option.h"
 #include "glint/options/read_options.h"
 
 namespace glint {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command.add_option("MODEL", options.models, "glTF 2.0 models, .gltf or .glb; - is stdin");
-  command
-      .add_option("-o,--output", options.output,
-                  "the picture: .png (8 or 16 bits, sRGB), .jpg or .webp (8 bits, sRGB), .exr or "
-                  ".pfm (linear float), - (PNG to stdout); another ending gives a PNG; {model} "
-                  "is replaced by the model's name, {folder} by that of its folder, {n} by the "
-                  "model's number, {frame} by the picture's number in a turntable or animation")
-      ->type_name("OUT")
+  addOption(command, "-o,--output", options.output, "OUT",
+            "the picture: .png (8 or 16 bits, sRGB), .jpg or .webp (8 bits, sRGB), .exr or "
+            ".pfm (linear float), - (PNG to stdout); another ending gives a PNG; {model} "
+            "is replaced by the model's name, {folder} by that of its folder, {n} by the "
+            "model's number, {frame} by the picture's number in a turntable or animation")
       ->required()
       ->take_last();
-  command
-      .add_option("--bit-depth", options.bitDepth,
-                  "bits per channel of a PNG, 8 or 16 [default: 8]")
-      ->type_name("BITS");
-  command
-      .add_option("--quality", options.quality,
-                  "quality of a JPEG or WebP, 1 to 100; from 90 on a JPEG has full-resolution "
-                  "colour, at 100 a WebP is lossless [default: 90]")
-      ->type_name("Q")
-      ->check(wholeNumberIn(1, 100));
-  command
-      .add_option("--output-format", options.formatName,
-                  "format of the pictures, whatever their names; raw is for programs, also for "
-                  "several pictures on stdout: little-endian 32-bit words GLNT, width, height, "
-                  "channels (3, or 4 with --no-background), then linear floats, rows from the top")
-      ->type_name("png|jpg|webp|exr|pfm|raw")
+  addOption(command, "--bit-depth", options.bitDepth, "BITS",
+            "bits per channel of a PNG, 8 or 16 [default: 8]");
+  addNumber(command, "--quality", options.quality, "Q", 1, 100,
+            "quality of a JPEG or WebP, 1 to 100; from 90 on a JPEG has full-resolution "
+            "colour, at 100 a WebP is lossless [default: 90]");
+  addOption(command, "--output-format", options.formatName, "png|jpg|webp|exr|pfm|raw",
+            "format of the pictures, whatever their names; raw is for programs, also for "
+            "several pictures on stdout: little-endian 32-bit words GLNT, width, height, "
+            "channels (3, or 4 with --no-background), then linear floats, rows from the top")
       ->take_last();
-  command
-      .add_option("--rendering-backend", options.backend,
-                  "how to draw; auto tries egl, then osmesa; reference draws in double precision "
-                  "on the CPU, without OpenGL [default: auto]")
-      ->type_name("auto|egl|egl-software|osmesa|reference")
+  addOption(command, "--rendering-backend", options.backend,
+            "auto|egl|egl-software|osmesa|reference",
+            "how to draw; auto tries egl, then osmesa; reference draws in double precision "
+            "on the CPU, without OpenGL [default: auto]")
       ->take_last();
-  command.add_option("--json", options.json, "write a report of the run; - is stdout")
-      ->type_name("FILE");
-  command
-      .add_option("--glsl", options.glsl,
-                  "use the shader files in this folder in place of the built-in ones")
-      ->type_name("DIR");
-  command
-      .add_option(
-          "--turntable", options.turntable,
-          "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
-          "right")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 100000));
-  command
-      .add_option("--frames", options.frames,
-                  "draw N pictures (1 to 100000) spread evenly over the animation; the last is one "
-                  "step before its end, so that the sequence can loop")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 100000));
-  command
-      .add_option(
-          "--sweep", options.sweeps,
+  addOption(command, "--json", options.json, "FILE", "write a report of the run; - is stdout");
+  addOption(command, "--glsl", options.glsl, "DIR",
+            "use the shader files in this folder in place of the built-in ones");
+  addNumber(command, "--turntable", options.turntable, "N", 1, 100000,
+            "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
+            "right");
+  addNumber(command, "--frames", options.frames, "N", 1, 100000,
+            "draw N pictures (1 to 100000) spread evenly over the animation; the last is one "
+            "step before its end, so that the sequence can loop");
+  addList(command, "--sweep", options.sweeps, "KEY=FROM:TO:STEPS",
           "draw a labelled contact sheet over a number of the look or of a material "
           "([NAME:]exponent, exposure, camera-azimuth-angle, ...); given twice, the second runs "
-          "downwards; STEPS:log or STEPS:linear chooses the spacing")
-      ->type_name("KEY=FROM:TO:STEPS")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
+          "downwards; STEPS:log or STEPS:linear chooses the spacing");
   command.add_flag(
       "--terms", options.terms,
       "also write the terms whose sum is the picture (ambient, diffuse and specular of each "
@@ -80,43 +52,30 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   addConfineOption(command);
   addDecodeLimitOption(command);
   const char* batch = "Batches";
-  command
-      .add_option(
-          "--from-list", options.list,
-          "draw the models of this list, one per line; - reads stdin and draws each as soon "
-          "as its line arrives; every picture is reported as one line of JSON on stdout")
-      ->type_name("FILE")
+  addOption(command, "--from-list", options.list, "FILE",
+            "draw the models of this list, one per line; - reads stdin and draws each as soon "
+            "as its line arrives; every picture is reported as one line of JSON on stdout")
       ->group(batch);
-  command
-      .add_option("--jobs", options.jobs,
-                  "number of models read and decoded at the same time, 1 to 1024 [default: the "
-                  "number of processors, at most 8]")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 1024))
+  addNumber(command, "--jobs", options.jobs, "N", 1, 1024,
+            "number of models read and decoded at the same time, 1 to 1024 [default: the "
+            "number of processors, at most 8]")
       ->group(batch);
   command
       .add_flag("--resume", options.resume,
                 "skip pictures that already exist and were made from the same model and look")
       ->group(batch);
-  command
-      .add_option("--shard", options.shard,
-                  "draw only every N-th model, starting with the K-th (K from 1 to N), or every "
-                  "N-th picture of a single model; files of very different sizes are divided by "
-                  "their sizes")
-      ->type_name("K/N")
+  addOption(command, "--shard", options.shard, "K/N",
+            "draw only every N-th model, starting with the K-th (K from 1 to N), or every "
+            "N-th picture of a single model; files of very different sizes are divided by "
+            "their sizes")
       ->group(batch);
-  command
-      .add_option("--reference", options.reference,
-                  "compare each picture with this one: exit status 1 if they differ, 4 if the file "
-                  "does not exist; may contain {model}, {n} and {frame}, as -o may")
-      ->type_name("FILE")
+  addOption(command, "--reference", options.reference, "FILE",
+            "compare each picture with this one: exit status 1 if they differ, 4 if the file "
+            "does not exist; may contain {model}, {n} and {frame}, as -o may")
       ->group(batch);
-  command
-      .add_option("--reference-threshold", options.referenceThreshold,
-                  "the largest mean FLIP that counts as the same; without it pictures must be "
-                  "identical")
-      ->type_name("T")
-      ->check(numberIn(0.0, 1e30))
+  addNumber(command, "--reference-threshold", options.referenceThreshold, "T", 0.0, 1e30,
+            "the largest mean FLIP that counts as the same; without it pictures must be "
+            "identical")
       ->group(batch);
 }
 

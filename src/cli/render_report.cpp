@@ -11,10 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write(OutputFile& file, const std::string& text) {
-  file.write(std::as_bytes(std::span(text)));
-}
-
 std::string indented(const std::string& text, int spaces) {
   std::string out;
   for (const char c : text) {
@@ -63,7 +59,7 @@ void RenderReport::begin(const std::string& backend, const std::optional<GlStrin
   std::string text = head.dump(2, ' ', false, Json::error_handler_t::replace);
   text.resize(text.rfind('\n'));
   file_ = std::make_unique<OutputFile>(options_.json);
-  write(*file_, text + ",\n  \"pictures\": [");
+  file_->write(text + ",\n  \"pictures\": [");
 }
 
 void RenderReport::add(PictureResult result) {
@@ -81,8 +77,8 @@ void RenderReport::add(PictureResult result) {
   constexpr auto replace = Json::error_handler_t::replace;
   if (options_.hasList()) line_.printOut(result.entry.dump(-1, ' ', false, replace));
   if (file_)
-    write(*file_, (done_ > 0 ? ",\n    " : "\n    ") +
-                      indented(result.entry.dump(2, ' ', false, replace), 4));
+    file_->write((done_ > 0 ? ",\n    " : "\n    ") +
+                 indented(result.entry.dump(2, ' ', false, replace), 4));
   ++done_;
   skipped_ += result.entry.contains("skipped");
   if (expected_.value_or(2) > 1)
@@ -91,7 +87,7 @@ void RenderReport::add(PictureResult result) {
 
 void RenderReport::finish() {
   if (!file_) return;
-  write(*file_, done_ > 0 ? "\n  ]\n}\n" : "]\n}\n");
+  file_->write(done_ > 0 ? "\n  ]\n}\n" : "]\n}\n");
   file_->commit();
   file_.reset();
 }

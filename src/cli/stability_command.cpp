@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <initializer_list>
@@ -12,16 +11,16 @@
 #include "glint/image/error.h"
 #include "glint/image/file.h"
 #include "glint/image/report_page.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
-#include "glint/options/ranges.h"
 #include "glint/scene/look_text.h"
 #include "glint/stability/plots.h"
 #include "glint/stability/profile.h"
 #include "glint/stability/search.h"
 #include "glint/stability/suite.h"
-#include "progress.h"
+#include "status_line.h"
 
 namespace glint {
 
@@ -47,11 +46,6 @@ Look formsOf(const StabilityOptions& options) {
   for (const auto& [name, text] : given)
     if (!text->empty()) setParameter(forms, name, *text);
   return forms;
-}
-
-void writeAll(OutputFile& file, std::initializer_list<std::string_view> parts) {
-  for (std::string_view part : parts) file.write(std::as_bytes(std::span(part)));
-  file.commit();
 }
 
 int runStability(const StabilityOptions& options) {
@@ -87,21 +81,24 @@ int runStability(const StabilityOptions& options) {
   Json plots = Json::array();
   {
     stability::Bench bench(forms, std::move(sources), setParameter);
-    Progress progress("stability");
+    StatusLine line;
+    const auto show = [&](double share, const std::string& what) {
+      line.show("stability", share, what);
+    };
     results = stability::runCases(
         bench, options.selection, [&](double share, const stability::Case& item) {
-          progress.show(share, std::string(item.id) + "  " + std::string(item.input));
+          show(share, std::string(item.id) + "  " + std::string(item.input));
         });
     if (options.selection.isAll()) {
-      progress.show(1, "profile of the driver");
+      show(1, "profile of the driver");
       profile = stability::measureProfile(bench);
     }
     if (options.search > 0) {
       search = stability::searchNotFinite(bench, std::uint64_t(options.search),
-                                          [&](double share) { progress.show(share, "search"); });
+                                          [&](double share) { show(share, "search"); });
     }
     if (!options.output.empty()) {
-      progress.show(1, "plots");
+      show(1, "plots");
       plots = stability::plotsJson(bench);
     }
   }
@@ -126,10 +123,12 @@ int runStability(const StabilityOptions& options) {
   if (search) report["search"] = stability::searchJson(*search);
   for (const stability::Group& group : stability::groups())
     report["groups"][std::string(1, group.letter)] = group.name;
-  if (jsonFile) writeAll(*jsonFile, {report.dump(2), "\n"});
+  if (jsonFile) commitText(*jsonFile, report.dump(2) + "\n");
   if (page) {
     report["plots"] = plots;
-    writeAll(*page, {stabilityPage.begin, jsonElement("data", report.dump()), stabilityPage.end});
+    page->write(stabilityPage.begin);
+    page->write(jsonElement("data", report.dump()));
+    commitText(*page, stabilityPage.end);
   }
   return passed ? done : differs;
 }
@@ -143,7 +142,7 @@ Command addStability(CLI::App& app) {
                             "stability --output report"}));
   auto options = std::make_shared<StabilityOptions>();
   const auto text = [&](const char* name, std::string& value, const char* type, const char* help) {
-    command->add_option(name, value, help)->type_name(type)->take_last();
+    addOption(*command, name, value, type, help)->take_last();
   };
   text("--rendering-backend", options->backend, "auto|egl|egl-software|osmesa",
        "the driver to test [default: auto]");
@@ -151,23 +150,12 @@ Command addStability(CLI::App& app) {
   text("--fresnel", options->fresnel, "FORM", "form of the reflectance to test [default: exact]");
   text("--schlick-exponent", options->schlickExponent, "X",
        "exponent of Schlick's approximation [default: 5]");
-  command->add_option("--case", options->selection.ids, "run only this case; repeatable")
-      ->type_name("ID")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
-  command->add_option("--group", options->selection.groups, "run only this group; repeatable")
-      ->type_name("X")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option(
-          "--search", options->search,
-          "also test COUNT random points in every program (and draw COUNT/10000 random scenes, "
-          "half of them pathological) and fail if anything is NaN or infinite; 1e8 takes minutes")
-      ->type_name("COUNT")
-      ->check(numberIn(1.0, 1e12))
+  addList(*command, "--case", options->selection.ids, "ID", "run only this case; repeatable");
+  addList(*command, "--group", options->selection.groups, "X", "run only this group; repeatable");
+  addNumber(*command, "--search", options->search, "COUNT", 1.0, 1e12,
+            "also test COUNT random points in every program (and draw COUNT/10000 random scenes, "
+            "half of them pathological) and fail if anything is NaN or infinite; 1e8 takes "
+            "minutes")
       ->take_last();
   command->add_flag("--list", options->list, "list the cases instead of running them");
   text("--output", options->output, "DIR",

@@ -1,6 +1,7 @@
 #include "status_line.h"
 
 #include <unistd.h>
+#include <algorithm>
 
 #include <iostream>
 
@@ -29,6 +30,14 @@ void StatusLine::show(const std::string& text) {
   std::cerr << "\r" << printable(text) << "\033[K" << std::flush;
 }
 
+void StatusLine::show(const std::string& task, double share, std::string_view what) {
+  constexpr int width = 24;
+  const double part = std::clamp(share, 0.0, 1.0);
+  std::string bar(std::size_t(width), '.');
+  std::fill_n(bar.begin(), int(part * width), '#');
+  show(task + " [" + bar + "] " + std::to_string(int(100 * part)) + " % " + std::string(what));
+}
+
 void StatusLine::print(const std::string& line) {
   const std::lock_guard lock(mutex_);
   clear();
@@ -39,10 +48,6 @@ void StatusLine::printOut(const std::string& line) {
   const std::lock_guard lock(mutex_);
   clear();
   printWhole(line + "\n");
-}
-
-double StatusLine::seconds() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
 }  // namespace glint

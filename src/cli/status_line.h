@@ -1,8 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <mutex>
 #include <string>
+#include <string_view>
+
+#include "glint/image/clock.h"
 
 namespace glint {
 
@@ -17,14 +19,16 @@ class StatusLine {
 
   /// Shows a text, unless one was shown a moment ago or the work began less than a second ago.
   void show(const std::string& text);
-  /// Prints a line on stderr.
+  /// Prints a bar with the share that is done, [0, 1], of a task, and what is being done.
+  void show(const std::string& task, double share, std::string_view what);
+
+  /// A line on stderr.
   void print(const std::string& line);
   /// Prints a line on stdout and flushes it. Throws InputError if it cannot be written.
   void printOut(const std::string& line);
-  double seconds() const;  ///< since the work began
+  double seconds() const { return secondsSince(start_); }  ///< since the work began
 
  private:
-  using Clock = std::chrono::steady_clock;
   void clear();
 
   std::mutex mutex_;

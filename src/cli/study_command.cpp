@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -13,10 +12,10 @@
 #include "glint/image/clock.h"
 #include "glint/image/error.h"
 #include "glint/image/file.h"
+#include "glint/options/add_option.h"
 #include "glint/options/help.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
-#include "glint/options/ranges.h"
 #include "glint/options/read_options.h"
 #include "glint/scene/look_text.h"
 #include "glint/study/cost_measurement.h"
@@ -24,7 +23,7 @@
 #include "glint/study/page.h"
 #include "glint/study/results.h"
 #include "interrupt.h"
-#include "progress.h"
+#include "status_line.h"
 #include "stdin_model.h"
 
 namespace glint {
@@ -73,11 +72,6 @@ std::string commandLine(const CLI::App& command) {
       line += (option->get_positional() ? " " : " --" + option->get_lnames().front() + " ") + value;
   }
   return line;
-}
-
-void commitText(OutputFile& file, const std::string& text) {
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
 }
 
 int runStudy(const StudyArguments& given, const Look& givenLook) {
@@ -137,9 +131,10 @@ int runStudy(const StudyArguments& given, const Look& givenLook) {
   }
   StudyResult result;
   {
-    Progress progress("glint study");
-    result = study(prepared, options, stop,
-                   [&](std::string_view what, double share) { progress.show(share, what); });
+    StatusLine line;
+    result = study(prepared, options, stop, [&](std::string_view what, double share) {
+      line.show("glint study", share, what);
+    });
   }
   for (const std::string& warning : prepared.scene.warnings)  // after all errors
     printWarning((given.model.empty() ? "sphere" : nameOf(given.model)) + ": " + warning);
@@ -215,10 +210,10 @@ int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
   const Interrupt interrupt;
   CostMeasurement measured;
   {
-    Progress progress("glint study");
+    StatusLine line;
     measured = measureCosts(
         {}, [] { return Interrupt::signal() != 0; },
-        [&](std::string_view what, double share) { progress.show(share, what); });
+        [&](std::string_view what, double share) { line.show("glint study", share, what); });
   }
   if (!measured.complete) {
     std::cerr << "glint: ended before all was measured: no table is written\n";
@@ -247,62 +242,39 @@ Command addStudy(CLI::App& app) {
   command->add_flag("--quick", given->quick,
                     "study fewer pixels (512 x 512), forms and frames, in less than a minute on "
                     "two cores");
-  command
-      ->add_option(
-          "--repetitions", given->repetitions,
-          "number of frames measured for each variant, after 10 that are not [default: 60; with "
-          "--quick 30]")
-      ->type_name("N")
-      ->check(wholeNumberIn(1, 100000));
-  command
-      ->add_option("--time-budget", given->timeBudget,
-                   "stop after this time (like Ctrl-C) and report what has been measured and "
-                   "what is missing")
-      ->type_name("SECONDS")
-      ->check(numberIn(0.001, 1e6));
-  command
-      ->add_option("--clock", given->clock,
-                   "clock for comparing times: wall, the time until a frame is done; cpu, the "
-                   "time that all threads ran meanwhile, which on a software driver is hardly "
-                   "affected by other programs; gpu, the GPU's own timer; auto is gpu if a GPU "
-                   "draws, else wall [default: auto]")
-      ->type_name("auto|wall|cpu|gpu")
+  addNumber(*command, "--repetitions", given->repetitions, "N", 1, 100000,
+            "number of frames measured for each variant, after 10 that are not [default: 60; with "
+            "--quick 30]");
+  addNumber(*command, "--time-budget", given->timeBudget, "SECONDS", 0.001, 1e6,
+            "stop after this time (like Ctrl-C) and report what has been measured and "
+            "what is missing");
+  addOption(*command, "--clock", given->clock, "auto|wall|cpu|gpu",
+            "clock for comparing times: wall, the time until a frame is done; cpu, the "
+            "time that all threads ran meanwhile, which on a software driver is hardly "
+            "affected by other programs; gpu, the GPU's own timer; auto is gpu if a GPU "
+            "draws, else wall [default: auto]")
       ->take_last();
-  command
-      ->add_option("--spread-limit", given->spreadLimit,
-                   "report no front if the same program measured twice differs by more than this "
-                   "[default: 10]")
-      ->type_name("PERCENT")
-      ->check(numberIn(0.0, 1e6));
-  command
-      ->add_option("--rendering-backend", given->backend,
-                   "how to open GL; auto tries egl, then osmesa [default: auto]")
-      ->type_name("auto|egl|egl-software|osmesa")
+  addNumber(*command, "--spread-limit", given->spreadLimit, "PERCENT", 0.0, 1e6,
+            "report no front if the same program measured twice differs by more than this "
+            "[default: 10]");
+  addOption(*command, "--rendering-backend", given->backend, "auto|egl|egl-software|osmesa",
+            "how to open GL; auto tries egl, then osmesa [default: auto]")
       ->take_last();
-  command
-      ->add_option("--output", given->output,
-                   "write study.html (a page), study.svg (its plot), study.json and study.csv into "
-                   "this folder")
-      ->type_name("DIR")
+  addOption(*command, "--output", given->output, "DIR",
+            "write study.html (a page), study.svg (its plot), study.json and study.csv into "
+            "this folder")
       ->take_last();
-  command
-      ->add_option("--markdown", given->markdown,
-                   "write the study's questions and answers, with figures, to this file")
-      ->type_name("FILE");
+  addOption(*command, "--markdown", given->markdown, "FILE",
+            "write the study's questions and answers, with figures, to this file");
   addDecodeLimitOption(*command);
-  command->add_option("--json", given->json, "write the whole result as JSON; - is stdout")
-      ->type_name("FILE");
-  command
-      ->add_option("--measure-costs", given->costs,
-                   "instead of a study, measure the cost of each form on this driver (less than a "
-                   "minute) and write the table that --cost-table reads; - is stdout")
-      ->type_name("FILE")
+  addOption(*command, "--json", given->json, "FILE", "write the whole result as JSON; - is stdout");
+  addOption(*command, "--measure-costs", given->costs, "FILE",
+            "instead of a study, measure the cost of each form on this driver (less than a "
+            "minute) and write the table that --cost-table reads; - is stdout")
       ->take_last();
-  command
-      ->add_option("--half-precision", given->half,
-                   "instead of a study, compute the error of each highlight form in half floats "
-                   "(for all possible inputs) and write the table; - is stdout")
-      ->type_name("FILE")
+  addOption(*command, "--half-precision", given->half, "FILE",
+            "instead of a study, compute the error of each highlight form in half floats "
+            "(for all possible inputs) and write the table; - is stdout")
       ->take_last();
   auto look = addLookOptions(*command);
   return [given, look, command] {

@@ -6,17 +6,13 @@
 #include <numbers>
 
 #include "glint/image/exr_writer.h"
+#include "glint/image/srgb.h"
 #include "output_names.h"
 
 namespace glint {
 namespace {
 
 using Kind = PictureTerm::Kind;
-
-// Decodes the sRGB value x: the inverse of the sRGB curve (IEC 61966-2-1).
-float linearOf(double x) {
-  return float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-}
 
 // Gives each instance a colour: bright, with hues spread by the golden ratio; black for no surface.
 void colorIds(Image& image) {
@@ -26,7 +22,7 @@ void colorIds(Image& image) {
     const bool none = p[0] < 0;
     for (int c = 0; c < 3; ++c) {
       const double wave = std::cos(2 * std::numbers::pi * (turn + c / 3.0));
-      p[c] = none ? 0.0f : linearOf(0.6 + 0.35 * wave);
+      p[c] = none ? 0.0f : float(srgbLinear(0.6 + 0.35 * wave));
     }
   }
 }
@@ -44,9 +40,9 @@ void makeVisible(const PictureTerm& term, Image& image) {
     float* const p = image.values.data() + i;
     for (int c = 0; c < 3; ++c) {
       if (term.kind == Kind::normal)
-        p[c] = p[3] > 0 ? linearOf((double(p[c]) + 1) / 2) : 0;
+        p[c] = p[3] > 0 ? float(srgbLinear((double(p[c]) + 1) / 2)) : 0;
       else
-        p[c] = std::isfinite(p[c]) ? linearOf((double(farthest) - p[c]) / range) : 0;
+        p[c] = std::isfinite(p[c]) ? float(srgbLinear((double(farthest) - p[c]) / range)) : 0;
     }
   }
 }

@@ -104,7 +104,7 @@ class Session {
   /// Parts of the picture by name, four floats a pixel: "depth" (world units along the view, three
   /// times, infinite where there is nothing), "normal" (unit, world space, 0 where there is none),
   /// "id" (the numbers of instance, mesh and material, -1 where there is none), whose fourth value
-  /// tells coverage (1 or 0); and the terms of light whose sum the picture is: "ambient",
+  /// is the coverage (1 or 0); and the terms of light whose sum the picture is: "ambient",
   /// "diffuse-0", "specular-0", "reflection", "refraction", "emission", "background". No names:
   /// all that the look has.
   std::map<std::string, Image> layers(const Model& model, const Options& look = {},

@@ -13,18 +13,7 @@ std::size_t bytesOf(int componentType) {
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
 }
 
-/// Calls `use` with a value of the C++ type that matches a glTF component type.
-template <typename Use>
-void withComponent(int componentType, const Use& use) {
-  if (componentType == 5120) use(std::int8_t());
-  if (componentType == 5121) use(std::uint8_t());
-  if (componentType == 5122) use(std::int16_t());
-  if (componentType == 5123) use(std::uint16_t());
-  if (componentType == 5125) use(std::uint32_t());
-  if (componentType == 5126) use(float());
-}
-
-/// The same for the types allowed for indices.
+/// The same as withComponent() for the types allowed for indices.
 template <typename Use>
 void withIndex(int componentType, const Use& use) {
   if (componentType == 5121) use(std::uint8_t());
@@ -47,6 +36,14 @@ std::size_t spanOf(const AccessorView& view, std::size_t bytes) {
 void readInto(void* to, const AccessorView& view, std::size_t size) {
   if (!view.file->read(to, view.offset, size))
     view.messages->fail(view.label + " cannot be read from its file", "check the disk");
+}
+
+/// Copies all elements, which lie one behind another.
+void copyInto(void* to, const AccessorView& view, std::size_t size) {
+  if (view.data)
+    std::memcpy(to, view.data, size);
+  else
+    readInto(to, view, size);
 }
 
 /// The first element; `room` holds the data if they come from a file. Null if there are no data.
@@ -168,11 +165,7 @@ std::vector<Vector> gather(const AccessorView& view, const VertexList& vertices,
   // If the layouts are equal, directly to the destination.
   if (std::is_same_v<Real, float> && view.componentType == 5126 && vertices.all &&
       view.components == Vector::length() && view.stride == sizeof(Vector)) {
-    const std::size_t size = vertices.count * sizeof(Vector);
-    if (view.data)
-      std::memcpy(static_cast<void*>(result.data()), view.data, size);
-    else
-      readInto(result.data(), view, size);
+    copyInto(result.data(), view, vertices.count * sizeof(Vector));
     return result;
   }
   std::vector<unsigned char> room;
@@ -228,11 +221,7 @@ std::vector<std::uint32_t> readIndices(const AccessorView& view) {
   std::vector<std::uint32_t> indices(view.count);
   if (view.count == 0) return indices;
   if (view.componentType == 5125 && view.stride == sizeof(std::uint32_t)) {
-    const std::size_t size = view.count * sizeof(std::uint32_t);
-    if (view.data)
-      std::memcpy(indices.data(), view.data, size);
-    else
-      readInto(indices.data(), view, size);
+    copyInto(indices.data(), view, view.count * sizeof(std::uint32_t));
     return indices;
   }
   std::vector<unsigned char> room;

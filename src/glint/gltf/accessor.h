@@ -26,6 +26,17 @@ struct AccessorView {
   std::vector<unsigned char> owned;
 };
 
+/// Calls `use` with a value of the C++ type of a glTF component type.
+template <typename Use>
+void withComponent(int componentType, const Use& use) {
+  if (componentType == 5120) use(std::int8_t());
+  if (componentType == 5121) use(std::uint8_t());
+  if (componentType == 5122) use(std::int16_t());
+  if (componentType == 5123) use(std::uint16_t());
+  if (componentType == 5125) use(std::uint32_t());
+  if (componentType == 5126) use(float());
+}
+
 /// Opens an accessor of a checked document. Fails if a sparse index is out of range; `label` names
 /// in messages what it belongs to.
 AccessorView openAccessor(const Document& document, int accessor, const std::string& label,

@@ -64,8 +64,7 @@ class Reader {
         from_(root_.member("animations").item(index)) {}
 
   Animation read() {
-    const Cursor channels = from_.required("channels");
-    for (std::size_t i = 0; i < channels.size(); ++i) readChannel(channels.item(i));
+    for (const Cursor channel : from_.required("channels")) readChannel(channel);
     return std::move(animation_);
   }
 

@@ -91,16 +91,13 @@ struct View {
 };
 
 std::vector<View> checkViews(Cursor root) {
-  const Cursor buffers = root.member("buffers");
   std::vector<std::int64_t> sizes;
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    sizes.push_back(buffers.item(i).required("byteLength").integer(0, 0, maxBytes));
-    buffers.item(i).member("uri").text();
+  for (const Cursor buffer : root.member("buffers")) {
+    sizes.push_back(buffer.required("byteLength").integer(0, 0, maxBytes));
+    buffer.member("uri").text();
   }
-  const Cursor list = root.member("bufferViews");
   std::vector<View> views;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Cursor view = list.item(i);
+  for (const Cursor view : root.member("bufferViews")) {
     const int buffer = view.required("buffer").index(sizes.size());
     const std::int64_t offset = view.member("byteOffset").integer(0, 0, maxBytes);
     const std::int64_t bytes = view.required("byteLength").integer(0, 0, maxBytes);
@@ -149,9 +146,7 @@ void checkSparse(Cursor sparse, const std::vector<View>& views, std::int64_t acc
 }
 
 void checkAccessors(Cursor root, const std::vector<View>& views) {
-  const Cursor list = root.member("accessors");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Cursor accessor = list.item(i);
+  for (const Cursor accessor : root.member("accessors")) {
     const std::int64_t component =
         componentBytes(accessor.required("componentType").integer(0, 0, INT_MAX));
     if (component == 0) accessor.member("componentType").fail("is not one that glTF 2.0 knows");
@@ -193,17 +188,13 @@ void checkCounts(Cursor root) {
 void checkMeshes(Cursor root) {
   const std::size_t accessors = root.member("accessors").size();
   const std::size_t materials = root.member("materials").size();
-  const Cursor meshes = root.member("meshes");
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    meshes.item(i).member("weights").checkNumbers(0);
-    const Cursor primitives = meshes.item(i).required("primitives");
-    for (std::size_t k = 0; k < primitives.size(); ++k) {
-      const Cursor primitive = primitives.item(k);
+  for (const Cursor mesh : root.member("meshes")) {
+    mesh.member("weights").checkNumbers(0);
+    for (const Cursor primitive : mesh.required("primitives")) {
       primitive.member("mode").integer(4, 0, 6);
       primitive.member("material").index(materials);
       checkAttributes(primitive.required("attributes"), accessors);
-      const Cursor targets = primitive.member("targets");
-      for (std::size_t t = 0; t < targets.size(); ++t) checkAttributes(targets.item(t), accessors);
+      for (const Cursor target : primitive.member("targets")) checkAttributes(target, accessors);
       const Cursor indices = primitive.member("indices");
       const int accessor = indices.index(accessors);
       if (accessor < 0) continue;
@@ -232,12 +223,11 @@ void checkNodes(Cursor root) {
     node.member("rotation").checkNumbers(4);
     node.member("scale").checkNumbers(3);
     node.member("weights").checkNumbers(0);
-    const Cursor list = node.member("children");
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      const auto child = static_cast<std::size_t>(list.item(k).index(count));
+    for (const Cursor each : node.member("children")) {
+      const auto child = static_cast<std::size_t>(each.index(count));
       if (parent[child] >= 0) {
-        list.item(k).fail("is node " + std::to_string(child) + ", already a child of node " +
-                          std::to_string(parent[child]));
+        each.fail("is node " + std::to_string(child) + ", already a child of node " +
+                  std::to_string(parent[child]));
       }
       parent[child] = static_cast<int>(i);
       children[i].push_back(child);
@@ -263,9 +253,8 @@ void checkNodes(Cursor root) {
 void checkScenesAndSkins(Cursor root) {
   const std::size_t nodes = root.member("nodes").size();
   const Cursor scenes = root.member("scenes");
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Cursor list = scenes.item(i).member("nodes");
-    for (std::size_t k = 0; k < list.size(); ++k) list.item(k).index(nodes);
+  for (const Cursor scene : scenes) {
+    for (const Cursor node : scene.member("nodes")) node.index(nodes);
   }
   // A file without scenes is a library of parts; "scene" then has nothing to refer to.
   if (scenes.size() > 0) {
@@ -273,12 +262,11 @@ void checkScenesAndSkins(Cursor root) {
   } else {
     root.member("scene").integer(0, 0, INT_MAX);
   }
-  const Cursor skins = root.member("skins");
-  for (std::size_t i = 0; i < skins.size(); ++i) {
-    const Cursor joints = skins.item(i).required("joints");
-    for (std::size_t k = 0; k < joints.size(); ++k) joints.item(k).index(nodes);
+  for (const Cursor skin : root.member("skins")) {
+    const Cursor joints = skin.required("joints");
+    for (const Cursor joint : joints) joint.index(nodes);
     if (joints.size() == 0) joints.fail("is empty");
-    const Cursor matrices = skins.item(i).member("inverseBindMatrices");
+    const Cursor matrices = skin.member("inverseBindMatrices");
     const int accessor = matrices.index(root.member("accessors").size());
     if (accessor < 0) continue;
     const Cursor list = root.member("accessors").item(static_cast<std::size_t>(accessor));

@@ -51,9 +51,8 @@ class Decompressor {
   }
 
   void decodeViews() {
-    const Cursor views = root_.member("bufferViews");
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      const Cursor view = views.item(i), from = view.member("extensions").member(meshopt);
+    for (const Cursor view : root_.member("bufferViews")) {
+      const Cursor from = view.member("extensions").member(meshopt);
       if (!from.exists()) continue;
       const auto number = [&](const char* key) {
         return static_cast<std::uint64_t>(from.member(key).integer(0, 0, maxCompressedBytes));
@@ -97,11 +96,8 @@ class Decompressor {
   }
 
   void decodePrimitives() {
-    const Cursor meshes = root_.member("meshes");
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-      const Cursor primitives = meshes.item(m).member("primitives");
-      for (std::size_t p = 0; p < primitives.size(); ++p) decodePrimitive(primitives.item(p));
-    }
+    for (const Cursor mesh : root_.member("meshes"))
+      for (const Cursor primitive : mesh.member("primitives")) decodePrimitive(primitive);
   }
 
   void decodePrimitive(Cursor primitive) {

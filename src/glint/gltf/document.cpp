@@ -51,11 +51,10 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
 }
 
 std::vector<ViewPlace> placeViews(Cursor root) {
-  const Cursor list = root.member("bufferViews");
   std::vector<ViewPlace> views;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (const Cursor view : root.member("bufferViews")) {
     const auto number = [&](const char* key) {
-      return static_cast<std::uint64_t>(list.item(i).member(key).integer(0, 0, INT64_MAX));
+      return static_cast<std::uint64_t>(view.member(key).integer(0, 0, INT64_MAX));
     };
     views.push_back({number("buffer"), number("byteOffset"), number("byteLength")});
   }
@@ -73,9 +72,8 @@ std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
         static_cast<std::uint64_t>(owner.member("byteOffset").integer(0, 0, INT64_MAX));
     end = std::max(end, offset + bytes);
   };
-  const Cursor list = root.member("accessors"), views = root.member("bufferViews");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Cursor accessor = list.item(i);
+  const Cursor views = root.member("bufferViews");
+  for (const Cursor accessor : root.member("accessors")) {
     const int view = accessor.member("bufferView").index(count);
     if (view >= 0)
       use(accessor,
@@ -96,9 +94,10 @@ std::vector<std::uint64_t> endsOfViews(Cursor root, std::size_t count) {
 }
 
 std::vector<std::string> readVariants(Cursor root) {
-  const Cursor list = root.member("extensions").member("KHR_materials_variants").member("variants");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list.item(i).name());
+  for (const Cursor variant :
+       root.member("extensions").member("KHR_materials_variants").member("variants"))
+    names.push_back(variant.name());
   return names;
 }
 
@@ -139,13 +138,12 @@ void readGeometry(Cursor root, Document& document, const Messages& messages) {
 }
 
 std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
-  const Cursor nodes = root.member("nodes");
   const std::size_t lights = lightsOf(root).size();
-  std::vector<Document::NodeExtension> result(nodes.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const Cursor extensions = nodes.item(i).member("extensions");
-    result[i].light = extensions.member("KHR_lights_punctual").member("light").index(lights);
-    result[i].visible = extensions.member("KHR_node_visibility").member("visible").boolean(true);
+  std::vector<Document::NodeExtension> result;
+  for (const Cursor node : root.member("nodes")) {
+    const Cursor extensions = node.member("extensions");
+    result.push_back({extensions.member("KHR_lights_punctual").member("light").index(lights),
+                      extensions.member("KHR_node_visibility").member("visible").boolean(true)});
   }
   return result;
 }
@@ -154,11 +152,8 @@ std::vector<Document::NodeExtension> readNodeExtensions(Cursor root) {
 /// without a buffer view, but zeros and their replacements in a sparse accessor are valid.
 std::vector<int> takeIndices(Cursor root) {
   std::vector<int> result;
-  const Cursor meshes = root.member("meshes");
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const Cursor primitives = meshes.item(i).member("primitives");
-    for (std::size_t k = 0; k < primitives.size(); ++k) {
-      const Cursor primitive = primitives.item(k);
+  for (const Cursor mesh : root.member("meshes")) {
+    for (const Cursor primitive : mesh.member("primitives")) {
       result.push_back(primitive.member("indices").index(root.member("accessors").size()));
       primitive.json().erase("indices");
     }
@@ -176,15 +171,11 @@ Document::Pieces readPieces(Cursor root) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const Cursor primitives = meshes.item(i).member("primitives");
     for (std::size_t k = 0; k < primitives.size(); ++k) {
-      const Cursor mappings = primitives.item(k)
-                                  .member("extensions")
-                                  .member("KHR_materials_variants")
-                                  .member("mappings");
-      for (std::size_t m = 0; m < mappings.size(); ++m) {
-        const int material = mappings.item(m).required("material").index(materials);
-        const Cursor of = mappings.item(m).required("variants");
-        for (std::size_t v = 0; v < of.size(); ++v)
-          pieces.variantMaterials[{i, k}][of.item(v).index(variants)] = material;
+      const Cursor extensions = primitives.item(k).member("extensions");
+      for (const Cursor mapping : extensions.member("KHR_materials_variants").member("mappings")) {
+        const int material = mapping.required("material").index(materials);
+        for (const Cursor variant : mapping.required("variants"))
+          pieces.variantMaterials[{i, k}][variant.index(variants)] = material;
       }
     }
   }

@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "glint/gltf/accessor.h"
+
 namespace glint::gltf {
 
 #if GLINT_DRACO
@@ -66,28 +68,9 @@ std::string DracoMesh::readAttribute(std::uint32_t id, int componentType, const 
     return "has an accessor that is no vector";
   if (attribute->num_components() < components) return "has fewer components than its accessor";
   bool good = false;
-  switch (componentType) {
-    case 5120:
-      good = convert<std::int8_t>(*attribute, points(), components, bytes);
-      break;
-    case 5121:
-      good = convert<std::uint8_t>(*attribute, points(), components, bytes);
-      break;
-    case 5122:
-      good = convert<std::int16_t>(*attribute, points(), components, bytes);
-      break;
-    case 5123:
-      good = convert<std::uint16_t>(*attribute, points(), components, bytes);
-      break;
-    case 5125:
-      good = convert<std::uint32_t>(*attribute, points(), components, bytes);
-      break;
-    case 5126:
-      good = convert<float>(*attribute, points(), components, bytes);
-      break;
-    default:
-      break;
-  }
+  withComponent(componentType, [&](auto type) {
+    good = convert<decltype(type)>(*attribute, points(), components, bytes);
+  });
   return good ? "" : "holds values that its accessor cannot";
 }
 

@@ -93,10 +93,8 @@ bool shows(Cursor root, const std::string& name) {
   const auto found =
       std::ranges::find_if(factors, [&](const auto& each) { return name == each.first; });
   if (found == std::end(factors)) return true;
-  const Cursor materials = root.member("materials");
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const Cursor factor =
-        materials.item(i).member("extensions").member(name.c_str()).member(found->second);
+  for (const Cursor material : root.member("materials")) {
+    const Cursor factor = material.member("extensions").member(name.c_str()).member(found->second);
     if (factor.exists() && isAbove0(factor.json())) return true;
   }
   return false;
@@ -130,9 +128,8 @@ std::vector<FileExtension> extensionsOf(Cursor root) {
   std::map<std::string, std::size_t> places;
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
     const bool required = list == std::string_view("extensionsRequired");
-    const Cursor names = root.member(list);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string name = printable(names.item(i).text(), 80);
+    for (const Cursor each : root.member(list)) {
+      const std::string name = printable(each.text(), 80);
       const auto [place, isNew] = places.try_emplace(name, result.size());
       if (isNew) result.push_back(describeExtension(name));
       result[place->second].required |= required;
@@ -147,29 +144,22 @@ std::vector<FileExtension> extensionsOf(Cursor root) {
 
 std::vector<FileSkin> skinsOf(Cursor root) {
   std::vector<FileSkin> result;
-  const Cursor skins = root.member("skins");
-  for (std::size_t i = 0; i < skins.size(); ++i) {
-    const Cursor joints = skins.item(i).member("joints");
-    FileSkin skin{printable(skins.item(i).name(), 80), {}};
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      const auto node = static_cast<std::size_t>(joints.item(k).integer(0, 0, INT32_MAX));
+  for (const Cursor from : root.member("skins")) {
+    FileSkin& skin = result.emplace_back(FileSkin{printable(from.name(), 80), {}});
+    for (const Cursor joint : from.member("joints")) {
+      const auto node = static_cast<std::size_t>(joint.integer(0, 0, INT32_MAX));
       skin.joints.push_back(printable(root.member("nodes").item(node).name(), 80));
     }
-    result.push_back(std::move(skin));
   }
   return result;
 }
 
 std::vector<FileMorph> morphsOf(Cursor root) {
   std::vector<FileMorph> result;
-  const Cursor meshes = root.member("meshes");
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const Cursor mesh = meshes.item(i);
-    const Cursor primitives = mesh.member("primitives");
+  for (const Cursor mesh : root.member("meshes")) {
     std::size_t count = 0;
-    for (std::size_t k = 0; k < primitives.size(); ++k) {
-      count = std::max(count, primitives.item(k).member("targets").size());
-    }
+    for (const Cursor primitive : mesh.member("primitives"))
+      count = std::max(count, primitive.member("targets").size());
     if (count == 0) continue;
     FileMorph morph{printable(mesh.name(), 80), std::vector<std::string>(count)};
     // By convention names are in "extras", whose structure is not guaranteed.

@@ -43,6 +43,10 @@ class Cursor {
   Cursor item(std::size_t i) const;
   /// The number of entries of an array, 0 if it is absent.
   std::size_t size() const;
+  class Iterator;
+  /// The entries of an array, in a loop.
+  Iterator begin() const;
+  Iterator end() const;
 
   /// An integer from `low` to `high`; 5.0 is accepted too, and corrected in the document.
   std::int64_t integer(std::int64_t fallback, std::int64_t low, std::int64_t high) const;
@@ -76,5 +80,20 @@ class Cursor {
   std::array<Step, 10> steps_{};
   std::size_t depth_ = 0;
 };
+
+class Cursor::Iterator {
+ public:
+  Iterator(const Cursor& list, std::size_t at) : list_(&list), at_(at) {}
+  Cursor operator*() const { return list_->item(at_); }
+  void operator++() { ++at_; }
+  bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+ private:
+  const Cursor* list_;
+  std::size_t at_;
+};
+
+inline Cursor::Iterator Cursor::begin() const { return {*this, 0}; }
+inline Cursor::Iterator Cursor::end() const { return {*this, size()}; }
 
 }  // namespace glint::gltf

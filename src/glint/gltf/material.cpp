@@ -243,11 +243,10 @@ Material readMaterial(Cursor from, TextureReader& textures, Messages& messages) 
 std::vector<Material> readMaterials(Document& document, TextureReader& textures,
                                     Messages& messages) {
   std::vector<Material> materials;
-  const Cursor list = Cursor(document.json, messages).member("materials");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    Material& material = materials.emplace_back(readMaterial(list.item(i), textures, messages));
+  for (const Cursor from : Cursor(document.json, messages).member("materials")) {
+    Material& material = materials.emplace_back(readMaterial(from, textures, messages));
     // Every material needs a name so that it can be edited.
-    if (material.name.empty()) material.name = "#" + std::to_string(i);
+    if (material.name.empty()) material.name = "#" + std::to_string(materials.size() - 1);
   }
   Material& standard = materials.emplace_back();
   standard.name = "#default";

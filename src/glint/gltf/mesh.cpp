@@ -35,9 +35,8 @@ bool allOf(const std::vector<Value>& values, const Good& good) {
 
 template <typename Vector>
 bool fitsFloat(const Vector& v) {
-  for (int k = 0; k < Vector::length(); ++k) {
+  for (int k = 0; k < Vector::length(); ++k)
     if (!std::isfinite(static_cast<float>(v[k]))) return false;
-  }
   return true;
 }
 
@@ -111,13 +110,13 @@ std::vector<Vector> Builder::read(const Attributes& attributes, const std::strin
 
 /// Whether some data are in a buffer without a location; nothing can then be drawn.
 bool Builder::lacksData() {
-  std::vector<const Attributes*> all{&primitive_.attributes};
-  for (const Attributes& target : primitive_.targets) all.push_back(&target);
   std::vector<int> accessors;
   if (primitive_.indices >= 0) accessors.push_back(primitive_.indices);
-  for (const Attributes* each : all) {
-    for (const auto& [name, accessor] : *each) accessors.push_back(accessor);
-  }
+  const auto add = [&](const Attributes& all) {
+    for (const auto& [name, accessor] : all) accessors.push_back(accessor);
+  };
+  add(primitive_.attributes);
+  std::ranges::for_each(primitive_.targets, add);
   for (const int accessor : accessors) {
     const int buffer = document_.absentBufferOf(accessor);
     if (buffer < 0) continue;
@@ -210,14 +209,13 @@ void Builder::applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
 
 template <typename Vector>
 void Builder::dropNonFinite(std::vector<Vector>& positions) {
-  const auto good = [](const Vector& position) { return fitsFloat(position); };
-  if (allOf(positions, good)) return;
+  if (allOf(positions, fitsFloat<Vector>)) return;
   auto& indices = built_.mesh.indices;
   const std::size_t corners = cornersOf(built_.mesh.topology);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < indices.size(); i += corners) {
     bool whole = true;
-    for (std::size_t k = 0; k < corners; ++k) whole = whole && good(positions[indices[i + k]]);
+    for (std::size_t k = 0; k < corners; ++k) whole = whole && fitsFloat(positions[indices[i + k]]);
     if (!whole) continue;
     for (std::size_t k = 0; k < corners; ++k) indices[kept++] = indices[i + k];
   }
@@ -265,9 +263,8 @@ void Builder::place(std::vector<Vector> positions) {
     }
   }
   stored.resize(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
+  for (std::size_t i = 0; i < positions.size(); ++i)
     stored[i] = glm::vec3(glm::dvec3(positions[i]) - origin);
-  }
 }
 
 void Builder::readColors(const Pose& pose) {
@@ -277,11 +274,9 @@ void Builder::readColors(const Pose& pose) {
   bool finite = true;
   for (glm::vec4& color : colors) {
     for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(color[k])) {
-        finite = false;
-        color[k] = 1;
-      }
-      color[k] = std::clamp(color[k], 0.0f, 1.0f);
+      const bool good = std::isfinite(color[k]);
+      finite = finite && good;
+      color[k] = good ? std::clamp(color[k], 0.0f, 1.0f) : 1.0f;
     }
   }
   if (!finite) warn("has vertex colours that are not finite, replaced by 1");
@@ -289,9 +284,8 @@ void Builder::readColors(const Pose& pose) {
 
 void Builder::readTexcoords(const Pose& pose, const Material& material) {
   for (const std::optional<Texture>* each : texturesOf(material)) {
-    const std::optional<Texture>& texture = *each;
-    if (!texture) continue;
-    const auto set = static_cast<std::size_t>(texture->texcoord);
+    if (!*each) continue;
+    const auto set = static_cast<std::size_t>((*each)->texcoord);
     auto& sets = built_.mesh.texcoords;
     if (set < sets.size() && !sets[set].empty()) continue;
     const std::string name = "TEXCOORD_" + std::to_string(set);
@@ -360,18 +354,14 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
   if (!readElements()) return std::nullopt;
   Mesh& mesh = built_.mesh;
   const Attributes& attributes = primitive_.attributes;
-  const int last = static_cast<int>(materials.size()) - 1;
-  mesh.material = primitive_.material >= 0 ? primitive_.material : last;
+  mesh.material = primitive_.material >= 0 ? primitive_.material : int(materials.size()) - 1;
 
   built_.skinned =
       !pose.joints.empty() && attributes.contains("JOINTS_0") && attributes.contains("WEIGHTS_0");
   const auto finish = [&](auto positions) {
     dropNonFinite(positions);
-    if (mesh.indices.empty()) return false;
-    place(std::move(positions));
-    return true;
+    if (!mesh.indices.empty()) place(std::move(positions));
   };
-  bool drawn = false;
   const bool posed = built_.skinned || (pose.morphs() && !primitive_.targets.empty());
   if (posed) {
     auto positions = read<glm::dvec3>(attributes, "POSITION", 3, 3);
@@ -381,13 +371,13 @@ std::optional<BuiltMesh> Builder::build(const Pose& pose, const std::vector<Mate
     if (built_.skinned) applySkin(pose, positions, normals);
     mesh.normals.resize(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) mesh.normals[i] = direction(normals[i]);
-    drawn = finish(std::move(positions));
+    finish(std::move(positions));
   } else {
     auto positions = read<glm::vec3>(attributes, "POSITION", 3, 3);
     mesh.normals = read<glm::vec3>(attributes, "NORMAL", 3, 3);
-    drawn = finish(std::move(positions));
+    finish(std::move(positions));
   }
-  if (!drawn) return std::nullopt;
+  if (mesh.indices.empty()) return std::nullopt;
   readColors(pose);
   const Material& material = materials[static_cast<std::size_t>(mesh.material)];
   readTexcoords(pose, material);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <string_view>
+#include <tuple>
 
 #include "glint/gltf/file.h"
 #include "glint/image/texture.h"
@@ -230,25 +231,15 @@ Sampler TextureReader::sampler(Cursor texture) {
   if (sampler.member("magFilter").integer(9729, 0, INT32_MAX) == 9728) {
     result.magnify = Filter::nearest;
   }
-  switch (sampler.member("minFilter").integer(9987, 0, INT32_MAX)) {
-    case 9728:
-      result = {result.magnify, Filter::nearest, MipFilter::none};
-      break;
-    case 9729:
-      result = {result.magnify, Filter::linear, MipFilter::none};
-      break;
-    case 9984:
-      result = {result.magnify, Filter::nearest, MipFilter::nearest};
-      break;
-    case 9985:
-      result = {result.magnify, Filter::linear, MipFilter::nearest};
-      break;
-    case 9986:
-      result = {result.magnify, Filter::nearest, MipFilter::linear};
-      break;
-    default:
-      break;
-  }
+  constexpr std::tuple<int, Filter, MipFilter> filters[] = {
+      {9728, Filter::nearest, MipFilter::none},
+      {9729, Filter::linear, MipFilter::none},
+      {9984, Filter::nearest, MipFilter::nearest},
+      {9985, Filter::linear, MipFilter::nearest},
+      {9986, Filter::nearest, MipFilter::linear}};
+  const std::int64_t asked = sampler.member("minFilter").integer(9987, 0, INT32_MAX);
+  for (const auto& [value, minify, mip] : filters)
+    if (value == asked) result = {result.magnify, minify, mip};
   result.wrapS = wrapOf(sampler.member("wrapS").integer(10497, 0, INT32_MAX));
   result.wrapT = wrapOf(sampler.member("wrapT").integer(10497, 0, INT32_MAX));
   return result;

@@ -60,6 +60,7 @@ class OutputFile {
 
   /// Appends. Small pieces are collected, so an error may be reported by a later call.
   void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
   /// Writes at an offset in bytes from the beginning, which may lie beyond the current end (the gap
   /// reads as zeros). Not for standard output, FIFOs and sockets. Must not be mixed with write().

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace glint {
+
+/// A number, or null for what JSON has no number for: NaN and the infinities.
+inline nlohmann::ordered_json jsonNumber(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
+}
 
 // All JSON text enters the program through these functions. The parser itself does not recurse, but
 // copying, comparing, hashing, printing or destroying its result does, so deep nesting must be

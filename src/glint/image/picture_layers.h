@@ -26,13 +26,12 @@ struct PictureLayers {
   bool named = false;                ///< the format names its layers
 };
 
-/// Reads the layers of a picture: "all", "main", or those with one name: "diffuse" (its colours),
-/// "normal" (normal.X, normal.Y, normal.Z), "Z", a part, a part and a layer ("right.diffuse").
-/// Throws InputError as readStoredImage() does, and for a name that does not exist.
-PictureLayers readPictureLayers(const std::string& path, const std::string& wanted);
-/// The same from memory; `name` appears in the messages. A picture of more than `heldBytes` is read
-/// by rows if its format allows (PNG that is not interlaced, PPM, PGM, TIFF in strips); `bytes`
-/// must then outlive it.
+/// Reads the layers of a picture in memory: "all", "main", or those with one name: "diffuse" (its
+/// colours), "normal" (normal.X, normal.Y, normal.Z), "Z", a part, a part and a layer
+/// ("right.diffuse"). `name` appears in the messages. Throws InputError as readStoredImage() does,
+/// and for a name that does not exist. A picture of more than `heldBytes` is read by rows if its
+/// format allows (PNG that is not interlaced, PPM, PGM, TIFF in strips); `bytes` must then outlive
+/// it.
 PictureLayers decodePictureLayers(std::span<const std::byte> bytes, const std::string& name,
                                   const std::string& wanted, std::size_t heldBytes = SIZE_MAX);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "glint/image/compared_rows.h"
+#include "glint/image/srgb.h"
 
 namespace glint::detail {
 namespace {
@@ -28,11 +29,8 @@ struct Oklab {
 /// correction of lightness near black ("Okhsv and Okhsl", 2021): 0 for black to 1 for white.
 Oklab oklabOf(const float* p) {
   double c[3];
-  for (int i = 0; i < 3; ++i) {
-    const double x = std::fabs(double(p[i]));
-    c[i] =
-        std::copysign(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4), double(p[i]));
-  }
+  for (int i = 0; i < 3; ++i)
+    c[i] = std::copysign(srgbLinear(std::fabs(double(p[i]))), double(p[i]));
   const double l = std::cbrt(0.4122214708 * c[0] + 0.5363325363 * c[1] + 0.0514459929 * c[2]);
   const double m = std::cbrt(0.2119034982 * c[0] + 0.6806995451 * c[1] + 0.1073969566 * c[2]);
   const double s = std::cbrt(0.0883024619 * c[0] + 0.2817188376 * c[1] + 0.6299787005 * c[2]);

@@ -128,10 +128,6 @@ PictureLayers decodePictureLayers(std::span<const std::byte> bytes, const std::s
   }
 }
 
-PictureLayers readPictureLayers(const std::string& path, const std::string& wanted) {
-  return decodePictureLayers(readFile(path), path, wanted);
-}
-
 StoredImage readStoredImage(const std::string& path, const std::string& layer) {
   return decodeStoredImage(readFile(path), path, layer);
 }

@@ -138,11 +138,7 @@ std::uint16_t encodeSrgb16(float linear) {
   return static_cast<std::uint16_t>(std::lround(65535 * encoded));
 }
 
-float decodeSrgb16(std::uint16_t code) {
-  const double encoded = code / 65535.0;
-  return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92
-                                               : std::pow((encoded + 0.055) / 1.055, 2.4));
-}
+float decodeSrgb16(std::uint16_t code) { return static_cast<float>(srgbLinear(code / 65535.0)); }
 
 std::size_t encodeSrgb8(const float* rgba, std::size_t pixels, float scale, std::uint8_t* out) {
   std::size_t nanPixels = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +23,14 @@ inline constexpr std::array<float, 255> srgbThresholds =
 
 /// Code to linear light, [0, 1]: the float nearest to the exact value.
 inline constexpr std::array<float, 256> srgbDecoded = detail::floatsOfBits(detail::srgbDecodedBits);
+
+/// The curve itself, of a linear value from 0 on, and its inverse.
+inline double srgbEncoded(double x) {
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+inline double srgbLinear(double x) {
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
 
 /// The code of one linear value, as defined above.
 std::uint8_t encodeSrgb8(float linear);

@@ -48,15 +48,11 @@ void codesToValues(const Code* codes, int channels, std::size_t pixels, bool sto
 }  // namespace
 
 float encodedValue(float linear) {
-  const double x = std::fabs(double(linear));
-  const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<float>(std::copysign(y, linear));
+  return static_cast<float>(std::copysign(srgbEncoded(std::fabs(double(linear))), linear));
 }
 
 float decodedValue(float encoded) {
-  const double x = std::fabs(double(encoded));
-  const double y = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-  return static_cast<float>(std::copysign(y, encoded));
+  return static_cast<float>(std::copysign(srgbLinear(std::fabs(double(encoded))), encoded));
 }
 
 void StoredImage::readWindow(int first, int count, void* out) const {

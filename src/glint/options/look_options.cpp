@@ -1,10 +1,10 @@
 #include "glint/options/look_options.h"
 
-#include <CLI/CLI.hpp>
 #include <deque>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "glint/options/add_option.h"
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 
@@ -50,14 +50,11 @@ LookSource addLookOptions(CLI::App& app) {
     option->group(p.section);
     state->options.emplace_back(&p, option);
   }
-  app.add_option(
-         "--look", state->lookFile,
-         "start from the look in this file (JSON), or from the look stored in a picture that "
-         "glint has drawn (PNG or EXR); options on the command line override it")
-      ->type_name("FILE")
+  addOption(app, "--look", state->lookFile, "FILE",
+            "start from the look in this file (JSON), or from the look stored in a picture that "
+            "glint has drawn (PNG or EXR); options on the command line override it")
       ->group("Looks");
-  app.add_option("--save-look", state->saveFile, "write the look to this file; - is stdout")
-      ->type_name("FILE")
+  addOption(app, "--save-look", state->saveFile, "FILE", "write the look to this file; - is stdout")
       ->group("Looks");
   return LookSource(state);
 }

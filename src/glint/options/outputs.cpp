@@ -30,10 +30,8 @@ bool isSameFile(const std::string& a, const std::string& b) {
 void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
   // A file that does not exist yet cannot be lost.
-  const bool replaces = std::ranges::any_of(outputs, [](const OutputOption& output) {
-    std::error_code error;
-    return fs::exists(output.path, error);
-  });
+  const bool replaces =
+      std::ranges::any_of(outputs, [](const OutputOption& output) { return isThere(output.path); });
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
     noteReadFile(input);
@@ -48,7 +46,7 @@ void checkOutputs(const std::vector<OutputOption>& outputs,
         throw InputError(what + other->option + " goes to stdout already: give one of them a file");
       // Devices, above all /dev/null, may be given twice.
       std::error_code ignored;
-      if (fs::exists(output.path, ignored) && !fs::is_regular_file(output.path, ignored)) continue;
+      if (isThere(output.path) && !fs::is_regular_file(output.path, ignored)) continue;
       if (output.path != "-" && isSameFile(output.path, other->path))
         throw InputError(what + other->option + " writes that file already: give another");
     }
@@ -97,10 +95,14 @@ void printWhole(const std::string& text) {
   }
 }
 
+void commitText(OutputFile& file, std::string_view text) {
+  file.write(text);
+  file.commit();
+}
+
 void writeText(const std::string& path, const std::string& text) {
   OutputFile file(path);
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
+  commitText(file, text);
 }
 
 void printWarning(const std::string& text) {

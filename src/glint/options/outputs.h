@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "glint/image/made_folders.h"
+#include "glint/image/file.h"
 
 namespace glint {
 
@@ -38,6 +39,9 @@ void flushStandardOutput();
 
 /// Prints text on stdout; if stdout is a file, whole or not at all. Throws InputError.
 void printWhole(const std::string& text);
+
+/// Writes the text as all, or the rest, of a file.
+void commitText(OutputFile& file, std::string_view text);
 
 /// Writes text to a file, or to stdout for "-".
 void writeText(const std::string& path, const std::string& text);

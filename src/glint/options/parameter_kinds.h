@@ -194,4 +194,18 @@ Parameter resetting(Parameter p, Value Look::*member) {
   return p;
 }
 
+// A row of text, of which an empty one is none.
+inline Parameter text(const std::string& name, const std::string& value, std::string Look::*member,
+                      const std::string& help) {
+  const auto read = [=](Look& look, const std::string& given) {
+    if (given.empty())
+      throw InputError("--" + name + ": '' is empty: give a value or leave the option out");
+    look.*member = given;
+  };
+  const auto save = [=](const Look& look) {
+    return (look.*member).empty() ? Json() : Json(look.*member);
+  };
+  return resetting(custom(name, value, help, read, save), member);
+}
+
 }  // namespace glint::kinds

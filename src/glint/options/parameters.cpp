@@ -46,11 +46,6 @@ Parameter lights() {
 
 constexpr std::array<std::string_view, 6> upAxes = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-std::string nonEmpty(const std::string& text, const std::string& what) {
-  if (text.empty()) throw InputError(what + ": '' is empty: give a value or leave the option out");
-  return text;
-}
-
 Parameter lightScale() {
   Parameter p = custom(
       "light-scale", "auto|FACTOR",
@@ -128,16 +123,6 @@ Parameter materials() {
   return p;
 }
 
-Parameter costTable() {
-  Parameter p = custom(
-      "cost-table", "FILE",
-      "file with the cost of each form on a driver (from glint study --measure-costs); "
-      "--max-error uses it instead of the table that ships with glint",
-      [](Look& look, const std::string& text) { look.costTable = nonEmpty(text, "--cost-table"); },
-      [](const Look& look) { return look.costTable.empty() ? Json() : Json(look.costTable); });
-  return resetting(std::move(p), &Look::costTable);
-}
-
 Parameter maxError() {
   const auto parse = [](const std::string& text) {
     try {
@@ -213,7 +198,10 @@ std::vector<Parameter> makeTable() {
               "how the program environment computes the reflectance: exact (without "
               "cancellation), the textbook's equations, Schlick's approximation, the same with "
               "the power computed by exp2, or a rational function fitted to the index"),
-       maxError(), costTable(),
+       maxError(),
+       text("cost-table", "FILE", &Look::costTable,
+            "file with the cost of each form on a driver (from glint study --measure-costs); "
+            "--max-error uses it instead of the table that ships with glint"),
        slider(number("blinn-factor", "FACTOR", 0, 1e3, &Look::blinnFactor,
                      "Blinn's exponent as a multiple of Phong's"),
               0, 16, false),
@@ -242,17 +230,9 @@ std::vector<Parameter> makeTable() {
                   1, 3, false, 1, "n1"),
            choice("environment", environmentTexts(), &Look::environment,
                   "what the program environment reflects and refracts"),
-           resetting(custom(
-                         "hdri-file", "FILE",
-                         "an equirectangular picture in place of --environment, with -Z at its "
-                         "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM",
-                         [](Look& look, const std::string& text) {
-                           look.hdriFile = nonEmpty(text, "--hdri-file");
-                         },
-                         [](const Look& look) {
-                           return look.hdriFile.empty() ? Json() : Json(look.hdriFile);
-                         }),
-                     &Look::hdriFile),
+           text("hdri-file", "FILE", &Look::hdriFile,
+                "an equirectangular picture in place of --environment, with -Z at its "
+                "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM"),
            slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
                          "turn the environment about +Y"),
                   -180, 180, false),
@@ -314,35 +294,14 @@ std::vector<Parameter> makeTable() {
                   "time in the animation; after its end the last pose is kept [default: the file's "
                   "rest pose]"),
            0, 10, false),
-       resetting(custom(
-                     "animation", "NAME|N|all",
-                     "animation of the file, or all of them at once [default: the first]",
-                     [](Look& look, const std::string& text) {
-                       look.animation = nonEmpty(text, "--animation");
-                     },
-                     [](const Look& look) {
-                       return look.animation.empty() ? Json() : Json(look.animation);
-                     }),
-                 &Look::animation)});
-  section(
-      "Model",
-      {resetting(
-           custom(
-               "scene", "NAME|N", "scene of the file [default: the file's own]",
-               [](Look& look, const std::string& text) { look.scene = nonEmpty(text, "--scene"); },
-               [](const Look& look) { return look.scene.empty() ? Json() : Json(look.scene); }),
-           &Look::scene),
-       resetting(
-           custom(
-               "variant", "NAME|N",
-               "variant of the materials (KHR_materials_variants) [default: none]",
-               [](Look& look, const std::string& text) {
-                 look.variant = nonEmpty(text, "--variant");
-               },
-               [](const Look& look) { return look.variant.empty() ? Json() : Json(look.variant); }),
-           &Look::variant),
-       choice("up", std::span<const std::string_view>(upAxes), &Look::up,
-              "axis of the model that points up; its cameras and lights turn with it")});
+       text("animation", "NAME|N|all", &Look::animation,
+            "animation of the file, or all of them at once [default: the first]")});
+  section("Model",
+          {text("scene", "NAME|N", &Look::scene, "scene of the file [default: the file's own]"),
+           text("variant", "NAME|N", &Look::variant,
+                "variant of the materials (KHR_materials_variants) [default: none]"),
+           choice("up", std::span<const std::string_view>(upAxes), &Look::up,
+                  "axis of the model that points up; its cameras and lights turn with it")});
   section(
       "Picture",
       {resetting(

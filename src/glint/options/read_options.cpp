@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "glint/gltf/file.h"
-#include "glint/options/ranges.h"
+#include "glint/options/add_option.h"
 #include "glint/render/decode.h"
 
 namespace glint {

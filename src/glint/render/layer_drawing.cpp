@@ -1,5 +1,7 @@
+#include <algorithm>
+
+#include "glint/render/face_mesh.h"
 #include "glint/render/renderer.h"
-#include "glint/render/triangle_order.h"
 
 namespace glint {
 namespace {
@@ -12,6 +14,53 @@ constexpr int mostLayers = 1024;
 // be drawn in one order, finding that out takes two passes and drawing one, however many layers
 // there are. Most scenes have fewer.
 constexpr int firstLook = 4;
+
+GLuint answerOf(GLenum question, const Query& query, const std::function<void()>& draw) {
+  glBeginQuery(question, query.id());
+  draw();
+  glEndQuery(question);
+  GLuint answer = 0;
+  glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &answer);
+  return answer;
+}
+
+/// The indices with which GpuScene draws a mesh (with `faces`, those for the program `flat`),
+/// sorted so that its triangles, lines or points come farthest first by the means of their corners.
+/// Those that overlap may still be in the wrong order; the caller must check.
+std::vector<std::uint32_t> farthestFirst(const Mesh& mesh, bool faces,
+                                         const glm::mat4& eyeFromModel) {
+  faces = faces && mesh.topology == Topology::triangles;
+  const FaceMesh faceMesh = faces ? makeFaceMesh(mesh) : FaceMesh{};
+  const std::vector<std::uint32_t>& indices = faces ? faceMesh.indices : mesh.indices;
+  const std::size_t corners = mesh.topology == Topology::triangles ? 3
+                              : mesh.topology == Topology::lines   ? 2
+                                                                   : 1;
+  const glm::vec3 along(eyeFromModel[0].z, eyeFromModel[1].z, eyeFromModel[2].z);
+  struct Piece {
+    float depth;
+    std::uint32_t first;
+  };
+  std::vector<Piece> pieces;
+  pieces.reserve(indices.size() / corners);
+  for (std::size_t i = 0; i + corners <= indices.size(); i += corners) {
+    float sum = 0;  // of the corners' z; all pieces have as many corners
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::uint32_t vertex = indices[i + k];
+      const std::uint32_t source =
+          faces && !faceMesh.source.empty() ? faceMesh.source[vertex] : vertex;
+      sum += glm::dot(along, mesh.positions[source]);
+    }
+    pieces.push_back({sum, std::uint32_t(i)});
+  }
+  // The eye looks along -z.
+  std::ranges::stable_sort(pieces, {}, &Piece::depth);
+  std::vector<std::uint32_t> ordered;
+  ordered.reserve(indices.size());
+  for (const Piece& piece : pieces)
+    ordered.insert(ordered.end(), indices.begin() + piece.first,
+                   indices.begin() + piece.first + std::ptrdiff_t(corners));
+  return ordered;
+}
 
 }  // namespace
 
@@ -26,22 +75,37 @@ void Renderer::setBlending(bool blended) {
 }
 
 bool Renderer::any(const std::function<void()>& draw) {
-  glBeginQuery(GL_ANY_SAMPLES_PASSED, layerQuery_.id());
-  draw();
-  glEndQuery(GL_ANY_SAMPLES_PASSED);
-  GLuint found = 0;
-  glGetQueryObjectuiv(layerQuery_.id(), GL_QUERY_RESULT, &found);
-  return found != 0;
+  return answerOf(GL_ANY_SAMPLES_PASSED, layerQuery_, draw) != 0;
 }
 
 GLuint Renderer::samplesPassed(const std::function<void()>& draw) {
   if (!countQuery_) countQuery_ = Query::make();
-  glBeginQuery(GL_SAMPLES_PASSED, countQuery_.id());
-  draw();
-  glEndQuery(GL_SAMPLES_PASSED);
-  GLuint count = 0;
-  glGetQueryObjectuiv(countQuery_.id(), GL_QUERY_RESULT, &count);
-  return count;
+  return answerOf(GL_SAMPLES_PASSED, countQuery_, draw);
+}
+
+// The pixels of the tile that the boxes of the calls from `first` on may cover: x, y, width,
+// height. The whole tile if a box reaches behind the eye.
+glm::ivec4 Renderer::Picture::pixelsOf(std::size_t first) const {
+  const glm::dvec2 size(tilePixels_);
+  glm::dvec2 low(1e300), high(-1e300);
+  for (std::size_t i = calls_[first].first; i < list_.items.size(); ++i) {
+    const DrawItem& item = list_.items[i];
+    const glm::dmat4 toClip = glm::dmat4(projection_) * glm::dmat4(item.draw.eyeFromModel);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 1 ? item.high.x : item.low.x,
+                         corner & 2 ? item.high.y : item.low.y,
+                         corner & 4 ? item.high.z : item.low.z);
+      const glm::dvec4 clip = toClip * glm::dvec4(p, 1);
+      if (!(clip.w > 0)) return {0, 0, tilePixels_};
+      const glm::dvec2 place = (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * size;
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+  }
+  // Two extra pixels on every side: points and lines are a pixel wide, and all of this is rounded.
+  const glm::ivec2 begin(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
+  const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(begin), size));
+  return {begin, end - begin};
 }
 
 void Renderer::Picture::drawLayers(std::size_t first) {

@@ -1,7 +1,7 @@
 #include "glint/render/renderer.h"
 
 #include <algorithm>
-#include <span>
+#include <iterator>
 #include <utility>
 
 #include "glint/gl/check.h"
@@ -24,6 +24,14 @@ enum Binding : GLuint {
   tableBinding
 };
 
+// Each at the place that it is bound to.
+constexpr const char* blocks[] = {"FrameBlock",    "LightBlock", "DrawBlock",
+                                  "MaterialBlock", "CurveBlock", "LobeTableBlock"};
+constexpr const char* samplers[] = {
+    "colorTexture",     "emissionTexture", "normalTexture",
+    "environmentImage", "behind",          "metallicRoughnessTexture",
+    "occlusionTexture", "specularTexture", "transmissionTexture"};
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& milliseconds) : sum_(milliseconds) {}
@@ -35,29 +43,25 @@ class Stopwatch {
 };
 
 void connect(const Program& program) {
-  program.bindBlock("FrameBlock", frameBinding);
-  program.bindBlock("LightBlock", lightBinding);
-  program.bindBlock("DrawBlock", drawBinding);
-  program.bindBlock("MaterialBlock", materialBinding);
-  program.bindBlock("CurveBlock", curveBinding);
-  program.bindBlock("LobeTableBlock", tableBinding);
-  program.bindSampler("colorTexture", 0);
-  program.bindSampler("emissionTexture", 1);
-  program.bindSampler("normalTexture", 2);
-  program.bindSampler("environmentImage", environmentUnit);
-  program.bindSampler("behind", layerDepthUnit);
-  GLint unit = parameterUnit;
-  for (const char* name :
-       {"metallicRoughnessTexture", "occlusionTexture", "specularTexture", "transmissionTexture"})
-    program.bindSampler(name, unit++);
+  for (GLuint i = 0; i < std::size(blocks); ++i) program.bindBlock(blocks[i], i);
+  for (GLint i = 0; i < GLint(std::size(samplers)); ++i) program.bindSampler(samplers[i], i);
 }
 
-Program build(const ComposedProgram& text) {
+// The program of a key, built where there is none yet.
+template <typename Kept, typename Compose>
+const Program& builtOnce(Kept& kept, const typename Kept::key_type& key, const Compose& compose) {
+  if (const auto found = kept.find(key); found != kept.end()) return found->second;
+  const ComposedProgram text = compose();
   const ShaderSource sources[] = {{GL_VERTEX_SHADER, text.vertex},
                                   {GL_FRAGMENT_SHADER, text.fragment}};
   Program program(text.name, sources);
   connect(program);
-  return program;
+  return kept.emplace(key, std::move(program)).first->second;
+}
+
+void fill(const Buffer& buffer, std::size_t size, const void* from, GLenum usage) {
+  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
+  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(size), from, usage);
 }
 
 // Packs blocks into one uniform buffer, each at an offset with the driver's alignment.
@@ -82,8 +86,7 @@ class BlockBuffer {
   /// length.
   void upload(const Buffer& buffer, std::size_t room = 0) {
     bytes_.resize(bytes_.size() + room);
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-    glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes_.size()), bytes_.data(), GL_STREAM_DRAW);
+    fill(buffer, bytes_.size(), bytes_.data(), GL_STREAM_DRAW);
   }
 
  private:
@@ -99,31 +102,6 @@ void setFaces(const DrawItem& item) {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
   }
-}
-
-// The pixels that the items' boxes may cover in a picture with this projection: x, y, width,
-// height. The whole picture if a box reaches behind the eye.
-glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection, int width,
-                    int height) {
-  const glm::dvec2 size(width, height);
-  glm::dvec2 low(1e300), high(-1e300);
-  for (const DrawItem& item : items) {
-    const glm::dmat4 toClip = glm::dmat4(projection) * glm::dmat4(item.draw.eyeFromModel);
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p(corner & 1 ? item.high.x : item.low.x,
-                         corner & 2 ? item.high.y : item.low.y,
-                         corner & 4 ? item.high.z : item.low.z);
-      const glm::dvec4 clip = toClip * glm::dvec4(p, 1);
-      if (!(clip.w > 0)) return {0, 0, width, height};
-      const glm::dvec2 place = (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * size;
-      low = glm::min(low, place);
-      high = glm::max(high, place);
-    }
-  }
-  // Two extra pixels on every side: points and lines are a pixel wide, and all of this is rounded.
-  const glm::ivec2 first(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
-  const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(first), size));
-  return {first, end - first};
 }
 
 // Writes the mean of each scale x scale block of `from` to `to`, width x height pixels in rows of
@@ -154,20 +132,14 @@ Renderer::Renderer(GlslSources sources)
       frame_(Buffer::make()) {}
 
 const Program& Renderer::programFor(const Variant& variant, bool instanced) {
-  const std::pair key(variant, instanced);
-  const auto found = programs_.find(key);
-  if (found != programs_.end()) return found->second;
-  const int instances = instanced ? int(mostInstances) : 1;
-  return programs_.emplace(key, build(compose(variant, sources_, fileNames_, instances)))
-      .first->second;
+  return builtOnce(programs_, {variant, instanced}, [&] {
+    return compose(variant, sources_, fileNames_, instanced ? int(mostInstances) : 1);
+  });
 }
 
 const Program& Renderer::backgroundFor(Environment environment) {
-  const auto found = backgrounds_.find(environment);
-  if (found != backgrounds_.end()) return found->second;
-  return backgrounds_
-      .emplace(environment, build(composeBackground(environment, sources_, fileNames_)))
-      .first->second;
+  return builtOnce(backgrounds_, environment,
+                   [&] { return composeBackground(environment, sources_, fileNames_); });
 }
 
 void Renderer::limitPrograms(std::size_t most) {
@@ -200,11 +172,8 @@ const DepthLayers* Renderer::layersFor() {
 
 const Program& Renderer::layerProgram() {
   const bool multisampled = target_->samples() > 1;
-  const auto found = layerPrograms_.find(multisampled);
-  if (found != layerPrograms_.end()) return found->second;
-  return layerPrograms_
-      .emplace(multisampled, build(composeLayer(multisampled, clipControl_, sources_, fileNames_)))
-      .first->second;
+  return builtOnce(layerPrograms_, multisampled,
+                   [&] { return composeLayer(multisampled, clipControl_, sources_, fileNames_); });
 }
 
 void Renderer::needCurve() {
@@ -213,8 +182,7 @@ void Renderer::needCurve() {
   for (std::size_t i = 0; i < srgbDecoded.size(); ++i)
     block.linearOfCode[i] = glm::vec4(srgbDecoded[i], 0, 0, 0);
   curve_ = Buffer::make();
-  glBindBuffer(GL_UNIFORM_BUFFER, curve_.id());
-  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+  fill(curve_, sizeof block, &block, GL_STATIC_DRAW);
 }
 
 Renderer::Picture Renderer::begin(GpuScene& scene, DrawList list, const Look& look) {
@@ -245,9 +213,7 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
     return item.variant.colorTexture || item.variant.emissionTexture;
   };
   if (std::ranges::any_of(list_.items, readsCodes)) renderer.needCurve();
-  glBindBuffer(GL_UNIFORM_BUFFER, lights_.id());
-  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(list_.lights.size() * sizeof(LightEntry)),
-               list_.lights.data(), GL_STREAM_DRAW);
+  fill(lights_, list_.lights.size() * sizeof(LightEntry), list_.lights.data(), GL_STREAM_DRAW);
   uploadDraws();
   for (const DrawItem& item : list_.items)
     scene.geometry(item.mesh, item.variant.program == Shading::flat);
@@ -314,8 +280,7 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
       frame.rayScale = (upper - lower) * reach;
       frame.rayOffset = (upper + lower - 1.0 + list_.camera.shift) * reach;
     }
-    glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+    fill(renderer_.frame_, sizeof frame, &frame, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
     if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
     if (renderer_.curve_) glBindBufferBase(GL_UNIFORM_BUFFER, curveBinding, renderer_.curve_.id());
@@ -350,8 +315,7 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
     std::size_t next = 0;
     for (; next < calls_.size() && !list_.items[calls_[next].first].blended; ++next) drawCall(next);
     if (next < calls_.size()) {
-      const auto first = list_.items.begin() + std::ptrdiff_t(calls_[next].first);
-      const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width, height);
+      const glm::ivec4 box = pixelsOf(next);
       glEnable(GL_SCISSOR_TEST);
       glScissor(box.x, box.y, box.z, box.w);
       if (box.z > 0 && box.w > 0) drawLayers(next);

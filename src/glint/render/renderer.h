@@ -59,6 +59,7 @@ class Renderer {
     /// With `indices` in place of the mesh's own, if given.
     void drawCall(std::size_t call, const Buffer* indices = nullptr);
     /// Draws the blended items, from this call on, layer by layer from the back.
+    glm::ivec4 pixelsOf(std::size_t first) const;
     void drawLayers(std::size_t first);
     bool drawInOrder(const DepthLayers&, int last, std::size_t first);
     void orderTriangles(std::size_t first);

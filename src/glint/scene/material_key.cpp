@@ -110,10 +110,6 @@ std::array<std::string, 4> materialKeys(const Material& m) {
   return {"", name, isNameless(m) ? m.name : name + "#" + std::to_string(m.nth), index};
 }
 
-bool isOfMaterial(const std::string& key, const Material& m) {
-  return std::ranges::count(materialKeys(m), key) > 0;
-}
-
 bool isEdited(const Material& m, const Look& look) {
   return std::ranges::any_of(materialKeys(m),
                              [&](const std::string& key) { return look.material.contains(key); });

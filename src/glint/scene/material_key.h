@@ -36,9 +36,6 @@ std::string materialKey(const Material&);
 /// The keys by which edits can reach a material, in ascending precedence.
 std::array<std::string, 4> materialKeys(const Material&);
 
-/// Whether a key in canonical form selects the material.
-bool isOfMaterial(const std::string& key, const Material&);
-
 /// Whether the look contains an edit for the material, including one for all materials.
 bool isEdited(const Material&, const Look&);
 

@@ -34,8 +34,8 @@ void expectDirection(Bench& bench, Record& record, const glm::vec3& v, const glm
   expectVector(record, what + " of a file", glm::dvec3(loadedWith(v).meshes.at(0).normals.at(0)),
                unit, 6e-8);
   expectVector(record, what + " in the reference", safeNormalize(glm::dvec3(v)), unit, 1e-15);
-  const std::vector<float> got = bench.run("vec3 safeUnit(vec3)", {{v.x, v.y, v.z}});
-  expectVector(record, what + " by safeUnit", {got[0], got[1], got[2]}, unit, unitTolerance);
+  expectVector(record, what + " by safeUnit",
+               bench.runVector("vec3 safeUnit(vec3)", {{v.x, v.y, v.z}}), unit, unitTolerance);
 }
 
 /// Checks that the face's normal replaces one without a direction.
@@ -51,15 +51,12 @@ void expectFaceNormal(Bench& bench, Record& record, const glm::vec3& v) {
 
 void a1(Bench& bench, Record& record) {
   expectFaceNormal(bench, record, {0, 0, 0});
-  for (const char* function : {"vec3 unit(vec3)", "vec3 safeUnit(vec3)"}) {
-    const std::vector<float> got = bench.run(function, {{0, 0, 0}});
-    expectVector(record, std::string(function) + " of 0", {got[0], got[1], got[2]}, glm::dvec3(0),
-                 0);
-  }
+  for (const char* function : {"vec3 unit(vec3)", "vec3 safeUnit(vec3)"})
+    expectVector(record, std::string(function) + " of 0", bench.runVector(function, {{0, 0, 0}}),
+                 glm::dvec3(0), 0);
   // A surface with a zero normal that reaches a shader anyway is not lit.
   for (Shading shading : everyShading) {
-    Look look = bench.look(shading);
-    look.light = {directional({0, 0, 1})};
+    Look look = bench.lit(shading);
     Points points;
     points.add({0, 0, 0}, {0, 0, -1});
     const glm::vec3 got = bench.programs().shade({look, litMaterial(1, 1, 0)}, points)[0];
@@ -84,13 +81,11 @@ void a4(Bench& bench, Record& record) {
                glm::dvec3(loadedWith(v).meshes.at(0).normals.at(0)), unit, 6e-8);
   expectVector(record, "normal " + vectorText(v) + " in the reference",
                safeNormalize(glm::dvec3(v)), unit, 1e-7);
-  const std::vector<float> got = bench.run("vec3 safeUnit(vec3)", {{v.x, v.y, v.z}});
-  const glm::dvec3 shader(got[0], got[1], got[2]);
+  const glm::dvec3 shader = bench.runVector("vec3 safeUnit(vec3)", {{v.x, v.y, v.z}});
   record.that("safeUnit gives the direction or, where subnormals count as 0, nothing",
               shader == glm::dvec3(0) || glm::length(shader - unit) < 1e-6, vectorText(shader));
-  const std::vector<float> normal = bench.run("vec3 safeUnit(vec3)", {{2e-38f, 2e-38f, 0}});
   expectVector(record, "safeUnit of normal numbers, (2e-38, 2e-38, 0)",
-               {normal[0], normal[1], normal[2]}, unit, unitTolerance);
+               bench.runVector("vec3 safeUnit(vec3)", {{2e-38f, 2e-38f, 0}}), unit, unitTolerance);
   expectDrawn(bench, record, "normal " + vectorText(v), loadedWith(v), false);
 }
 
@@ -116,8 +111,7 @@ void a9(Bench& bench, Record& record) {
   const glm::dvec3 n = safeNormalize({0.86, 0, 0.5});
   for (Shading shading :
        {Shading::gouraud, Shading::phong, Shading::blinnPhong, Shading::environment}) {
-    Look look = parallel(bench.look(shading), v);
-    look.light = {directional(l)};
+    Look look = parallel(bench.lit(shading, l), v);
     const Scene scene = sceneOf(square(n, 20), litMaterial(0.5, 1, 3));
     const LightValues values = formulaValues(n, l, v, 3);
     const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
@@ -135,9 +129,8 @@ void a10(Bench& bench, Record& record) {
   const glm::vec3 n(0.48f, 0.6f, 0.64f);
   const auto drawn = [&](float length, Shading shading) {
     const Scene scene = loadedWith(n * length);
-    Look look = bench.look(shading);
+    Look look = bench.lit(shading, {0.2, 0.3, 1});
     look.cameraDirection = glm::dvec3(0, 0, -1);
-    look.light = {directional({0.2, 0.3, 1})};
     look.material[""].specular = 0.5;
     return bench.draw(scene, look);
   };

@@ -5,10 +5,12 @@
 #include "glint/image/error.h"
 #include "glint/reference/renderer.h"
 #include "glint/scene/look_text.h"
+#include "glint/shading/safe.h"
+#include "glint/stability/scenes.h"
 
 namespace glint::stability {
 Bench::Bench(const Look& forms, GlslSources sources, SetParameter set)
-    : setParameter(set),
+    : setParameter_(set),
       forms_(forms),
       sources_(std::move(sources)),
       functions_(sources_,
@@ -34,9 +36,21 @@ Look Bench::look(Shading shading) const {
   return look;
 }
 
+Look Bench::lit(Shading shading, const glm::dvec3& toLight) const {
+  Look lit = look(shading);
+  lit.light = {directional(toLight)};
+  return lit;
+}
+
 std::vector<float> Bench::run(std::string_view function,
                               const std::vector<std::vector<float>>& columns) {
   return functions_.run(function, {columns.begin(), columns.end()});
+}
+
+glm::dvec3 Bench::runVector(std::string_view function,
+                            const std::vector<std::vector<float>>& columns) {
+  const std::vector<float> got = run(function, columns);
+  return {got[0], got[1], got[2]};
 }
 
 Image Bench::draw(const Scene& scene, const Look& look, const DecodedImages& images) {
@@ -59,6 +73,31 @@ Material litMaterial(double diffuse, double specular, double exponent) {
   return material;
 }
 
+Geometry besidePeak(const glm::dvec3& n, const glm::dvec3& light, const glm::dvec3& side, double c,
+                    bool blinn) {
+  glm::dvec3 l = glm::dot(n, light) > 0 ? light : -light;
+  if (glm::dot(n, l) < 0.3) l = safeNormalize(l + n);
+  const glm::dvec3 axis = blinn ? n : 2 * glm::dot(n, l) * n - l;
+  const glm::dvec3 at = c * axis + std::sqrt(1 - c * c) * safeNormalize(glm::cross(axis, side));
+  const glm::dvec3 v = blinn ? 2 * glm::dot(at, l) * at - l : at;
+  return {glm::vec3(n), glm::vec3(l), glm::vec3(-v)};
+}
+
+Look whiteRoom(const Bench& bench, double mediumIor, bool twoSided) {
+  Look look = bench.look(Shading::environment);
+  look.noLights = true;
+  look.mediumIor = mediumIor;
+  look.twoSided = twoSided;
+  return look;
+}
+
+Material boundary(double ior, double transmission, double metalness, const glm::dvec3& color) {
+  Material material;
+  material.shading = {0, 0, 0, 1, metalness, ior, color};
+  material.shading.transmission = transmission;
+  return material;
+}
+
 LightTolerances tolerancesFor(double exponent) {
   // The half vector is off by the error of L + V divided by its length; Blinn's exponent is 4
   // alpha.
@@ -68,8 +107,7 @@ LightTolerances tolerancesFor(double exponent) {
 void expectLight(Bench& bench, Record& record, const std::string& what, double exponent,
                  const std::vector<Geometry>& geometries, const std::vector<LightValues>& expected,
                  const LightTolerances& tolerances, Light::Type type) {
-  Points points;
-  for (const Geometry& g : geometries) points.add(g.n, g.p, g.l);
+  const Points points = pointsOf(geometries);
   Light light;
   light.type = type;
   light.direction = {0, 0, 1};
@@ -118,6 +156,11 @@ LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::d
   if (square > 1e-12L)
     values.blinn = lobe((nl + dot(n, v)) / std::sqrt(square), 4 * Wide(exponent));
   return values;
+}
+
+void takeMaterial(const std::string& text) {
+  Look look;
+  parseMaterialEdit(look, text);
 }
 
 std::string vectorText(const glm::dvec3& v) {

@@ -43,6 +43,14 @@ class Bench {
   /// A look with the forms under test, without ambient light, background and anti-aliasing.
   Look look(Shading shading = Shading::phong) const;
 
+  /// The same with a white directional light.
+  Look lit(Shading shading = Shading::phong, const glm::dvec3& toLight = {0, 0, 1}) const;
+
+  /// Takes an option's text as the command line does, so many times.
+  void take(std::string_view option, const std::string& text, std::size_t times = 1) const {
+    for (Look look; times > 0; --times) setParameter_(look, option, text);
+  }
+
   /// Whether the form claims to be the function itself (exact, pow; exact, textbook): then it is
   /// compared with the function's values, to within rounding. An approximation is compared with its
   /// own formula in double.
@@ -54,6 +62,7 @@ class Bench {
 
   /// Runs a function of vector.glsl, lobe.glsl or fresnel.glsl, or a custom one that uses them.
   std::vector<float> run(std::string_view function, const std::vector<std::vector<float>>& columns);
+  glm::dvec3 runVector(std::string_view function, const std::vector<std::vector<float>>& columns);
 
   Image draw(const Scene&, const Look&, const DecodedImages& = {});
   Image draw(const Scene&, const Look&, DrawList list);
@@ -61,9 +70,8 @@ class Bench {
 
   Renderer& renderer() { return renderer_; }
 
-  const SetParameter setParameter;
-
  private:
+  const SetParameter setParameter_;
   Look forms_;
   GlslSources sources_;
   bool lobeIsExact_, fresnelIsExact_;
@@ -97,14 +105,30 @@ struct Geometry {
   glm::vec3 n, l, p;
 };
 
+inline Points pointsOf(const std::vector<Geometry>& geometries) {
+  Points points;
+  for (const Geometry& g : geometries) points.add(g.n, g.p, g.l);
+  return points;
+}
+
+/// The geometry whose R and V, or N and H (`blinn`), have the cosine c, V's or H's side being
+/// towards `side`. The light is turned to the front where it does not shine on it steeply.
+Geometry besidePeak(const glm::dvec3& n, const glm::dvec3& light, const glm::dvec3& side, double c,
+                    bool blinn);
+
+/// The program `environment` in a white room whose only light is what is reflected.
+Look whiteRoom(const Bench& bench, double mediumIor = 1, bool twoSided = false);
+
+/// What shows only its surroundings, a metal or what lets light through.
+Material boundary(double ior, double transmission = 0, double metalness = 0,
+                  const glm::dvec3& color = glm::dvec3(1));
+
 /// The light that results there: m_d I N.L, and the highlight by Phong and by Blinn-Phong.
 struct LightValues {
   double diffuse = 0, phong = 0, blinn = 0;
 };
 
-struct LightTolerances {
-  double diffuse = 0, phong = 0, blinn = 0;
-};
+using LightTolerances = LightValues;
 
 /// Checks all five programs on the driver, and the reference, at each geometry: diffuse strength 1,
 /// specular strength 1, white light of intensity 1. A form that is not exact is compared with the
@@ -123,5 +147,8 @@ LightValues formulaValues(const glm::dvec3& n, const glm::dvec3& l, const glm::d
                           double exponent);
 
 std::string vectorText(const glm::dvec3&);
+
+/// Takes the text of --material.
+void takeMaterial(const std::string& text);
 
 }  // namespace glint::stability

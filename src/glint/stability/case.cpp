@@ -22,79 +22,72 @@ double ulpsOf(double error, double expected) {
   return expected == 0 ? 0 : error / floatSpacing(expected);
 }
 
+/// What is no number is off by infinity.
+double distance(double got, double expected) {
+  if (got == expected) return 0;  // equal infinities too
+  const double error = std::abs(got - expected);
+  return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
 }  // namespace
 
-void Record::near(const std::string& what, double got, double expected, double tolerance) {
-  Finding f;
-  f.what = what;
-  f.expected = numberText(expected);
-  f.got = numberText(got);
-  f.error = got == expected ? 0 : std::abs(got - expected);
-  if (std::isnan(f.error)) f.error = std::numeric_limits<double>::infinity();
-  f.tolerance = tolerance;
-  f.ulp = f.error == 0 ? 0 : ulpsOf(f.error, expected);
-  f.levels = 255 * f.error;
-  f.passed = f.error <= tolerance;
-  findings_.push_back(std::move(f));
-}
-
-void Record::within(const std::string& what, double got, double low, double high) {
-  Finding f;
-  f.what = what;
-  f.expected = "from " + numberText(low) + " to " + numberText(high);
-  f.got = numberText(got);
-  f.passed = got >= low && got <= high;
-  if (!f.passed) {
-    const double nearest = got < low ? low : high;
-    f.error = std::isnan(got) ? std::numeric_limits<double>::infinity() : std::abs(got - nearest);
-    f.ulp = ulpsOf(f.error, nearest);
-    f.levels = 255 * f.error;
-  }
-  findings_.push_back(std::move(f));
-}
-
-void Record::same(const std::string& what, const std::string& got, const std::string& expected) {
-  Finding f;
+Finding& Record::add(const std::string& what, const std::string& expected, const std::string& got,
+                     bool passed) {
+  Finding& f = findings_.emplace_back();
   f.what = what;
   f.expected = expected;
   f.got = got;
-  f.passed = got == expected;
-  findings_.push_back(std::move(f));
+  f.passed = passed;
+  return f;
+}
+
+void Record::near(const std::string& what, double got, double expected, double tolerance) {
+  const double error = distance(got, expected);
+  Finding& f = add(what, numberText(expected), numberText(got), error <= tolerance);
+  f.error = error;
+  f.tolerance = tolerance;
+  f.ulp = error == 0 ? 0 : ulpsOf(error, expected);
+  f.levels = 255 * error;
+}
+
+void Record::within(const std::string& what, double got, double low, double high) {
+  Finding& f = add(what, "from " + numberText(low) + " to " + numberText(high), numberText(got),
+                   got >= low && got <= high);
+  if (f.passed) return;
+  const double nearest = got < low ? low : high;
+  f.error = distance(got, nearest);
+  f.ulp = ulpsOf(f.error, nearest);
+  f.levels = 255 * f.error;
 }
 
 void Record::that(const std::string& what, bool holds, const std::string& got) {
-  Finding f;
-  f.what = what;
-  f.expected = "holds";
-  f.got = holds ? "holds" : got.empty() ? "does not hold" : got;
-  f.passed = holds;
-  findings_.push_back(std::move(f));
+  add(what, "holds", holds ? "holds" : got.empty() ? "does not hold" : got, holds);
 }
 
 void Record::refused(const std::string& what, const std::function<void()>& action,
                      const std::string& part) {
-  Finding f;
-  f.what = what;
-  f.expected = "refused with \"..." + part + "...\"";
-  f.got = "taken";
+  Finding& f = add(what, "refused with \"..." + part + "...\"", "taken", false);
   try {
     action();
   } catch (const InputError& error) {
     f.got = error.what();
     f.passed = f.got.find(part) != std::string::npos && f.got.find('\n') == std::string::npos;
   }
-  findings_.push_back(std::move(f));
+}
+
+void Record::refused(const std::string& what, std::initializer_list<const char*> texts,
+                     const std::function<void(const std::string&)>& take, const std::string& part) {
+  for (const std::string text : texts)
+    refused(
+        what + text, [&] { take(text); }, part);
 }
 
 void Record::finite(const std::string& what, const Image& image) {
   std::size_t count = 0;
   for (float x : image.values) count += !std::isfinite(x);
-  Finding f;
-  f.what = what;
-  f.expected = "finite in every pixel";
-  f.got = count == 0 ? f.expected : std::to_string(count) + " values are not finite";
-  f.passed = count == 0 && !image.values.empty();
-  findings_.push_back(std::move(f));
+  const std::string good = "finite in every pixel";
+  add(what, good, count == 0 ? good : std::to_string(count) + " values are not finite",
+      count == 0 && !image.values.empty());
 }
 
 void Record::alike(const std::string& what, const Image& got, const Image& expected,
@@ -121,14 +114,8 @@ void Record::color(const std::string& what, const glm::dvec3& got, const glm::dv
   worst.into(*this, what);
 }
 
-bool Record::passed() const {
-  return !findings_.empty() &&
-         std::all_of(findings_.begin(), findings_.end(), [](const Finding& f) { return f.passed; });
-}
-
 void Worst::add(double got, double expected, double tolerance, const std::string& where) {
-  double error = got == expected ? 0 : std::abs(got - expected);
-  if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
+  const double error = distance(got, expected);
   const double share =
       error == 0 ? 0 : error / std::max(tolerance, std::numeric_limits<double>::min());
   if (!(share > share_)) return;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,13 +34,15 @@ class Record {
   void near(const std::string& what, double got, double expected, double tolerance);
   /// low <= got <= high.
   void within(const std::string& what, double got, double low, double high);
-  /// `got` as text must be `expected`.
-  void same(const std::string& what, const std::string& got, const std::string& expected);
+
   /// A property described in words.
   void that(const std::string& what, bool holds, const std::string& got = {});
   /// `action` must throw an InputError of one line that contains `part`.
   void refused(const std::string& what, const std::function<void()>& action,
                const std::string& part);
+  /// The same for each of some texts, `what` and the text being its name.
+  void refused(const std::string& what, std::initializer_list<const char*> texts,
+               const std::function<void(const std::string&)>& take, const std::string& part);
   /// No value of the picture is NaN or infinite.
   void finite(const std::string& what, const Image& image);
   /// The worst of red, green and blue.
@@ -49,9 +52,11 @@ class Record {
   void alike(const std::string& what, const Image& got, const Image& expected, double tolerance);
 
   const std::vector<Finding>& findings() const { return findings_; }
-  bool passed() const;
 
  private:
+  Finding& add(const std::string& what, const std::string& expected, const std::string& got,
+               bool passed);
+
   std::vector<Finding> findings_;
 };
 

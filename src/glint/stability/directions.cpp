@@ -58,13 +58,9 @@ void c1(Bench& bench, Record& record) {
     expectLight(bench, record, "L = N = V, " + alphaText(alpha), alpha, all, one,
                 tolerancesFor(alpha));
     for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
-      Look look = bench.look(shading);
-      look.light = {Light{}};
-      look.light->front().direction = {0, 0, 1};
-      Points points;
-      for (const Geometry& g : all) points.add(g.n, g.p, g.l);
       double highest = 0;
-      for (const glm::vec3& c : bench.programs().shade({look, litMaterial(0, 1, alpha)}, points))
+      for (const glm::vec3& c :
+           bench.programs().shade({bench.lit(shading), litMaterial(0, 1, alpha)}, pointsOf(all)))
         highest = c.y > highest || std::isnan(c.y) ? c.y : highest;
       record.within(std::string(shadingName(shading)) + ": peak, " + alphaText(alpha), highest, 0,
                     1);
@@ -112,13 +108,9 @@ void c5(Bench& bench, Record& record) {
     tolerances.phong += 0.5 * alpha * 1.5e-14;
     tolerances.blinn += 2 * alpha * 4e-12;
     const bool exact = bench.lobeIsExact();
-    Points points;
-    for (const Geometry& g : all) points.add(g.n, g.p, g.l);
+    const Points points = pointsOf(all);
     for (Shading shading : everyShading) {
-      Look look = bench.look(shading);
-      look.light = {Light{}};
-      look.light->front().direction = {0, 0, 1};
-      const PointScene scene(look, litMaterial(1, 1, alpha));
+      const PointScene scene(bench.lit(shading), litMaterial(1, 1, alpha));
       const std::vector<glm::vec3> got = bench.programs().shade(scene, points);
       const std::vector<glm::dvec3> truth = referenceShade(scene, points);
       Worst worst;
@@ -175,10 +167,8 @@ void c9(Bench& bench, Record& record) {
     expectLight(bench, record, "N.V < 0, " + alphaText(alpha), alpha, all, formulas(all, alpha),
                 tolerancesFor(alpha));
   // Two-sided: on the back the normal is turned.
-  Look look = bench.look(Shading::phong);
+  Look look = bench.lit();
   look.twoSided = true;
-  look.light = {Light{}};
-  look.light->front().direction = {0, 0, 1};
   Points points;
   points.add({0, 0, -1}, {0, 0, -1}, {0, 0, 1});
   points.front = false;
@@ -224,12 +214,7 @@ void c12(Bench& bench, Record& record) {
   for (float distance : {1e-30f, 1e30f})
     for (Shading shading : {Shading::phong, Shading::gouraud}) {
       Look spotLook = bench.look(shading);
-      Light spot;
-      spot.type = Light::Type::spot;
-      spot.direction = {0, 0, -1};
-      spot.innerAngle = 89;
-      spot.outerAngle = 90;
-      spotLook.light = {spot};
+      spotLook.light = {spotAlong({0, 0, -1}, 89, 90)};
       Points points;
       points.add({0, 0, 1}, {0, 0, 0}, glm::vec3(0.6f, 0, 0.8f) * distance);
       const PointScene scene(spotLook, litMaterial(1, 0, 1));
@@ -274,8 +259,7 @@ void c14(Bench& bench, Record& record) {
 void c15(Bench& bench, Record& record) {
   // A plane under a directional light and a parallel view is the same in every pixel.
   for (Shading shading : everyShading) {
-    Look look = parallel(bench.look(shading));
-    look.light = {directional({0.3, 0.2, 1})};
+    Look look = parallel(bench.lit(shading, {0.3, 0.2, 1}));
     const Scene scene = sceneOf(square({0.2, 0.1, 1}, 4), litMaterial(0.25, 0.5, 30));
     const Image got = bench.draw(scene, look), truth = bench.reference(scene, look);
     const std::string name(shadingName(shading));
@@ -295,11 +279,10 @@ void c15(Bench& bench, Record& record) {
 void c16(Bench& bench, Record& record) {
   for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
     const std::string name(shadingName(shading));
-    Look look = bench.look(shading);
+    Look look = bench.lit(shading);
     look.cameraPosition = glm::dvec3(0, 0, 2);
     look.cameraFocalPoint = glm::dvec3(0);
     look.cameraViewAngle = 90;
-    look.light = {directional({0, 0, 1})};
     const Scene scene = sceneOf(square({0, 0, 1}, 4), litMaterial(0, 1, 8));
     const Image local = bench.draw(scene, look);
     look.viewer = Viewer::infinite;

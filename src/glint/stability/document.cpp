@@ -36,30 +36,26 @@ int Document::view(const void* data, std::size_t bytes) {
   return int(json["bufferViews"].size()) - 1;
 }
 
-int Document::accessor(const std::string& type, const std::vector<float>& values) {
+template <class Value>
+int Document::add(const std::string& type, int componentType, const std::vector<Value>& values) {
   const std::size_t components = type == "SCALAR" ? 1 : std::size_t(type[3] - '0');
-  json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * 4)},
-                               {"componentType", 5126},
+  json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * sizeof(Value))},
+                               {"componentType", componentType},
                                {"type", type},
                                {"count", values.size() / components}});
   return int(json["accessors"].size()) - 1;
+}
+
+int Document::accessor(const std::string& type, const std::vector<float>& values) {
+  return add(type, 5126, values);
 }
 
 int Document::indices(const std::vector<std::uint32_t>& values) {
-  json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * 4)},
-                               {"componentType", 5125},
-                               {"type", "SCALAR"},
-                               {"count", values.size()}});
-  return int(json["accessors"].size()) - 1;
+  return add("SCALAR", 5125, values);
 }
 
 int Document::shorts(const std::string& type, const std::vector<std::uint16_t>& values) {
-  const std::size_t components = std::size_t(type[3] - '0');
-  json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * 2)},
-                               {"componentType", 5123},
-                               {"type", type},
-                               {"count", values.size() / components}});
-  return int(json["accessors"].size()) - 1;
+  return add(type, 5123, values);
 }
 
 void Document::show(nlohmann::json primitive) {
@@ -96,7 +92,7 @@ Scene Document::load() {
   const std::string path = (folder_ / "case.glb").string();
   forgetReadFile(path);  // the previous case's file is not read any more
   OutputFile output(path);
-  output.write(std::as_bytes(std::span(file)));
+  output.write(file);
   output.commit();
   return loadGltf(path);
 }

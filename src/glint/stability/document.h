@@ -37,6 +37,8 @@ class Document {
   Scene load();
 
  private:
+  template <class Value>
+  int add(const std::string& type, int componentType, const std::vector<Value>& values);
   int view(const void* data, std::size_t bytes);
 
   std::filesystem::path folder_;

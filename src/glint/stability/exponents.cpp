@@ -31,15 +31,8 @@ std::vector<Geometry> nearPeak(double exponent, bool blinn, std::size_t count) {
                                 sides = randomDirections(count, 5);
   std::vector<Geometry> all;
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 n = normals[i];
-    glm::dvec3 l = glm::dot(n, lights[i]) > 0 ? lights[i] : -lights[i];
-    if (glm::dot(n, l) < 0.3) l = safeNormalize(l + n);
-    const glm::dvec3 axis = blinn ? n : 2 * glm::dot(n, l) * n - l;
     const double c = 1 - std::min(8 * random.unit() / (blinn ? 4 * exponent : exponent), 1.0);
-    const glm::dvec3 side = safeNormalize(glm::cross(axis, sides[i]));
-    const glm::dvec3 at = c * axis + std::sqrt(1 - c * c) * side;
-    const glm::dvec3 v = blinn ? 2 * glm::dot(at, l) * at - l : at;
-    all.push_back({glm::vec3(n), glm::vec3(l), glm::vec3(-v)});
+    all.push_back(besidePeak(normals[i], lights[i], sides[i], c, blinn));
   }
   return all;
 }
@@ -47,10 +40,8 @@ std::vector<Geometry> nearPeak(double exponent, bool blinn, std::size_t count) {
 void expectNearPeak(Bench& bench, Record& record, double exponent) {
   for (bool blinn : {false, true}) {
     const std::vector<Geometry> all = nearPeak(exponent, blinn, 2000);
-    Points points;
-    for (const Geometry& g : all) points.add(g.n, g.p, g.l);
-    Look look = bench.look(blinn ? Shading::blinnPhong : Shading::phong);
-    look.light = {directional({0, 0, 1})};
+    const Points points = pointsOf(all);
+    Look look = bench.lit(blinn ? Shading::blinnPhong : Shading::phong);
     const PointScene scene(look, litMaterial(0, 1, exponent));
     const std::vector<glm::vec3> got = bench.programs().shade(scene, points);
     const std::vector<glm::dvec3> truth = referenceShade(scene, points);
@@ -84,13 +75,12 @@ void expectNearPeak(Bench& bench, Record& record, double exponent) {
 /// no such form.
 std::optional<std::vector<glm::vec3>> shadeWith(Bench& bench, const std::string& highlight,
                                                 double exponent, const Points& points) {
-  Look look = bench.look(Shading::phong);
+  Look look = bench.lit();
   try {
     look.highlight = parseHighlights(highlight, "highlight");
   } catch (const InputError&) {
     return std::nullopt;
   }
-  look.light = {directional({0, 0, 1})};
   return bench.programs().shade({look, litMaterial(0, 1, exponent)}, points);
 }
 
@@ -130,14 +120,9 @@ void d3(Bench& bench, Record& record) {
 void d4(Bench& bench, Record& record) { expectNearPeak(bench, record, 1e4); }
 
 void d5(Bench&, Record& record) {
-  for (const char* text : {"-1", "nan", "inf", "1e7", "x"})
-    record.refused(
-        "--material exponent=" + std::string(text),
-        [&] {
-          Look look;
-          parseMaterialEdit(look, "exponent=" + std::string(text));
-        },
-        "is not a number from 0 to");
+  record.refused("--material ",
+                 {"exponent=-1", "exponent=nan", "exponent=inf", "exponent=1e7", "exponent=x"},
+                 takeMaterial, "is not a number from 0 to");
   Document document;
   document.triangle();
   for (const char* text : {"-1", "1e7"}) {
@@ -176,9 +161,8 @@ void d7(Bench& bench, Record& record) {
   points.add(up, {-1, 0, 0}, up);
   points.add(up, {-1, 0, 1e-3f}, up);
   if (const auto got = shadeWith(bench, "lyon:8", 1, points)) {
-    Look look = bench.look();
+    Look look = bench.lit();
     look.highlight = {Highlight::lyon, 8};
-    look.light = {directional({0, 0, 1})};
     const auto truth = referenceShade({look, litMaterial(0, 1, 1)}, points);
     for (std::size_t i = 0; i < 2; ++i)
       record.near("--highlight lyon:8 at exponent 1, driver against reference", (*got)[i].y,
@@ -227,8 +211,7 @@ void d10(Bench& bench, Record& record) {
   // Vectors longer than 1 by one rounding or four, exactly parallel to each other.
   for (float length : {1.0f, above, 1 + 4 * (above - 1)})
     for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
-      Look look = bench.look(shading);
-      look.light = {directional({0, 0, 1})};
+      Look look = bench.lit(shading);
       Points points;
       points.add(up, -up, {0, 0, length});
       const float got = bench.programs().shade({look, litMaterial(0, 1, 1e6)}, points)[0].y;
@@ -250,9 +233,8 @@ void d11(Bench& bench, Record& record) {
 
 void d12(Bench& bench, Record& record) {
   for (double factor : {4.0, 1e3}) {
-    Look look = bench.look(Shading::blinnPhong);
+    Look look = bench.lit(Shading::blinnPhong);
     look.blinnFactor = factor;
-    look.light = {directional({0, 0, 1})};
     Points points;
     points.add(up, -up, up);
     const Geometry off = atAngle(30 * degrees);

@@ -14,24 +14,6 @@
 namespace glint::stability {
 namespace {
 
-/// The program `environment` in a white room, without lights.
-Look whiteRoom(Bench& bench, double mediumIor = 1, bool twoSided = false) {
-  Look look = bench.look(Shading::environment);
-  look.noLights = true;
-  look.mediumIor = mediumIor;
-  look.twoSided = twoSided;
-  return look;
-}
-
-/// A material that shows only its surroundings: it reflects or transmits them.
-Material boundary(double ior, double transmission = 0, double metalness = 0,
-                  const glm::dvec3& color = glm::dvec3(1)) {
-  Material material;
-  material.shading = {0, 0, 0, 1, metalness, ior, color};
-  material.shading.transmission = transmission;
-  return material;
-}
-
 /// The reflectance by driver and reference for light that comes from the index n1; if entering, n1
 /// is the medium's.
 struct Reflected {
@@ -286,20 +268,11 @@ void k13(Bench& bench, Record& record) {
 
 void k14(Bench& bench, Record& record) {
   for (const char* text : {"0", "-1.5", "nan", "inf", "1e4", "1e-4"}) {
+    const char* const range = "is not a number from 0.001 to 1000";
     record.refused(
-        "--material ior=" + std::string(text),
-        [&] {
-          Look look;
-          parseMaterialEdit(look, "ior=" + std::string(text));
-        },
-        "is not a number from 0.001 to 1000");
+        "--material ior=", {text}, [](const std::string& n) { takeMaterial("ior=" + n); }, range);
     record.refused(
-        "--medium-ior " + std::string(text),
-        [&] {
-          Look look;
-          bench.setParameter(look, "medium-ior", text);
-        },
-        "is not a number from 0.001 to 1000");
+        "--medium-ior ", {text}, [&](const std::string& n) { bench.take("medium-ior", n); }, range);
   }
   for (double n : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                    std::numeric_limits<double>::infinity()})

@@ -40,10 +40,9 @@ std::vector<float> repeated(const glm::vec3& v, int count) {
 void expectDrawn(Bench& bench, Record& record, const std::string& what, const Scene& scene,
                  bool lit) {
   for (Shading shading : everyShading) {
-    Look look = bench.look(shading);
+    Look look = bench.lit(shading, {0.2, 0.3, 1});
     look.cameraDirection = glm::dvec3(0, 0, -1);
     look.resolution = {16, 16};
-    look.light = {directional({0.2, 0.3, 1})};
     Look edited = look;
     edited.material[""].specular = 0.5;
     edited.material[""].ior = 1;
@@ -73,10 +72,9 @@ void a11(Bench& bench, Record& record) {
     expectDrawn(bench, record, "degenerate triangles, " + what, scene);
     Document good;
     good.triangle(normals ? std::vector<float>(9, 0) : std::vector<float>());
-    Look look = bench.look();
+    Look look = bench.lit();
     look.cameraDirection = glm::dvec3(0, 0, -1);
     look.cameraPosition = glm::dvec3(0.5, 0.5, 5);
-    look.light = {directional({0, 0, 1})};
     record.alike("picture with them and without them, " + what, bench.draw(scene, look),
                  bench.draw(good.load(), look), 0);
   }
@@ -115,8 +113,7 @@ void a13(Bench& bench, Record& record) {
     record.near(what + ": radius of what is drawn", bounds.radius, std::sqrt(0.5), 1e-9);
     Document good;
     good.triangle(repeated({0, 0, 1}, 3));
-    Look look = bench.look();
-    look.light = {directional({0, 0, 1})};
+    Look look = bench.lit();
     record.alike(what + ": picture against that without it", bench.draw(scene, look),
                  bench.draw(good.load(), look), 0);
   }

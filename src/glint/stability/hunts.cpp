@@ -112,8 +112,7 @@ void huntHighlight(Bench& bench, Record& record) {
   for (Shading shading : {Shading::phong, Shading::blinnPhong}) {
     for (double alpha : {20.0, 1e3, 1e5}) {
       const bool blinn = isBlinn(shading);
-      Look look = bench.look(shading);
-      look.light = {directional({0, 0, 1})};
+      Look look = bench.lit(shading);
       const PointScene scene(look, litMaterial(0, 1, alpha));
       const double bound = blinn ? 2 * lobeTolerance(4 * alpha) : lobeTolerance(alpha);
       expectHunted(
@@ -165,11 +164,7 @@ void reflectanceStaysInRange(Bench& bench, Record& record) {
   for (int k = 0; k < 60; ++k) {
     const double n = 1 + std::pow(10, random.between(-7, 2.9));
     for (bool denser : {false, true}) {
-      Look look = bench.look(Shading::environment);
-      look.noLights = true;
-      look.mediumIor = denser ? n : 1;
-      Material material;
-      material.shading = {0, 0, 0, 1, 0, denser ? 1 : n, glm::dvec3(1)};
+      const PointScene scene(whiteRoom(bench, denser ? n : 1), boundary(denser ? 1 : n));
       std::vector<float> cosines{0, 1};
       const double critical = criticalCosine(n, 1);
       for (int i = 0; i < 1000; ++i) {
@@ -177,7 +172,7 @@ void reflectanceStaysInRange(Bench& bench, Record& record) {
         cosines.push_back(float(std::min(critical * (1 + std::exp(-17 * random.unit())), 1.0)));
         cosines.push_back(float(random.unit()));
       }
-      for (float r : bench.programs().reflectance({look, material}, cosines, true)) {
+      for (float r : bench.programs().reflectance(scene, cosines, true)) {
         low = r >= low ? low : r;
         high = r <= high ? high : r;
       }

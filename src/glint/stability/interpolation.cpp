@@ -29,9 +29,8 @@ double middleOf(const Image& image, int channel = 0) { return image.row(4)[16 + 
 void expectFaceNormal(Bench& bench, Record& record, const glm::vec3& left, const glm::vec3& right) {
   for (bool turned : {false, true})
     for (Shading shading : perPixel) {
-      Look look = parallel(bench.look(shading), {0, 0, 1}, 9);
+      Look look = parallel(bench.lit(shading, {0, 0.6, 0.8}), {0, 0, 1}, 9);
       look.twoSided = turned;
-      look.light = {directional({0, 0.6, 0.8})};
       Mesh mesh = bent(left, right);
       mesh.normalsMayCancel = true;
       if (turned) mesh.indices = {0, 2, 1, 0, 3, 2};
@@ -57,8 +56,7 @@ void i2(Bench& bench, Record& record) {
 void i3(Bench& bench, Record& record) {
   const float s = float(std::sqrt(0.5));
   for (Shading shading : perPixel) {
-    Look look = parallel(bench.look(shading), {0, 0, 1}, 9);
-    look.light = {directional({0, 0, 1})};
+    Look look = parallel(bench.lit(shading), {0, 0, 1}, 9);
     const Scene scene = sceneOf(bent({s, 0, s}, {-s, 0, s}), litMaterial(0, 1, 100));
     record.near(std::string(shadingName(shading)) + ": highlight in the middle",
                 middleOf(bench.draw(scene, look), 1), 1, lobeTolerance(400));
@@ -133,8 +131,7 @@ void i6(Bench& bench, Record& record) {
     for (glm::vec3& n : faceless.normals) n = glm::vec3(0);
     faceless.normalsMayCancel = true;
     Material paint = litMaterial(1, 0, 1);
-    Look look = parallel(bench.look(), {0.3, 0.4, 1}, 33);
-    look.light = {directional({-0.4, 0.8, 0.6})};
+    Look look = parallel(bench.lit(Shading::phong, {-0.4, 0.8, 0.6}), {0.3, 0.4, 1}, 33);
     const glm::dmat4 world = mirrored ? scaling({-1, 1, 1}) : glm::dmat4(1);
     look.shading = Shading::flat;
     const Image flat = bench.draw(sceneOf(mesh, paint, world), look);
@@ -143,12 +140,11 @@ void i6(Bench& bench, Record& record) {
     record.alike(mirrored ? "a mirrored ball" : "a ball", derivatives, flat, 1e-3);
   }
   // Where a pixel is 1e-10 of the distance, the cross product's square leaves float's range.
-  Look look = bench.look();
+  Look look = bench.lit(Shading::phong, {0, 0.6, 0.8});
   look.cameraPosition = glm::dvec3(0, 0, 1e7);
   look.cameraFocalPoint = glm::dvec3(0);
   look.cameraViewAngle = 1e-5;
   look.resolution = {2048, 2048};
-  look.light = {directional({0, 0.6, 0.8})};
   Mesh plane = square({0, 0, 1}, 0.01f);
   for (glm::vec3& n : plane.normals) n = glm::vec3(0);
   plane.normalsMayCancel = true;
@@ -158,8 +154,7 @@ void i6(Bench& bench, Record& record) {
 }
 
 void i7(Bench& bench, Record& record) {
-  Look look = parallel(bench.look(Shading::gouraud), {0, 0, 1}, 9);
-  look.light = {directional({0, 0, 1})};
+  Look look = parallel(bench.lit(Shading::gouraud), {0, 0, 1}, 9);
   const Scene scene = sceneOf(bent({1, 0, 0}, {0, 0, 1}), litMaterial(1, 0, 1));
   const double middle = middleOf(bench.draw(scene, look));
   record.near("gouraud: linear light between 0 and 1", middle, 0.5, 8 * rounding);
@@ -171,8 +166,7 @@ void i8(Bench& bench, Record& record) {
   // About 1.5 pixels a triangle; positions and normals are interpolated over so few samples that
   // their plane equations lose digits: 1e-4 of a unit, times the lobe's slope sqrt(20) 0.61.
   for (Shading shading : perPixel) {
-    Look look = parallel(bench.look(shading), {0.2, 0.1, 1}, 40);
-    look.light = {directional({0.3, 0.5, 1})};
+    Look look = parallel(bench.lit(shading, {0.3, 0.5, 1}), {0.2, 0.1, 1}, 40);
     const Scene scene = sceneOf(sphere(48, 24), litMaterial(0.5, 0.5, 5));
     const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
     const std::string name(shadingName(shading));
@@ -192,8 +186,7 @@ void i8(Bench& bench, Record& record) {
 void i9(Bench& bench, Record& record) {
   const Scene scene = sceneOf(sphere(24, 12), litMaterial(0.5, 0.5, 50));
   for (Shading shading : everyShading) {
-    Look look = bench.look(shading);
-    look.light = {directional({0.3, 0.5, 1})};
+    Look look = bench.lit(shading, {0.3, 0.5, 1});
     look.resolution = {32, 32};
     const Image first = bench.draw(scene, look);
     const std::string name(shadingName(shading));
@@ -208,8 +201,7 @@ void i10(Bench& bench, Record& record) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Scene scene = sceneOf(square(), litMaterial(1, 0.5, 20));
   for (Shading shading : everyShading) {
-    Look look = parallel(bench.look(shading));
-    look.light = {directional({0, 0, 1})};
+    Look look = parallel(bench.lit(shading));
     DrawList list = makeDrawList(scene, boundsOf(scene), look);
     list.items.at(0).materialBlock.color.x = nan;
     const Image image = bench.draw(scene, look, list);
@@ -220,13 +212,7 @@ void i10(Bench& bench, Record& record) {
                 0);
   }
   // Since NaN may vanish on the way (max(NaN, 0) is 0 on some drivers), it is refused at the input.
-  record.refused(
-      "--material exponent=nan",
-      [] {
-        Look look;
-        parseMaterialEdit(look, "exponent=nan");
-      },
-      "is not a number");
+  record.refused("--material ", {"exponent=nan"}, takeMaterial, "is not a number");
 }
 
 const Case interpolationTable[] = {

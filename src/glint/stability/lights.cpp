@@ -16,8 +16,7 @@ namespace glint::stability {
 namespace {
 
 Look whiteLook(Bench& bench, Shading shading) {
-  Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
-  look.light = {directional({0, 0, 1})};
+  Look look = parallel(bench.lit(shading), {0, 0, 1}, 3);
   return look;
 }
 
@@ -75,12 +74,9 @@ void f2(Bench& bench, Record& record) {
 }
 
 void f3(Bench& bench, Record& record) {
-  const auto addLights = [&](std::size_t count) {
-    Look look;
-    for (std::size_t i = 0; i < count; ++i) bench.setParameter(look, "light", "directional:0,0,1");
-  };
   record.refused(
-      std::to_string(maxLights + 1) + " lights", [&] { addLights(maxLights + 1); },
+      std::to_string(maxLights + 1) + " lights",
+      [&] { bench.take("light", "directional:0,0,1", maxLights + 1); },
       "more than " + std::to_string(maxLights) + " lights");
   // The largest number allowed is drawn.
   Look look = whiteLook(bench, Shading::phong);
@@ -108,10 +104,10 @@ void f5(Bench& bench, Record& record) {
   expectEverywhere(bench, record, "intensity 1e6, colour 0",
                    material(most, most, 0, 0, glm::dvec3(0)), glm::dvec3(most),
                    {directional({0, 0, 1}, glm::dvec3(most))}, glm::dvec3(0), 0);
-  for (const char* text : {"1e30", "inf", "nan"})
-    record.refused(
-        "--light ...:" + std::string(text),
-        [&] { parseLight("directional:0,0,1:" + std::string(text) + ",1,1"); }, "is not a colour");
+  record.refused(
+      "--light ...:", {"1e30", "inf", "nan"},
+      [](const std::string& text) { parseLight("directional:0,0,1:" + text + ",1,1"); },
+      "is not a colour");
   SumParameters p;
   const double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec3 z(0, 0, 1);
@@ -124,12 +120,7 @@ void f6(Bench& bench, Record& record) {
   record.refused(
       "--light ...:-1,1,1", [] { parseLight("directional:0,0,1:-1,1,1"); }, "is not a colour");
   record.refused(
-      "--ambient-light -1,0,0",
-      [&] {
-        Look look;
-        bench.setParameter(look, "ambient-light", "-1,0,0");
-      },
-      "is not a colour");
+      "--ambient-light -1,0,0", [&] { bench.take("ambient-light", "-1,0,0"); }, "is not a colour");
   SumParameters p;
   const glm::dvec3 z(0, 0, 1);
   record.color("negative intensity in the reference", phongLight(p, z, z, z, glm::dvec3(-1)).matte,
@@ -152,14 +143,8 @@ void f9(Bench&, Record& record) {
   const glm::dvec3 c(0.5, 0.25, 0);
   record.color("metalness -1 in the reference", specularColor(c, -1), glm::dvec3(1), 0);
   record.color("metalness 2 in the reference", specularColor(c, 2), c, 0);
-  for (const char* text : {"-1", "2", "nan"})
-    record.refused(
-        "--material metalness=" + std::string(text),
-        [&] {
-          Look look;
-          parseMaterialEdit(look, "metalness=" + std::string(text));
-        },
-        "is not a number from 0 to 1");
+  record.refused("--material ", {"metalness=-1", "metalness=2", "metalness=nan"}, takeMaterial,
+                 "is not a number from 0 to 1");
   for (double bad : {-1.0, 2.0}) {
     Document document;
     document.triangle();

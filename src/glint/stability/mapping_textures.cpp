@@ -63,8 +63,7 @@ void expectNormal(Bench& bench, Record& record, const std::string& what, float h
       t.material().normalTexture = nearest();
       t.material().normalScale = scale;
       for (glm::vec4& tangent : t.scene.meshes[0].tangents) tangent.w = handedness;
-      Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
-      look.light = {directional(l)};
+      Look look = parallel(bench.lit(shading, l), {0, 0, 1}, 3);
       const double lit = std::max(glm::dot(n, safeNormalize(l)), 0.0);
       record.near(what + ", lit from " + vectorText(l),
                   middle(bench.draw(t.scene, look, t.images)).r, lit, 2e-6);
@@ -98,8 +97,7 @@ void m9(Bench& bench, Record& record) {
       m.shading.color = glm::dvec3(1);
       Textured t = textured(m, texels(corners), false);
       t.material().colorTexture = nearest();
-      Look look = parallel(bench.look(shading), {0, 0, 1}, 4);
-      look.light = {directional({0, 0, 1})};
+      Look look = parallel(bench.lit(shading), {0, 0, 1}, 4);
       const Image image = bench.draw(t.scene, look, t.images);
       const char* const names[] = {"top left", "top right", "bottom left", "bottom right"};
       for (int i = 0; i < 4; ++i)
@@ -225,17 +223,9 @@ void m15(Bench& bench, Record& record) {
   const int most = maxSamples();
   record.within("samples of the driver", most, 1, 1024);
   if (most < 2) return;
-  Mesh mesh;
-  for (int i = 0; i < 12; ++i) {
-    const float y = -0.9f + 0.15f * float(i), x = 0.03f * float(i);
-    const std::uint32_t first = std::uint32_t(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(),
-                          {{x - 0.03f, y, 0}, {x + 0.03f, y + 0.02f, 0}, {x - 0.02f, y + 0.1f, 0}});
-    mesh.colors.insert(mesh.colors.end(),
-                       {{0.4f, 0.6f, 0.5f, 1}, {0.6f, 0.4f, 0.6f, 1}, {0.4f, 0.5f, 0.4f, 1}});
-    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
-  }
-  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  Mesh mesh = thinTriangles(0.03f);
+  const glm::vec4 colors[] = {{0.4f, 0.6f, 0.5f, 1}, {0.6f, 0.4f, 0.6f, 1}, {0.4f, 0.5f, 0.4f, 1}};
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.colors.push_back(colors[i % 3]);
   Look look = parallel(bench.look(Shading::phong), {0, 0, 1}, 16);
   look.antiAliasing = {AntiAliasing::Mode::msaa, std::min(most, 4)};
   look.noBackground = true;

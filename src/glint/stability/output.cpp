@@ -10,7 +10,7 @@
 namespace glint::stability {
 namespace {
 
-/// IEC 61966-2-1, in double.
+/// IEC 61966-2-1, in double, written apart from what it tests.
 double curve(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
 void expectCode(Record& record, const std::string& what, float linear, int code) {

@@ -27,15 +27,19 @@ const std::vector<std::string> fresnelForms{"textbook", "exact", "schlick", "sch
 
 double shortened(double x) { return std::isfinite(x) ? std::stod(numberText(float(x))) : -1; }
 
-Json pointsJson(const std::vector<std::pair<double, double>>& points) {
-  Json list = Json::array();
-  for (const auto& [x, y] : points) list.push_back({shortened(x), shortened(y)});
-  return list;
+using Curve = std::vector<std::pair<double, double>>;
+
+Curve curveOf(const std::vector<double>& x, const std::vector<double>& y) {
+  Curve curve;
+  for (std::size_t i = 0; i < y.size(); ++i) curve.emplace_back(x[i], y[i]);
+  return curve;
 }
 
-Json seriesJson(const std::string& name, const std::vector<std::pair<double, double>>& points,
-                bool dots = false, bool truth = false) {
-  return {{"name", name}, {"points", pointsJson(points)}, {"dots", dots}, {"truth", truth}};
+Json seriesJson(const std::string& name, const Curve& points, bool dots = false,
+                bool truth = false) {
+  Json list = Json::array();
+  for (const auto& [x, y] : points) list.push_back({shortened(x), shortened(y)});
+  return {{"name", name}, {"points", list}, {"dots", dots}, {"truth", truth}};
 }
 
 Json plotJson(const std::string& title, const std::string& note, const std::string& x, bool xLog,
@@ -60,17 +64,10 @@ Peak aroundPeak(double exponent, std::size_t count) {
              sides = randomDirections(count, 63);
   for (std::size_t i = 0; i < count; ++i) {
     const double lambda = std::min(8 * (i + 0.5) / double(count) / exponent, 1.0);
-    const glm::dvec3 n = normals[i];
-    glm::dvec3 l = glm::dot(n, lights[i]) > 0 ? lights[i] : -lights[i];
-    if (glm::dot(n, l) < 0.3) l = safeNormalize(l + n);
-    const glm::dvec3 r = 2 * glm::dot(n, l) * n - l;
-    const double c = 1 - lambda;
-    const glm::dvec3 v = c * r + std::sqrt(1 - c * c) * safeNormalize(glm::cross(r, sides[i]));
-    peak.points.add(glm::vec3(n), glm::vec3(-v), glm::vec3(l));
-    const glm::dvec3 fn = safeNormalize(glm::dvec3(glm::vec3(n))),
-                     fl = safeNormalize(glm::dvec3(glm::vec3(l))),
-                     fv = safeNormalize(glm::dvec3(glm::vec3(v)));
-    const double own = phongLambda(fn, fl, fv);
+    const Geometry g = besidePeak(normals[i], lights[i], sides[i], 1 - lambda, false);
+    peak.points.add(g.n, g.p, g.l);
+    const double own = phongLambda(safeNormalize(glm::dvec3(g.n)), safeNormalize(glm::dvec3(g.l)),
+                                   safeNormalize(-glm::dvec3(g.p)));
     peak.scaled.push_back(exponent * own);
     peak.truth.push_back(lobeExact(own, exponent));
   }
@@ -79,9 +76,8 @@ Peak aroundPeak(double exponent, std::size_t count) {
 
 std::vector<double> lobeOf(Bench& bench, const std::string& form, double exponent,
                            const Points& points) {
-  Look look = bench.look(Shading::phong);
+  Look look = bench.lit(Shading::phong);
   look.highlight = parseHighlights(form, "highlight");
-  look.light = {directional({0, 0, 1})};
   std::vector<double> values;
   for (const glm::vec3& c : bench.programs().shade({look, litMaterial(0, 1, exponent)}, points))
     values.push_back(c.y);
@@ -89,9 +85,8 @@ std::vector<double> lobeOf(Bench& bench, const std::string& form, double exponen
 }
 
 /// The largest error in each of `bins` parts of [0, 8].
-std::vector<std::pair<double, double>> binned(const Peak& peak, const std::vector<double>& got,
-                                              int bins) {
-  std::vector<std::pair<double, double>> points;
+Curve binned(const Peak& peak, const std::vector<double>& got, int bins) {
+  Curve points;
   for (int b = 0; b < bins; ++b) points.emplace_back((b + 0.5) * 8 / bins, floor);
   for (std::size_t i = 0; i < got.size(); ++i) {
     const int b = std::clamp(int(peak.scaled[i] / 8 * bins), 0, bins - 1);
@@ -111,7 +106,7 @@ void lobePlots(Bench& bench, Json& plots) {
                        "The same for every form. Approximations end at their own error; the stable "
                        "forms grow like √α, the dot product like α.",
                        "exponent α", true, "largest error", true);
-  std::map<std::string, std::vector<std::pair<double, double>>> largest;
+  std::map<std::string, Curve> largest;
   for (double alpha : plottedExponents) {
     const Peak peak = aroundPeak(alpha, 8000);
     for (const std::string& form : lobeForms) {
@@ -127,7 +122,7 @@ void lobePlots(Bench& bench, Json& plots) {
   }
   for (const std::string& form : lobeForms)
     over["series"].push_back(seriesJson(form, largest[form]));
-  std::vector<std::pair<double, double>> level, half;
+  Curve half;
   for (double alpha : plottedExponents) half.emplace_back(alpha, 1 / 510.0);
   over["series"].push_back(seriesJson("half a level of 8 bits", half, false, true));
   plots.push_back(near);
@@ -150,11 +145,7 @@ void lobePlots(Bench& bench, Json& plots) {
     angles.push_back(a / degrees);
     truth.push_back(std::pow(std::cos(a), 1e6));
   }
-  const auto curve = [&](const std::vector<double>& values) {
-    std::vector<std::pair<double, double>> list;
-    for (std::size_t i = 0; i < values.size(); ++i) list.emplace_back(angles[i], values[i]);
-    return list;
-  };
+  const auto curve = [&](const std::vector<double>& values) { return curveOf(angles, values); };
   stairs["series"].push_back(seriesJson("cos^1e6", curve(truth), false, true));
   for (const std::string& form : pair)
     stairs["series"].push_back(seriesJson(form, curve(lobeOf(bench, form, 1e6, points)), true));
@@ -180,20 +171,9 @@ void lobePlots(Bench& bench, Json& plots) {
 
 std::vector<float> reflectanceOf(Bench& bench, const std::string& form, double n1, double n2,
                                  const std::vector<float>& cosines) {
-  Look look = bench.look(Shading::environment);
+  Look look = whiteRoom(bench, n1);
   look.fresnel = parseFresnel(form, "fresnel");
-  look.noLights = true;
-  look.mediumIor = n1;
-  Material material;
-  material.shading = {0, 0, 0, 1, 0, n2, glm::dvec3(1)};
-  return bench.programs().reflectance({look, material}, cosines, true);
-}
-
-std::vector<std::pair<double, double>> pairsOf(const std::vector<double>& x,
-                                               const std::vector<double>& y) {
-  std::vector<std::pair<double, double>> list;
-  for (std::size_t i = 0; i < x.size(); ++i) list.emplace_back(x[i], y[i]);
-  return list;
+  return bench.programs().reflectance({look, boundary(n2)}, cosines, true);
 }
 
 void fresnelPlots(Bench& bench, Json& plots) {
@@ -215,10 +195,10 @@ void fresnelPlots(Bench& bench, Json& plots) {
       x.push_back(cosines.back() / critical - 1);
       truth.push_back(fresnelExact(double(cosines.back()), n, 1));
     }
-    plot["series"].push_back(seriesJson("in double", pairsOf(x, truth), false, true));
+    plot["series"].push_back(seriesJson("in double", curveOf(x, truth), false, true));
     for (const std::string& form : pair) {
       const auto got = reflectanceOf(bench, form, n, 1, cosines);
-      plot["series"].push_back(seriesJson(form, pairsOf(x, {got.begin(), got.end()}), true));
+      plot["series"].push_back(seriesJson(form, curveOf(x, {got.begin(), got.end()}), true));
     }
     plots.push_back(plot);
   }
@@ -227,7 +207,7 @@ void fresnelPlots(Bench& bench, Json& plots) {
                         "Over 2000 cosines from 1e-6 to 1. From the denser side the textbook's "
                         "form loses everything; the form without cancellation keeps 1e-6.",
                         "|n2 − n1| / n1", true, "largest error of R", true);
-  std::map<std::string, std::vector<std::pair<double, double>>> lines;
+  std::map<std::string, Curve> lines;
   for (double d = std::exp2(-23); d < 1; d *= 2) {
     for (const std::string& form : pair)
       for (bool denser : {false, true}) {
@@ -253,10 +233,10 @@ void fresnelPlots(Bench& bench, Json& plots) {
     cosines.push_back(float(std::cos(i * 0.5 * degrees)));
     truth.push_back(fresnelExact(double(cosines.back()), 1, 1.5));
   }
-  all["series"].push_back(seriesJson("in double", pairsOf(angles, truth), false, true));
+  all["series"].push_back(seriesJson("in double", curveOf(angles, truth), false, true));
   for (const std::string& form : fresnelForms) {
     const auto got = reflectanceOf(bench, form, 1, 1.5, cosines);
-    all["series"].push_back(seriesJson(form, pairsOf(angles, {got.begin(), got.end()})));
+    all["series"].push_back(seriesJson(form, curveOf(angles, {got.begin(), got.end()})));
   }
   plots.push_back(all);
 }
@@ -272,7 +252,7 @@ void normalPlot(Bench& bench, Json& plots) {
       {"safeUnit", "vec3 safeUnit(vec3)"}};
   const auto directions = randomDirections(64, 71);
   for (const auto& [name, function] : functions) {
-    std::vector<std::pair<double, double>> points;
+    Curve points;
     std::vector<float> v;
     std::vector<glm::dvec3> truth;
     for (int e = -76; e <= 76; ++e)

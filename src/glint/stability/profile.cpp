@@ -55,22 +55,25 @@ Measured measure(const Column& got, Truth truth, Allowed allowed) {
   return m;
 }
 
+double largestError(const Column& got, const Column& truth) {
+  double worst = 0;
+  for (std::size_t i = 0; i < got.size(); ++i)
+    worst = std::max(worst, absoluteError(got[i], truth[i]));
+  return worst;
+}
+
 enum class Unit { ulp, absolute };
 
-Quality judged(std::string name, std::string measured, Unit unit, const Measured& m,
-               std::string required, std::string touches) {
-  Quality q;
-  q.name = std::move(name);
-  q.measured = std::move(measured);
-  (unit == Unit::ulp ? q.ulp : q.absolute) = unit == Unit::ulp ? m.ulp : m.absolute;
-  q.result = unit == Unit::ulp ? shortText(m.ulp) + " ulp" : shortText(m.absolute) + " absolute";
-  q.required = std::move(required);
-  q.weak = !(m.share <= 1);
-  q.verdict = q.weak          ? "worse than required, by a factor of " + shortText(m.share)
-              : m.share < 0.5 ? "better than required"
-                              : "as required";
-  q.touches = std::move(touches);
-  return q;
+Quality judged(const char* name, const char* measured, Unit unit, const Measured& m,
+               const char* required, const char* touches) {
+  const bool weak = !(m.share <= 1);
+  const std::string verdict = weak ? "worse than required, by a factor of " + shortText(m.share)
+                              : m.share < 0.5 ? "better than required"
+                                              : "as required";
+  if (unit == Unit::ulp)
+    return {name, measured, shortText(m.ulp) + " ulp", required, verdict, touches, weak, -1, m.ulp};
+  return {name, measured,  shortText(m.absolute) + " absolute", required, verdict, touches,
+          weak, m.absolute};
 }
 
 Quality powQuality(Bench& bench) {
@@ -98,24 +101,19 @@ Quality powQuality(Bench& bench) {
 
 void elementary(Bench& bench, std::vector<Quality>& all) {
   const Column negative = floatsFrom(-100, -1e-6f, {-1, -0.5f});
-  all.push_back(judged("exp2", "x from -100 to 0", Unit::ulp,
-                       measure(
-                           bench.run("float f(float x) { return exp2(x); }", {negative}),
-                           [&](std::size_t i) { return std::exp2(double(negative[i])); },
-                           [&](std::size_t i) {
-                             return (3 + 2 * std::abs(negative[i])) *
-                                    floatSpacing(std::exp2(double(negative[i])));
-                           }),
-                       "3 + 2 |x| ulp", "the exact lobe, whose bound counts it: 3.6e-7 at most"));
+  const Measured powers = measure(
+      bench.run("float f(float x) { return exp2(x); }", {negative}),
+      [&](std::size_t i) { return std::exp2(double(negative[i])); },
+      [&](std::size_t i) {
+        return (3 + 2 * std::abs(negative[i])) * floatSpacing(std::exp2(double(negative[i])));
+      });
+  all.push_back(judged("exp2", "x from -100 to 0", Unit::ulp, powers, "3 + 2 |x| ulp",
+                       "the exact lobe, whose bound counts it: 3.6e-7 at most"));
   // The lobe's bound of 1e-6 counts on at most 3.6e-7 for values of at most 1.
   Quality& exponential = all.back();
-  const Column values = bench.run("float f(float x) { return exp2(x); }", {negative});
-  double off = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    off = std::max(off, absoluteError(values[i], std::exp2(double(negative[i]))));
-  exponential.absolute = off;
-  exponential.result += ", " + shortText(off) + " absolute";
-  exponential.weak = off > 3.6e-7;
+  exponential.absolute = powers.absolute;
+  exponential.result += ", " + shortText(powers.absolute) + " absolute";
+  exponential.weak = powers.absolute > 3.6e-7;
   exponential.verdict += exponential.weak ? "; more than the lobe's bound counts on"
                                           : "; within what the lobe's bound counts on, 3.6e-7";
   const Column near = floatsFrom(0.5f, 2, {1, 0.5f, 2});
@@ -187,28 +185,27 @@ void vectors(Bench& bench, std::vector<Quality>& all) {
   };
   constexpr const char* normalize = "vec3 f(vec3 v) { return normalize(v); }";
   const double usual = error(normalize, -15, 15), any = error(normalize, -37, 38);
-  all.push_back(observed(
-      "normalize", "lengths 1e-15 to 1e15; 1e-37 to 1e38",
-      shortText(usual) + " absolute; " + (std::isinf(any) ? "infinite or NaN" : shortText(any)),
-      "as x inversesqrt(dot(x, x)): nothing where the square leaves the range",
-      any > 1e-3 ? "usable only where the square stays in range" : "usable for every length",
-      "nothing: unit() and safeUnit() stand for it (" +
-          shortText(error("vec3 safeUnit(vec3)", -30, 38)) + " for lengths 1e-30 to 1e38)",
-      any > 1e-3));
+  all.push_back(
+      {"normalize", "lengths 1e-15 to 1e15; 1e-37 to 1e38",
+       shortText(usual) + " absolute; " + (std::isinf(any) ? "infinite or NaN" : shortText(any)),
+       "as x inversesqrt(dot(x, x)): nothing where the square leaves the range",
+       any > 1e-3 ? "usable only where the square stays in range" : "usable for every length",
+       "nothing: unit() and safeUnit() stand for it (" +
+           shortText(error("vec3 safeUnit(vec3)", -30, 38)) + " for lengths 1e-30 to 1e38)",
+       any > 1e-3});
   const Column tiny{1e-40f};
   const float kept = bench.run("float f(float x) { return x; }", {tiny})[0];
   const float made = bench.run("float f(float x) { return x * 0.5; }", {{smallest}})[0];
-  all.push_back(
-      observed("subnormal numbers", "1e-40 read, 2^-127 made",
-               std::string(kept != 0 ? "kept" : "taken for 0") + " when read, " +
-                   (made != 0 ? "kept" : "0") + " when made",
-               "may be taken for 0", kept != 0 ? "more than required" : "as required",
-               "case A4: normals below 1.2e-38 on the driver; files' are unit before it"));
+  all.push_back({"subnormal numbers", "1e-40 read, 2^-127 made",
+                 std::string(kept != 0 ? "kept" : "taken for 0") + " when read, " +
+                     (made != 0 ? "kept" : "0") + " when made",
+                 "may be taken for 0", kept != 0 ? "more than required" : "as required",
+                 "case A4: normals below 1.2e-38 on the driver; files' are unit before it"});
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float zero = bench.run("float f(float x, float y) { return pow(x, y); }", {{0}, {0}})[0];
-  all.push_back(observed("pow(0, 0)", "the value", numberText(zero), "undefined",
-                         zero == 1 ? "as in C" : "not as in C",
-                         "nothing: lobePow asks for a positive base first"));
+  all.push_back({"pow(0, 0)", "the value", numberText(zero), "undefined",
+                 zero == 1 ? "as in C" : "not as in C",
+                 "nothing: lobePow asks for a positive base first"});
   const auto lost = [&](const char* function) {
     const float x = bench.run(function, {{nan}})[0];
     return std::isnan(x) ? std::string("NaN") : numberText(x);
@@ -217,22 +214,21 @@ void vectors(Bench& bench, std::vector<Quality>& all) {
                     minimum = lost("float f(float x) { return min(x, 1.0); }"),
                     clamped = lost("float f(float x) { return clamp(x, 0.0, 1.0); }"),
                     power = lost("float f(float x) { return pow(x, 2.0); }");
-  all.push_back(observed("NaN", "max(NaN, 0), min(NaN, 1), clamp(NaN, 0, 1), pow(NaN, 2)",
-                         maximum + ", " + minimum + ", " + clamped + ", " + power, "undefined",
-                         maximum == "NaN" ? "NaN is kept" : "NaN may vanish",
-                         "the count of NaN pixels: inputs are "
-                         "checked, so that none is made"));
+  all.push_back({"NaN", "max(NaN, 0), min(NaN, 1), clamp(NaN, 0, 1), pow(NaN, 2)",
+                 maximum + ", " + minimum + ", " + clamped + ", " + power, "undefined",
+                 maximum == "NaN" ? "NaN is kept" : "NaN may vanish",
+                 "the count of NaN pixels: inputs are "
+                 "checked, so that none is made"});
   // x^2 minus its rounded value is 0, unless the two are one fused operation.
   const Column x = floatsFrom(1, 2);
   Column square;
   for (float a : x) square.push_back(a * a);
   const Column rest = bench.run("float f(float x, float y) { return x * x - y; }", {x, square});
   const auto fused = std::count_if(rest.begin(), rest.end(), [](float r) { return r != 0; });
-  all.push_back(
-      observed("fused multiply-add", "x x - fl(x x) over 200000 floats",
-               fused > 0 ? std::to_string(fused) + " differ from 0: fused" : "0: not fused",
-               "either may be", fused > 0 ? "products are kept exact" : "each is rounded",
-               "the last bits of every picture; no bound"));
+  all.push_back({"fused multiply-add", "x x - fl(x x) over 200000 floats",
+                 fused > 0 ? std::to_string(fused) + " differ from 0: fused" : "0: not fused",
+                 "either may be", fused > 0 ? "products are kept exact" : "each is rounded",
+                 "the last bits of every picture; no bound"});
 }
 
 /// Measures a square across the view, tilted in depth, with colours.
@@ -250,18 +246,14 @@ void interpolation(Bench& bench, std::vector<Quality>& all) {
   look.clippingRange = glm::dvec2(0.5, 20);
   look.resolution = {256, 256};
   const Image got = bench.draw(scene, look), truth = bench.reference(scene, look);
-  double worst = 0;
-  for (std::size_t i = 0; i < got.values.size(); ++i)
-    worst = std::max(worst, absoluteError(got.values[i], truth.values[i]));
+  double worst = largestError(got.values, truth.values);
   GLint subpixel = 0;
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel);
-  Quality q = observed("interpolation", "colours of 0 to 1 over 256 pixels, w from 1 to 8",
-                       shortText(worst) + " absolute, vertices on a grid of 2^-" +
-                           std::to_string(subpixel) + " pixels",
-                       "not stated", worst < 1e-5 ? "good" : "coarse",
-                       "every picture: docs/accuracy.md tells it from shading", worst > 1e-4);
-  q.absolute = worst;
-  all.push_back(q);
+  all.push_back({"interpolation", "colours of 0 to 1 over 256 pixels, w from 1 to 8",
+                 shortText(worst) + " absolute, vertices on a grid of 2^-" +
+                     std::to_string(subpixel) + " pixels",
+                 "not stated", worst < 1e-5 ? "good" : "coarse",
+                 "every picture: docs/accuracy.md tells it from shading", worst > 1e-4, worst});
 
   // dFdx of a linear function over neighbouring fragments; and of squares, which shows the step.
   Column line, squares;
@@ -274,11 +266,11 @@ void interpolation(Bench& bench, std::vector<Quality>& all) {
   for (float s : slope) off = std::max(off, std::abs(s - 0.125));
   const Column steps = bench.run("float f(float x) { return dFdx(x); }", {squares});
   const bool pairs = steps[0] == steps[1] && steps[2] == steps[3] && steps[1] != steps[2];
-  all.push_back(observed("derivatives", "dFdx of a line and of squares",
-                         "line " + shortText(off) + " off; " +
-                             (pairs ? "one for each pair of fragments" : "one for each fragment"),
-                         "an approximation", off == 0 ? "exact where it can be" : "coarse",
-                         "face normals where vertex normals cancel (I1, I6)", off > 1e-5));
+  all.push_back({"derivatives", "dFdx of a line and of squares",
+                 "line " + shortText(off) + " off; " +
+                     (pairs ? "one for each pair of fragments" : "one for each fragment"),
+                 "an approximation", off == 0 ? "exact where it can be" : "coarse",
+                 "face normals where vertex normals cancel (I1, I6)", off > 1e-5});
 }
 
 void textures(Bench& bench, std::vector<Quality>& all) {
@@ -298,11 +290,9 @@ void textures(Bench& bench, std::vector<Quality>& all) {
   double worst = 0;
   for (std::size_t i = 0; i < 256; ++i)
     worst = std::max(worst, absoluteError(decoded.values[4 * i], srgbDecoded[i]));
-  Quality q = observed("sRGB textures", "the 256 codes, nearest filter",
-                       shortText(worst) + " absolute", "the curve; no precision stated",
-                       worst < 1e-6 ? "exact" : "rounded", "colours of textures", worst > 2e-3);
-  q.absolute = worst;
-  all.push_back(q);
+  all.push_back({"sRGB textures", "the 256 codes, nearest filter", shortText(worst) + " absolute",
+                 "the curve; no precision stated", worst < 1e-6 ? "exact" : "rounded",
+                 "colours of textures", worst > 2e-3, worst});
 
   scene.materials[0].colorTexture->sampler.magnify = Filter::linear;
   scene.materials[0].colorTexture->sampler.minify = Filter::linear;
@@ -313,15 +303,12 @@ void textures(Bench& bench, std::vector<Quality>& all) {
     noise[0].image.values.push_back(std::uint8_t(i % 4 == 3 ? 255 : random.below(256)));
   const Look look = parallel(bench.look(), {0, 0, 1}, 200);
   const Image got = bench.draw(scene, look, noise), truth = bench.reference(scene, look, noise);
-  worst = 0;
-  for (std::size_t i = 0; i < got.values.size(); ++i)
-    worst = std::max(worst, absoluteError(got.values[i], truth.values[i]));
-  q = observed("texture filtering", "bilinear, sRGB, 8 x 8 texels of noise over 200 pixels",
-               shortText(worst) + " absolute", "not stated: weights of a few bits are allowed",
-               worst < 5e-4 ? "fine weights" : "coarse weights",
-               "colours of textures; error budgets are of shading, not of filtering", worst > 1e-2);
-  q.absolute = worst;
-  all.push_back(q);
+  worst = largestError(got.values, truth.values);
+  all.push_back({"texture filtering", "bilinear, sRGB, 8 x 8 texels of noise over 200 pixels",
+                 shortText(worst) + " absolute", "not stated: weights of a few bits are allowed",
+                 worst < 5e-4 ? "fine weights" : "coarse weights",
+                 "colours of textures; error budgets are of shading, not of filtering",
+                 worst > 1e-2, worst});
 }
 
 }  // namespace

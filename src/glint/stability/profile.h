@@ -13,12 +13,12 @@ struct Quality {
   std::string name;      ///< "exp2"
   std::string measured;  ///< over which inputs, against what
   std::string result;    ///< in words and numbers
-  double ulp = -1;       ///< largest error in float spacings; negative where that says nothing
-  double absolute = -1;  ///< likewise in the value's unit
   std::string required;  ///< what GLSL or OpenGL specifies
   std::string verdict;   ///< "as required", "worse than required", "not stated: ..."
-  bool weak = false;     ///< worse than specified, or too inexact to rely on
   std::string touches;   ///< which of glint's figures it affects, and which not
+  bool weak = false;     ///< worse than specified, or too inexact to rely on
+  double absolute = -1;  ///< largest error in the value's unit; negative where that says nothing
+  double ulp = -1;       ///< likewise in float spacings
 };
 
 /// Measures the current context's driver. GLSL 3.30 specifies no precisions; those of GLSL 4.10 and

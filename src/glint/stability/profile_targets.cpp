@@ -18,19 +18,6 @@ std::string shortText(double x) {
   return text;
 }
 
-Quality observed(std::string name, std::string measured, std::string result, std::string required,
-                 std::string verdict, std::string touches, bool weak) {
-  Quality q;
-  q.name = std::move(name);
-  q.measured = std::move(measured);
-  q.result = std::move(result);
-  q.required = std::move(required);
-  q.verdict = std::move(verdict);
-  q.touches = std::move(touches);
-  q.weak = weak;
-  return q;
-}
-
 namespace {
 
 /// How many codes an sRGB renderbuffer stores differently from glint's encoding; -1 without such a
@@ -72,11 +59,11 @@ int storedOtherwise() {
 
 void measureTargets(std::vector<Quality>& all) {
   const int otherwise = storedOtherwise();
-  all.push_back(observed(
-      "sRGB store", "1024 values into an sRGB target",
-      otherwise < 0 ? "no such target" : std::to_string(otherwise) + " codes are not the nearest",
-      "0.6 of a code in practice; not stated", otherwise == 0 ? "exact" : "not exact",
-      "nothing: pictures are encoded on the CPU", otherwise > 0));
+  all.push_back(
+      {"sRGB store", "1024 values into an sRGB target",
+       otherwise < 0 ? "no such target" : std::to_string(otherwise) + " codes are not the nearest",
+       "0.6 of a code in practice; not stated", otherwise == 0 ? "exact" : "not exact",
+       "nothing: pictures are encoded on the CPU", otherwise > 0});
   const int samples = maxSamples();
   std::string positions;
   if (samples > 1) {
@@ -87,26 +74,25 @@ void measureTargets(std::vector<Quality>& all) {
       positions += (i ? " " : "") + shortText(at[0]) + "," + shortText(at[1]);
     }
   }
-  all.push_back(observed("samples", "the most a float target has; where they are",
-                         std::to_string(samples) + (positions.empty() ? "" : ": " + positions),
-                         "4 of GL 3.0 for plain formats", samples >= 4 ? "as required" : "fewer",
-                         "--anti-aliasing msaa; ssaa does without", samples < 4));
-  all.push_back(
-      observed("depth", "GL_ARB_clip_control, float depth",
-               GLINT_GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
-               "an extension of 3.3",
-               GLINT_GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
-                                              : "coarse far from the near plane",
-               "cases G1 and G2", !GLINT_GLAD_GL_ARB_clip_control));
+  all.push_back({"samples", "the most a float target has; where they are",
+                 std::to_string(samples) + (positions.empty() ? "" : ": " + positions),
+                 "4 of GL 3.0 for plain formats", samples >= 4 ? "as required" : "fewer",
+                 "--anti-aliasing msaa; ssaa does without", samples < 4});
+  all.push_back({"depth", "GL_ARB_clip_control, float depth",
+                 GLINT_GLAD_GL_ARB_clip_control ? "reversed float depth" : "no clip control",
+                 "an extension of 3.3",
+                 GLINT_GLAD_GL_ARB_clip_control ? "1e-7 of the distance everywhere"
+                                                : "coarse far from the near plane",
+                 "cases G1 and G2", !GLINT_GLAD_GL_ARB_clip_control});
   GLint size = 0, texture = 0, block = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &size);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block);
-  all.push_back(observed("limits", "target, texture, uniform block",
-                         std::to_string(size) + ", " + std::to_string(texture) +
-                             " pixels a side, " + std::to_string(block) + " bytes",
-                         "1024, 1024, 16384", "as required",
-                         "cases L1 to L6: drawn in parts, smaller, or refused by name"));
+  all.push_back({"limits", "target, texture, uniform block",
+                 std::to_string(size) + ", " + std::to_string(texture) + " pixels a side, " +
+                     std::to_string(block) + " bytes",
+                 "1024, 1024, 16384", "as required",
+                 "cases L1 to L6: drawn in parts, smaller, or refused by name"});
 }
 
 }  // namespace glint::stability

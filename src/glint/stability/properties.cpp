@@ -15,8 +15,7 @@ namespace glint::stability {
 namespace {
 
 Look highlightLook(Bench& bench, Shading shading) {
-  Look look = bench.look(shading);
-  look.light = {directional({0, 0, 1})};
+  Look look = bench.lit(shading);
   return look;
 }
 
@@ -65,13 +64,7 @@ void p2(Bench& bench, Record& record) {
   }
 }
 
-Scene pebbleScene(const glm::dmat4& world) {
-  Mesh mesh = sphere(24, 12);
-  for (glm::vec3& p : mesh.positions) p *= glm::vec3(1, 0.8f, 0.9f);
-  Material material;
-  material.shading = {0.5, 0.7, 0.4, 30, 0, 1.5, {0.9, 0.6, 0.3}};
-  return sceneOf(mesh, material, world);
-}
+Scene pebbleScene(const glm::dmat4& world) { return sceneOf(pebble(), paint(), world); }
 
 /// A look at the origin with all positions and directions turned by `turn`, and lengths scaled by
 /// `scale`.
@@ -177,12 +170,7 @@ void p11(Bench& bench, Record& record) {
   for (Shading shading : everyShading)
     for (double angle : {0.0, 10.0, 19.9, 25.0, 30.1, 60.0, 90.0, 120.0, 180.0}) {
       Look look = bench.look(shading);
-      Light spot;
-      spot.type = Light::Type::spot;
-      spot.direction = {std::sin(angle * degrees), 0, -std::cos(angle * degrees)};
-      spot.innerAngle = 20;
-      spot.outerAngle = 30;
-      look.light = {spot};
+      look.light = {spotAlong({std::sin(angle * degrees), 0, -std::cos(angle * degrees)}, 20, 30)};
       Points points;
       points.add({0, 0, 1}, {0, 0, -1}, {0, 0, 0});
       const PointScene scene(look, litMaterial(1, 0, 1));
@@ -252,8 +240,7 @@ void p15(Bench& bench, Record& record) {
   const std::vector<float> given{
       std::numeric_limits<float>::quiet_NaN(), -infinity, -1, 0, 0.5f, 1e30f, infinity};
   const double expected[] = {0, 0, 0, 0, 0.5, 1e30f, 1e30f};
-  Look look = bench.look(Shading::gouraud);
-  look.light = {directional({0, 0, 1})};
+  Look look = bench.lit(Shading::gouraud);
   const Variant variant = PointScene(look, litMaterial(1, 0, 1)).item().variant;
   const auto got = bench.programs().probe(variant).run(
       "float finiteValue(float x) { return finiteOrZero(vec4(x)).x; }", {given});

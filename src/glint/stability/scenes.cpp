@@ -43,6 +43,28 @@ Mesh triangles(std::vector<glm::vec3> positions) {
   return mesh;
 }
 
+Mesh thinTriangles(float step) {
+  std::vector<glm::vec3> corners;
+  for (int i = 0; i < 12; ++i) {
+    const float y = -0.9f + 0.15f * float(i), x = step * float(i);
+    corners.insert(corners.end(),
+                   {{x - 0.03f, y, 0}, {x + 0.03f, y + 0.02f, 0}, {x - 0.02f, y + 0.1f, 0}});
+  }
+  return triangles(std::move(corners));
+}
+
+Mesh pebble() {
+  Mesh mesh = sphere(24, 12);
+  for (glm::vec3& p : mesh.positions) p *= glm::vec3(1, 0.8f, 0.9f);
+  return mesh;
+}
+
+Material paint() {
+  Material material;
+  material.shading = {0.5, 0.7, 0.4, 30, 0, 1.5, {0.9, 0.6, 0.3}};
+  return material;
+}
+
 Scene sceneOf(Mesh mesh, Material material, const glm::dmat4& world) {
   Scene scene;
   scene.name = "case";
@@ -72,6 +94,14 @@ Light directional(const glm::dvec3& toLight, const glm::dvec3& intensity) {
   Light light;
   light.direction = toLight;
   light.intensity = intensity;
+  return light;
+}
+
+Light spotAlong(const glm::dvec3& direction, double innerAngle, double outerAngle) {
+  Light light = directional(direction);
+  light.type = Light::Type::spot;
+  light.innerAngle = innerAngle;
+  light.outerAngle = outerAngle;
   return light;
 }
 

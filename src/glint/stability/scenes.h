@@ -18,6 +18,13 @@ Mesh sphere(int around, int down);
 /// Triangles, three positions each, with the normal +Z.
 Mesh triangles(std::vector<glm::vec3> positions);
 
+/// Twelve thin ones, one above the other, each `step` further to the right.
+Mesh thinTriangles(float step);
+
+/// A lumpy thing without symmetry, smooth normals; and what it is painted with.
+Mesh pebble();
+Material paint();
+
 /// One mesh with one material at one place.
 Scene sceneOf(Mesh mesh, Material material = {}, const glm::dmat4& world = glm::dmat4(1));
 
@@ -29,6 +36,8 @@ Look parallel(Look look, const glm::dvec3& toViewer = {0, 0, 1}, int pixels = 8)
 
 Light directional(const glm::dvec3& toLight, const glm::dvec3& intensity = glm::dvec3(1));
 
+/// At the origin; the angles in degrees.
+Light spotAlong(const glm::dvec3& direction, double innerAngle, double outerAngle);
 glm::dmat4 translation(const glm::dvec3& t);
 glm::dmat4 scaling(const glm::dvec3& s);
 /// About a fixed generic axis; radians.

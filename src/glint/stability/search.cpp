@@ -296,15 +296,12 @@ RandomScene randomScene(const Look& base, Random& random, bool pathological) {
 
 SearchReport searchNotFinite(Bench& bench, std::uint64_t evaluations,
                              const std::function<void(double)>& progress) {
-  const auto seconds = [](Clock::time_point from) {
-    return std::chrono::duration<double>(Clock::now() - from).count();
-  };
   SearchReport report;
   const auto started = Clock::now();
   searchPoints(bench, evaluations, report, [&](double share) {
     if (progress) progress(share / 2);
   });
-  report.pointSeconds = seconds(started);
+  report.pointSeconds = secondsSince(started);
   const auto drawing = Clock::now();
   const std::uint64_t scenes = evaluations / 10000;
   Random random(101);
@@ -344,7 +341,7 @@ SearchReport searchNotFinite(Bench& bench, std::uint64_t evaluations,
     }
     if (progress) progress(0.5 + 0.5 * double(i) / double(scenes));
   }
-  report.sceneSeconds = seconds(drawing);
+  report.sceneSeconds = secondsSince(drawing);
   return report;
 }
 

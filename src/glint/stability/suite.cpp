@@ -7,6 +7,7 @@
 
 #include "glint/image/clock.h"
 #include "glint/image/error.h"
+#include "glint/image/json_text.h"
 
 namespace glint::stability {
 namespace {
@@ -33,8 +34,6 @@ std::string failureText(const Finding& f) {
   }
   return text + "\n";
 }
-
-Json numberJson(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 constexpr std::size_t mostFailures = 8;  // of a case, in the summary
 
@@ -204,11 +203,11 @@ Json casesJson(const std::vector<CaseResult>& results) {
     for (const Finding& f : r.findings) {
       Json check{{"what", f.what}, {"expected", f.expected}, {"got", f.got}, {"passed", f.passed}};
       if (f.error > 0) {
-        check["error"] = numberJson(f.error);
-        check["ulp"] = numberJson(f.ulp);
-        check["levels"] = numberJson(f.levels);
+        check["error"] = jsonNumber(f.error);
+        check["ulp"] = jsonNumber(f.ulp);
+        check["levels"] = jsonNumber(f.levels);
       }
-      if (f.tolerance > 0) check["tolerance"] = numberJson(f.tolerance);
+      if (f.tolerance > 0) check["tolerance"] = jsonNumber(f.tolerance);
       one["checks"].push_back(check);
     }
     list.push_back(one);

@@ -12,25 +12,10 @@
 namespace glint::stability {
 namespace {
 
-/// A pebble with three different radii and smooth normals.
-Mesh pebble() {
-  Mesh mesh = sphere(24, 12);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    mesh.positions[i] *= glm::vec3(1, 0.8f, 0.9f);
-  return mesh;
-}
-
-Material paint() {
-  Material material;
-  material.shading = {0.5, 0.7, 0.4, 30, 0, 1.5, {0.9, 0.6, 0.3}};
-  return material;
-}
-
 Look litLook(Bench& bench, Shading shading) {
-  Look look = bench.look(shading);
+  Look look = bench.lit(shading, {-1, 1, 1});
   look.ambientLight = glm::dvec3(0.25);
   look.resolution = {48, 48};
-  look.light = {directional({-1, 1, 1})};
   return look;
 }
 
@@ -72,8 +57,7 @@ void expectFormula(Bench& bench, Record& record, const std::string& what, const 
   const glm::dvec3 normal = safeNormalize(inverse * n) * side;
   const LightValues values = formulaValues(normal, l, v, 12);
   for (Shading shading : {Shading::gouraud, Shading::phong, Shading::blinnPhong}) {
-    Look look = parallel(bench.look(shading), v, 3);
-    look.light = {directional(l)};
+    Look look = parallel(bench.lit(shading, l), v, 3);
     Scene scene = sceneOf(square(n, 20), litMaterial(0.6, 0.4, 12), world);
     scene.materials[0].doubleSided = true;
     const Image image = bench.draw(scene, look), truth = bench.reference(scene, look);
@@ -152,8 +136,7 @@ void b5(Bench& bench, Record& record) { expectScale(bench, record, 1e20); }
 void b6(Bench& bench, Record& record) {
   // Almost flat: the normal along the surface is 1e-25 long before it is made unit.
   for (Shading shading : {Shading::gouraud, Shading::phong}) {
-    Look look = parallel(bench.look(shading), {0, 0, 1}, 3);
-    look.light = {directional({0.6, 0, 0.8})};
+    Look look = parallel(bench.lit(shading, {0.6, 0, 0.8}), {0, 0, 1}, 3);
     const Image image = bench.draw(
         sceneOf(square({1, 0, 0}, 20), litMaterial(1, 0, 1), scaling({1, 1, 1e-25})), look);
     record.near(std::string(shadingName(shading)) + ", scale (1, 1, 1e-25): diffuse",

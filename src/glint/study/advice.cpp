@@ -4,6 +4,7 @@
 
 #include "glint/scene/look_text.h"
 #include "glint/study/format.h"
+#include "glint/study/report_words.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
@@ -25,10 +26,6 @@ std::optional<std::size_t> exactOf(const StudyResult& r, Shading model) {
 
 std::string percent(const TimeRatio& share) {
   return formatted("%.0f %% (%.0f to %.0f)", 100 * share.value, 100 * share.low, 100 * share.high);
-}
-
-std::string ratioText(const TimeRatio& ratio) {
-  return formatted("%.3f (%.3f to %.3f)", ratio.value, ratio.low, ratio.high);
 }
 
 std::string formsText(const StudyHead& head, const StudyResult& r) {
@@ -121,12 +118,9 @@ std::vector<AdvisedForm> advisedForms(const StudyHead& head, const StudyResult& 
 std::string adviceText(const StudyHead& head, const StudyResult& r) {
   const std::string forms = formsText(head, r), parts = partsText(r);
   if (forms.empty() && parts.empty()) return {};
-  return formatted("What to use for %s at %d x %d pixels by %s, on this machine and by %s time:",
+  return formatted("What to use for %s at %d x %d pixels by %s, on this machine and by %s:",
                    head.model.c_str(), head.look.resolution.x, head.look.resolution.y,
-                   std::string(shadingName(advisedModel(head))).c_str(),
-                   r.clock == FrameClock::cpu   ? "CPU"
-                   : r.clock == FrameClock::gpu ? "GPU"
-                                                : "wall") +
+                   std::string(shadingName(advisedModel(head))).c_str(), clockWords(r.clock)) +
          forms + parts + " In brackets: 95 % intervals.";
 }
 

@@ -16,27 +16,10 @@ namespace {
 
 constexpr int smallSize = 128;  ///< pixels of the longer side
 
-SeriesPoint pointOf(double x, const PictureError& e) {
-  SeriesPoint point;
-  point.x = x;
-  point.max = e.max;
-  point.rmse = e.rmse;
-  point.relativeRmse = e.relativeRmse;
-  return point;
-}
-
 Look smallLook(const SeriesTools& tools, int size) {
   Look look = exactLook(tools.look, Shading::phong);
-  const double shrink = double(size) / std::max(look.resolution.x, look.resolution.y);
-  look.resolution =
-      glm::max(glm::ivec2(1), glm::ivec2(glm::round(shrink * glm::dvec2(look.resolution))));
+  look.resolution = resolutionOf(look, size);
   return look;
-}
-
-bool hasHighlight(const SeriesTools& tools, const Look& look) {
-  const DrawList list = makeDrawList(tools.scene.scene, tools.scene.bounds, look);
-  return std::ranges::any_of(list.items,
-                             [](const DrawItem& item) { return item.variant.specular; });
 }
 
 /// A way to treat aliasing.
@@ -63,23 +46,15 @@ class SmallPictures {
     return renderers_[antiAliasingText(look.antiAliasing)].draw(
         tools_.gpu, makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
-  Image draw(Look look, const Way& way) {
-    look.specularAntialiasing = way.filter;
-    look.antiAliasing = way.samples;
-    return draw(look);
-  }
+  Image draw(const Look& look, const Way& way) { return draw(lookOf(look, way)); }
   /// Whether a way's filter changes anything.
-  bool has(Look look, const Way& way) const {
-    look.specularAntialiasing = way.filter;
-    const DrawList list = makeDrawList(tools_.scene.scene, tools_.scene.bounds, look);
-    return way.filter == Filter::none || std::ranges::any_of(list.items, [](const DrawItem& item) {
-             return item.variant.specularAntialiasing;
-           });
+  bool has(const Look& look, const Way& way) const {
+    return way.filter == Filter::none ||
+           anyItem(tools_, lookOf(look, way), &Variant::specularAntialiasing);
   }
   /// Begins the picture of a way, for timing.
-  Renderer::Picture begin(Look look, const Way& way) {
-    look.specularAntialiasing = way.filter;
-    look.antiAliasing = way.samples;
+  Renderer::Picture begin(const Look& given, const Way& way) {
+    const Look look = lookOf(given, way);
     return renderers_[antiAliasingText(look.antiAliasing)].begin(
         tools_.gpu, makeDrawList(tools_.scene.scene, tools_.scene.bounds, look), look);
   }
@@ -93,6 +68,12 @@ class SmallPictures {
   }
 
  private:
+  static Look lookOf(Look look, const Way& way) {
+    look.specularAntialiasing = way.filter;
+    look.antiAliasing = way.samples;
+    return look;
+  }
+
   const SeriesTools& tools_;
   std::map<std::string, Renderer> renderers_;
 };
@@ -129,11 +110,7 @@ void timeWays(StudySeries& series, SmallPictures& pictures, const Look& look, do
 }
 
 StudySeries seriesOfWays(const char* name, const char* title, const char* axis, const char* note) {
-  StudySeries series;
-  series.name = name;
-  series.title = title;
-  series.axis = axis;
-  series.note = note;
+  StudySeries series{name, title, axis, note};
   for (const Way& way : ways) series.lines.push_back({way.name, {}});
   return series;
 }
@@ -187,7 +164,7 @@ void subtract(Image& from, const Image& what) {
 
 std::optional<StudySeries> aliasingSeries(const SeriesTools& tools) {
   Look look = smallLook(tools, smallSize);
-  if (!hasHighlight(tools, look)) return {};
+  if (!anyItem(tools, look, &Variant::specular)) return {};
   StudySeries series = seriesOfWays(
       "aliasing", "Aliasing of a small picture over the exponent", "exponent α",
       "phong, 128 pixels across, where a surface covers all of a pixel: against the supersampled "
@@ -215,7 +192,7 @@ std::optional<StudySeries> aliasingSeries(const SeriesTools& tools) {
 }
 
 std::optional<StudySeries> distanceSeries(const SeriesTools& tools) {
-  if (!hasHighlight(tools, smallLook(tools, smallSize))) return {};
+  if (!anyItem(tools, smallLook(tools, smallSize), &Variant::specular)) return {};
   StudySeries series =
       seriesOfWays("distance", "Aliasing as the model moves away", "pixels across",
                    "phong, where a surface covers all of a pixel: against the supersampled exact "
@@ -239,7 +216,7 @@ std::optional<StudySeries> distanceSeries(const SeriesTools& tools) {
 
 std::optional<StudySeries> motionSeries(const SeriesTools& tools) {
   Look look = smallLook(tools, smallSize);
-  if (!hasHighlight(tools, look)) return {};
+  if (!anyItem(tools, look, &Variant::specular)) return {};
   StudySeries series = seriesOfWays(
       "motion", "Flicker: how the change from one picture to the next is off", "exponent α",
       "phong, 128 pixels across, the model moved by 0.5 and 0.25 pixels, where a surface covers "

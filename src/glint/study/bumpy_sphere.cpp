@@ -87,12 +87,7 @@ Scene bumpySphereScene(const ShadingParameters& shading) {
   material.name = "Bumps";
   material.shading = shading;
   material.normalTexture = Texture{};
-  Scene scene;
-  scene.name = "bumpy sphere";
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back({0, glm::dmat4(1.0)});
-  scene.materials = {material, Material{}};
-  scene.materials.back().name = "#default";
+  Scene scene = sceneOf("bumpy sphere", std::move(mesh), material);
   EncodedImage image;
   image.name = "bumps";
   image.isData = image.isNormalMap = true;

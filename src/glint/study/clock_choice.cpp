@@ -1,5 +1,6 @@
 #include "glint/image/error.h"
 #include "glint/study/format.h"
+#include "glint/study/report_words.h"
 #include "glint/study/study.h"
 
 namespace glint {
@@ -16,20 +17,17 @@ std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameCl
                        double spreadLimit) {
   const double spread = noise[std::size_t(clock)].spread;
   if (spread <= spreadLimit) return {};
-  const auto wordOf = [](FrameClock each) {
-    return each == FrameClock::cpu ? "CPU" : each == FrameClock::gpu ? "GPU" : "wall";
-  };
   std::string why = formatted(
-      "There is no front: by %s time one program, measured twice, differs from itself by up to "
+      "There is no front: by %s one program, measured twice, differs from itself by up to "
       "%.1f %%, which is more than %g %%. ",
-      wordOf(clock), 100 * spread, 100 * spreadLimit);
+      clockWords(clock), 100 * spread, 100 * spreadLimit);
   for (const FrameClock other : {FrameClock::gpu, FrameClock::cpu}) {
     const double own = noise[std::size_t(other)].spread;
     if (other != clock && own > 0 && own <= spreadLimit)
       return why + formatted(
-                       "By %s time it is %.1f %%: give --clock %s, or measure when the "
+                       "By %s it is %.1f %%: give --clock %s, or measure when the "
                        "machine is at rest.",
-                       wordOf(other), 100 * own, std::string(clockName(other)).c_str());
+                       clockWords(other), 100 * own, std::string(clockName(other)).c_str());
   }
   return why + "Measure when the machine is at rest, or give larger --repetitions.";
 }

@@ -45,12 +45,7 @@ Scene sheetScene() {
     }
   Material material;
   material.shading = sphereMaterial();
-  Scene scene;
-  scene.name = "sheet";
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back({0, glm::dmat4(1.0)});
-  scene.materials = {material};
-  return scene;
+  return sceneOf("sheet", std::move(mesh), material);
 }
 
 Look sheetLook(glm::ivec2 size) {
@@ -63,21 +58,6 @@ Look sheetLook(glm::ivec2 size) {
   look.cameraViewAngle = 30;
   look.light.emplace();
   return look;
-}
-
-/// Lights within 40 degrees of the sheet's normal, on a golden spiral.
-std::vector<Light> sheetLights() {
-  std::vector<Light> lights;
-  const double low = std::cos(40 * radians);
-  for (int i = 0; i < lightCount; ++i) {
-    const double z = 1 - (1 - low) * (i + 0.5) / lightCount, r = std::sqrt(1 - z * z);
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    Light light;
-    light.direction = {r * std::cos(turn), r * std::sin(turn), z};
-    light.intensity = glm::dvec3(1.0 / lightCount);
-    lights.push_back(light);
-  }
-  return lights;
 }
 
 /// A picture whose time gives a cost: its time above that of the base picture.
@@ -93,7 +73,7 @@ struct Trial {
 using Trials = std::vector<Trial>;
 
 Trials lobeTrials(CostTable& table, Look look) {
-  look.light = sheetLights();
+  look.light = spreadLights(lightCount, 40, Light::Type::directional);
   look.shading = Shading::phong;
   Look none = look;
   none.material[""].specular = 0;
@@ -249,7 +229,7 @@ CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
   Trials reflectances = reflectanceTrials(table, sheetLook(reflectanceSize));
   const auto begin = Clock::now();
   for (; result.builds < mostBuilds; ++result.builds) {
-    const double past = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double past = secondsSince(begin);
     if (result.builds >= how.fewestBuilds && past > how.seconds) break;
     if (progress)
       progress("costs of the forms",

@@ -27,32 +27,30 @@ bool readsTextures(const DrawList& list) {
   });
 }
 
-bool shines(const DrawList& list) {
-  return std::ranges::any_of(list.items,
-                             [](const DrawItem& item) { return item.variant.specular; });
+}  // namespace
+
+DrawList emptied(DrawList list) {
+  list.items.clear();
+  return list;
 }
 
-}  // namespace
+DrawList inOneColor(DrawList list) {
+  for (DrawItem& item : list.items) {
+    item.variant = Variant{};
+    item.variant.unlit = true;
+  }
+  return list;
+}
 
 std::vector<FramePart> frameParts(const StudyScene& scene, GpuScene& gpu, const Look& given,
                                   Shading model, FrameClock clock, const Timing& timing) {
   const Look look = exactLook(given, model);
   Look none = look, tiny = look;
   setForms(none, "none", "exact");
-  const double shrink = double(fewPixels) / std::max(look.resolution.x, look.resolution.y);
-  tiny.resolution =
-      glm::max(glm::ivec2(1), glm::ivec2(glm::round(shrink * glm::dvec2(look.resolution))));
+  tiny.resolution = resolutionOf(look, fewPixels);
   const DrawList list = makeDrawList(scene.scene, scene.bounds, look);
-  DrawList empty = list, constant = list;
-  empty.items.clear();
-  for (DrawItem& item : constant.items) {
-    item.variant = Variant{};
-    item.variant.unlit = true;
-  }
-  DrawList tinyEmpty = makeDrawList(scene.scene, scene.bounds, tiny);
-  const DrawList tinyWhole = tinyEmpty;
-  tinyEmpty.items.clear();
-  const bool textures = readsTextures(list), highlights = shines(list);
+  const DrawList tinyList = makeDrawList(scene.scene, scene.bounds, tiny);
+  const bool textures = readsTextures(list), highlights = anyHas(list, &Variant::specular);
   std::optional<StudyScene> plain;
   std::optional<GpuScene> plainGpu;
   if (textures) {
@@ -63,10 +61,10 @@ std::vector<FramePart> frameParts(const StudyScene& scene, GpuScene& gpu, const 
   Renderer large, small;
   std::deque<Renderer::Picture> pictures;
   pictures.push_back(large.begin(gpu, list, look));
-  pictures.push_back(large.begin(gpu, std::move(empty), look));
-  pictures.push_back(large.begin(gpu, std::move(constant), look));
-  pictures.push_back(small.begin(gpu, tinyWhole, tiny));
-  pictures.push_back(small.begin(gpu, std::move(tinyEmpty), tiny));
+  pictures.push_back(large.begin(gpu, emptied(list), look));
+  pictures.push_back(large.begin(gpu, inOneColor(list), look));
+  pictures.push_back(small.begin(gpu, tinyList, tiny));
+  pictures.push_back(small.begin(gpu, emptied(tinyList), tiny));
   enum Place : std::size_t { whole, cleared, colored, few, fewCleared, dull, untextured };
   pictures.push_back(large.begin(gpu, makeDrawList(scene.scene, scene.bounds, none), none));
   if (textures)

@@ -15,6 +15,10 @@ struct FramePart {
   TimeRatio share;  ///< of the frame's time, with its 95 % interval
 };
 
+/// Lists that shade nothing: without what is drawn, and with the same surface in one colour.
+DrawList emptied(DrawList list);
+DrawList inOneColor(DrawList list);
+
 /// Measures with pictures that leave something out: only a cleared target ("the target"); the scene
 /// in a picture of a few pixels ("vertices"); in one colour ("filling", the time above both);
 /// without textures ("textures"); without highlights ("highlights"). The rest of the exact frame is

@@ -143,28 +143,18 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
 }
 
 Radiances truthOf(const StudyScene& scene, const Look& given, Shading program,
-                  const StudyMask& mask) {
-  const Look look = exactLook(given, program);
-  const ReferenceRenderer reference(scene.scene, scene.images, scene.bounds, look);
-  Radiances truth(mask.pixels.size());
-  forAttributes(reference, look, mask, [&](std::size_t i, reference::Attributes a) {
-    takeSamples(a, reference, mask.inputs[i], mask);
-    truth[i] = reference.shade(a).radiance;
-  });
-  return truth;
-}
-
-Radiances truthAtInputs(const StudyScene& scene, const Look& given, Shading program,
-                        const StudyMask& mask) {
+                  const StudyMask& mask, bool atInputs) {
   const Look look = exactLook(given, program);
   const ReferenceRenderer reference(scene.scene, scene.images, scene.bounds, look);
   Radiances truth(mask.pixels.size());
   forAttributes(reference, look, mask, [&](std::size_t i, reference::Attributes a) {
     const DriverInput& input = mask.inputs[i];
     takeSamples(a, reference, input, mask);
-    a.position = glm::dvec3(input.position);
-    a.normal = glm::dvec3(input.normal);
-    a.front = input.front;
+    if (atInputs) {
+      a.position = glm::dvec3(input.position);
+      a.normal = glm::dvec3(input.normal);
+      a.front = input.front;
+    }
     truth[i] = reference.shade(a).radiance;
   });
   return truth;

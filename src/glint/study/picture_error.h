@@ -37,13 +37,11 @@ StudyMask maskOf(Renderer& renderer, GpuScene& gpu, const StudyScene& scene, con
 using Radiances = std::vector<glm::dvec3>;
 
 /// The exact form of a program at the mask's pixels, from what the reference interpolates, but with
-/// the driver's samples of textures if there are any; a mapped normal is the driver's.
-Radiances truthOf(const StudyScene& scene, const Look& look, Shading program,
-                  const StudyMask& mask);
-
-/// The same at the positions and normals that the driver interpolated; only for per-pixel programs.
-Radiances truthAtInputs(const StudyScene& scene, const Look& look, Shading program,
-                        const StudyMask& mask);
+/// the driver's samples of textures if there are any; a mapped normal is the driver's. With
+/// `atInputs` at the positions and normals that the driver interpolated; only for per-pixel
+/// programs.
+Radiances truthOf(const StudyScene& scene, const Look& look, Shading program, const StudyMask& mask,
+                  bool atInputs = false);
 
 /// A picture's radiance at the mask's pixels.
 Radiances radiancesOf(const Image& picture, const StudyMask& mask);

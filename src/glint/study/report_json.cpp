@@ -13,9 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity.
-Json jsonNumber(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json spreadJson(const std::vector<double>& values) {
   if (values.empty()) return nullptr;
   const Spread s = spreadOf(values);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "glint/study/format.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
@@ -17,6 +18,10 @@ const char* clockWords(FrameClock clock) {
   return clock == FrameClock::cpu   ? "CPU time"
          : clock == FrameClock::gpu ? "GPU time"
                                     : "wall time";
+}
+
+std::string ratioText(const TimeRatio& ratio) {
+  return formatted("%.3f (%.3f to %.3f)", ratio.value, ratio.low, ratio.high);
 }
 
 double medianOf(const std::vector<double>& times) {

@@ -10,6 +10,9 @@ namespace glint {
 /// "wall time", "CPU time", "GPU time".
 const char* clockWords(FrameClock clock);
 
+/// "0.930 (0.910 to 0.950)": a ratio with its 95 % interval.
+std::string ratioText(const TimeRatio& ratio);
+
 /// 0 for no times.
 double medianOf(const std::vector<double>& times);
 

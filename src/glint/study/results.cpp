@@ -6,6 +6,7 @@
 #include "glint/scene/look_text.h"
 #include "glint/study/advice.h"
 #include "glint/study/format.h"
+#include "glint/study/report_words.h"
 #include "glint/study/statistics.h"
 
 namespace glint {
@@ -47,29 +48,23 @@ class Results {
  private:
   void add(const std::string& words) { document_ += words; }
 
+  template <class Rows, class Name>
+  static const auto* find(const Rows& rows, const std::string& name, Name nameOf) {
+    const auto found = std::ranges::find(rows, name, nameOf);
+    return found == rows.end() ? nullptr : &*found;
+  }
   const VariantResult* variant(const std::string& name) const {
-    for (const VariantResult& v : r_.variants)
-      if (v.variant.name == name) return &v;
-    return nullptr;
+    return find(r_.variants, name, [](const VariantResult& v) { return v.variant.name; });
   }
+  /// Null if it has no lines either.
   const StudySeries* series(const std::string& name) const {
-    for (const StudySeries& s : r_.series)
-      if (s.name == name) return &s;
-    return nullptr;
+    const StudySeries* const s = find(r_.series, name, &StudySeries::name);
+    return s && !s->lines.empty() ? s : nullptr;
   }
-  static const SeriesLine* line(const StudySeries* s, const std::string& name) {
-    if (!s) return nullptr;
-    for (const SeriesLine& l : s->lines)
-      if (l.name == name) return &l;
-    return nullptr;
-  }
-  double median(const FrameTimes& times) const {
-    return times.wall.empty() ? 0 : quantile(times.by(r_.clock), 0.5);
-  }
+  double median(const FrameTimes& times) const { return medianOf(times.by(r_.clock)); }
   /// "0.93 (0.91 to 0.95)": the time of a over that of b, with its 95 % interval.
   std::string ratio(const FrameTimes& a, const FrameTimes& b) const {
-    const TimeRatio of = timeRatio(a.by(r_.clock), b.by(r_.clock));
-    return formatted("%.3f (%.3f to %.3f)", of.value, of.low, of.high);
+    return ratioText(timeRatio(a.by(r_.clock), b.by(r_.clock)));
   }
   bool faster(const FrameTimes& a, const FrameTimes& b) const {
     return isFaster(a.by(r_.clock), b.by(r_.clock), r_.spread());
@@ -106,8 +101,7 @@ class Results {
           "|---|---|---|---|---|---|\n" +
           table);
     }
-    if (const StudySeries* s = series("exponent"); s && !s->lines.empty()) {
-      largestErrors("the exponent α, `phong`", *s);
+    if (largestErrors("exponent", "the exponent α, `phong`")) {
       add("\nTimes do not depend on α, except that `integer` needs more multiplications for "
           "larger ones. Errors do; the\nsentences above hold for the exponents that they name.\n");
     }
@@ -166,20 +160,24 @@ class Results {
                        compared(integer->times, lyons.fastest->times).c_str());
   }
 
-  /// A row for each line, a column for each point.
+  /// A row for each line, a column for each point; false if the series is not there.
   /// `withTimes`: also the first point's time, in ms.
-  void largestErrors(const char* over, const StudySeries& s, bool withTimes = false) {
+  bool largestErrors(const char* name, const char* over, bool withTimes = false) {
+    const StudySeries* const s = series(name);
+    if (!s) return false;
+    const std::vector<SeriesPoint>& points = s->lines[0].points;
     add(formatted("\nThe largest error over %s:\n\n| form |", over));
-    for (const SeriesPoint& p : s.lines[0].points) add(formatted(" %g |", p.x));
-    if (withTimes) add(formatted(" ms at %g |", s.lines[0].points[0].x));
+    for (const SeriesPoint& p : points) add(formatted(" %g |", p.x));
+    if (withTimes) add(formatted(" ms at %g |", points[0].x));
     add("\n|---|");
-    for (std::size_t i = 0; i < s.lines[0].points.size() + withTimes; ++i) add("---|");
-    for (const SeriesLine& l : s.lines) {
+    for (std::size_t i = 0; i < points.size() + withTimes; ++i) add("---|");
+    for (const SeriesLine& l : s->lines) {
       add("\n| `" + l.name + "` |");
       for (const SeriesPoint& p : l.points) add(formatted(" %.1e |", p.max));
       if (withTimes) add(formatted(" %.2f |", l.points[0].milliseconds));
     }
     add("\n");
+    return true;
   }
 
   void blinn() {
@@ -199,8 +197,10 @@ class Results {
       add("\n");
     }
     const StudySeries* s = series("incidence");
-    const SeriesLine *four = line(s, "blinn-phong 4α"), *cosine = line(s, "blinn-phong 4α cos θ"),
-                     *exact = line(s, "phong");
+    if (!s) return;
+    const auto line = [&](const char* name) { return find(s->lines, name, &SeriesLine::name); };
+    const SeriesLine *four = line("blinn-phong 4α"), *cosine = line("blinn-phong 4α cos θ"),
+                     *exact = line("phong");
     if (!four || !cosine || !exact) return;
     add("\n" + s->note +
         ":\n\n| θ | largest error of 4α | relative RMSE | largest error of "
@@ -215,7 +215,7 @@ class Results {
 
   void gouraud() {
     const StudySeries* s = series("fineness");
-    if (!s || s->lines.empty()) return;
+    if (!s) return;
     add("\n## On how fine a mesh is Gouraud enough for a given error?\n\n" + s->note +
         ".\nThe largest h, edge over radius, (and number of triangles) for which the largest "
         "error is within E:\n\n| E |");
@@ -279,9 +279,7 @@ class Results {
         add(formatted("| `%s` | %.3f | %s | %.1e | %.1e | %.1e |\n", v.variant.fresnel.c_str(),
                       median(v.times), &v == exact ? "1" : ratio(v.times, exact->times).c_str(),
                       v.errors[0].whole.max, v.errors[0].whole.rmse, v.errors[0].flip));
-    const StudySeries* s = series("ior");
-    if (!s || s->lines.empty()) return;
-    largestErrors("the index n", *s);
+    largestErrors("ior", "the index n");
   }
 
   const StudyWay* way(const std::string& name) const {
@@ -330,17 +328,14 @@ class Results {
                     &each == exact ? "1" : ratio(each.times, exact->times).c_str(),
                     each.error.inside.max, each.error.inside.rmse, each.error.picture.rmse));
     }
-    if (const StudySeries* s = series("aliasing"); s && !s->lines.empty())
-      largestErrors("the exponent α, `phong`, 128 pixels wide, compared with 16 x 16 samples", *s);
-    if (const StudySeries* s = series("distance"); s && !s->lines.empty())
-      largestErrors("the width of the model in pixels as it moves away, likewise", *s, true);
-    if (const StudySeries* s = series("motion"); s && !s->lines.empty())
-      largestErrors("the exponent α, for the change when the model moves by 0.5 and 0.25 pixels",
-                    *s);
-    if (const StudySeries* s = series("bumps"); s && !s->lines.empty())
-      largestErrors("the width in pixels of a sphere with a normal map of small bumps", *s, true);
-    if (const StudySeries* s = series("bumps-motion"); s && !s->lines.empty())
-      largestErrors("the exponent α, for the change when that sphere moves likewise", *s);
+    largestErrors("aliasing",
+                  "the exponent α, `phong`, 128 pixels wide, compared with 16 x 16 samples");
+    largestErrors("distance", "the width of the model in pixels as it moves away, likewise", true);
+    largestErrors("motion",
+                  "the exponent α, for the change when the model moves by 0.5 and 0.25 pixels");
+    largestErrors("bumps", "the width in pixels of a sphere with a normal map of small bumps",
+                  true);
+    largestErrors("bumps-motion", "the exponent α, for the change when that sphere moves likewise");
   }
 
   void specialisation() {

@@ -22,6 +22,9 @@ struct StudyScene {
   StudyScene& operator=(const StudyScene&) = delete;
 };
 
+/// One mesh with one material.
+Scene sceneOf(const char* name, Mesh mesh, const Material& material);
+
 /// An icosahedron whose triangles are divided into four `level` times, on the unit sphere: 20 *
 /// 4^level triangles. One material with the given values.
 Scene sphereScene(int level, const ShadingParameters& shading);
@@ -30,6 +33,9 @@ Scene sphereScene(int level, const ShadingParameters& shading);
 /// images, with the lengths of normals.
 Scene bumpySphereScene(const ShadingParameters& shading);
 DecodedImages bumpyImages();
+
+/// Lights within `degrees` of +Z, spread evenly (on a golden spiral), together as bright as one.
+std::vector<Light> spreadLights(int count, double degrees, Light::Type type);
 
 /// The material of the built-in sphere: red plastic.
 ShadingParameters sphereMaterial();

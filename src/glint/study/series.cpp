@@ -11,37 +11,25 @@
 namespace glint {
 namespace {
 
-StudySeries named(const char* name, const char* title, const char* axis, const char* note) {
-  StudySeries series;
-  series.name = name;
-  series.title = title;
-  series.axis = axis;
-  series.note = note;
-  return series;
-}
-
-bool anyItem(const SeriesTools& tools, Shading program, bool Variant::*feature) {
-  const DrawList list =
-      makeDrawList(tools.scene.scene, tools.scene.bounds, exactLook(tools.look, program));
-  return std::any_of(list.items.begin(), list.items.end(),
-                     [&](const DrawItem& item) { return item.variant.*feature; });
-}
-
-/// Lights from the front, evenly over the cap of 75 degrees around the viewer's direction (a
-/// golden spiral), together as bright as one.
-std::vector<Light> spreadLights(int count) {
-  std::vector<Light> lights;
-  const double low = std::cos(75 * radians);
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (1 - low) * (i + 0.5) / count, r = std::sqrt(1 - z * z);
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    Light light;
-    light.type = Light::Type::camera;
-    light.direction = {r * std::cos(turn), r * std::sin(turn), z};
-    light.intensity = glm::dvec3(1.0 / count);
-    lights.push_back(light);
+/// A program in each of its forms over a number of every material.
+StudySeries formSeries(const SeriesTools& tools, Shading program,
+                       const std::vector<std::string>& forms,
+                       std::optional<double> MaterialEdit::*number,
+                       const std::vector<double>& values, StudySeries series) {
+  SeriesDrawer drawer(tools, std::move(series));
+  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
+  for (std::size_t i = 0; i < values.size() && !tools.stopped(); ++i) {
+    Look look = exactLook(tools.look, program);
+    look.material[""].*number = values[i];
+    const Radiances truth = truthOf(tools.scene, look, program, mask);
+    for (const std::string& form : forms) {
+      setForms(look, program == Shading::phong ? form : "exact",
+               program == Shading::phong ? "exact" : form);
+      drawer.add(form, values[i], look, &mask, &truth);
+    }
+    tools.tell(0.5 * double(i + 1) / double(values.size()));
   }
-  return lights;
+  return drawer.finish();
 }
 
 constexpr Shading lightPrograms[] = {Shading::flat, Shading::gouraud, Shading::phong,
@@ -66,18 +54,12 @@ void SeriesDrawer::add(const std::string& name, double x, GpuScene& gpu, const S
     line = series_.lines.end() - 1;
   }
   DrawList list = makeDrawList(scene.scene, scene.bounds, look);
-  SeriesPoint point;
-  point.x = x;
-  if (mask && truth) {
-    const PictureError e =
-        errorOf(*truth, radiancesOf(tools_.renderer.draw(gpu, list, look), *mask));
-    point.max = e.max;
-    point.rmse = e.rmse;
-    point.relativeRmse = e.relativeRmse;
-  }
+  PictureError error;
+  if (mask && truth)
+    error = errorOf(*truth, radiancesOf(tools_.renderer.draw(gpu, list, look), *mask));
   trials_.push_back({std::size_t(line - series_.lines.begin()), line->points.size(),
                      tools_.renderer.begin(gpu, std::move(list), look)});
-  line->points.push_back(point);
+  line->points.push_back(pointOf(x, error));
 }
 
 StudySeries SeriesDrawer::finish() {
@@ -106,62 +88,36 @@ void setOrders(StudySeries& series) {
 }
 
 std::optional<StudySeries> exponentSeries(const SeriesTools& tools) {
-  if (!anyItem(tools, Shading::phong, &Variant::specular)) return {};
-  SeriesDrawer drawer(tools,
-                      named("exponent", "Forms of the highlight over the exponent", "exponent α",
-                            "phong in each form against exact phong; every material's "
-                            "exponent is α"));
-  std::vector<double> exponents{5, 10, 20, 50, 100, 200, 500, 1000, 10000};
-  if (tools.quick) exponents = {5, 20, 100, 1000};
-  const auto forms = lobeForms(tools.quick);
-  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
-  for (std::size_t i = 0; i < exponents.size() && !tools.stopped(); ++i) {
-    Look look = exactLook(tools.look, Shading::phong);
-    look.material[""].exponent = exponents[i];
-    const Radiances truth = truthOf(tools.scene, look, Shading::phong, mask);
-    for (const std::string& form : forms) {
-      setForms(look, form, "exact");
-      drawer.add(form, exponents[i], look, &mask, &truth);
-    }
-    tools.tell(0.5 * double(i + 1) / double(exponents.size()));
-  }
-  return drawer.finish();
+  if (!anyItem(tools, exactLook(tools.look, Shading::phong), &Variant::specular)) return {};
+  return formSeries(tools, Shading::phong, lobeForms(tools.quick), &MaterialEdit::exponent,
+                    tools.quick ? std::vector<double>{5, 20, 100, 1000}
+                                : std::vector<double>{5, 10, 20, 50, 100, 200, 500, 1000, 10000},
+                    {"exponent", "Forms of the highlight over the exponent", "exponent α",
+                     "phong in each form against exact phong; every material's exponent is α"});
 }
 
 std::optional<StudySeries> iorSeries(const SeriesTools& tools) {
-  if (!anyItem(tools, Shading::environment, &Variant::dielectric)) return {};
-  SeriesDrawer drawer(tools, named("ior", "Forms of the reflectance over the index of refraction",
-                                   "index of refraction n",
-                                   "environment in each form against exact environment; every "
-                                   "material's index is n"));
-  std::vector<double> indices{1.05, 1.1, 1.2, 1.33, 1.5, 1.8, 2.4, 4};
-  if (tools.quick) indices = {1.1, 1.33, 1.5, 2.4};
-  const auto forms = reflectanceForms(tools.quick);
-  const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
-  for (std::size_t i = 0; i < indices.size() && !tools.stopped(); ++i) {
-    Look look = exactLook(tools.look, Shading::environment);
-    look.material[""].ior = indices[i];
-    const Radiances truth = truthOf(tools.scene, look, Shading::environment, mask);
-    for (const std::string& form : forms) {
-      setForms(look, "exact", form);
-      drawer.add(form, indices[i], look, &mask, &truth);
-    }
-    tools.tell(0.5 * double(i + 1) / double(indices.size()));
-  }
-  return drawer.finish();
+  if (!anyItem(tools, exactLook(tools.look, Shading::environment), &Variant::dielectric)) return {};
+  return formSeries(
+      tools, Shading::environment, reflectanceForms(tools.quick), &MaterialEdit::ior,
+      tools.quick ? std::vector<double>{1.1, 1.33, 1.5, 2.4}
+                  : std::vector<double>{1.05, 1.1, 1.2, 1.33, 1.5, 1.8, 2.4, 4},
+      {"ior", "Forms of the reflectance over the index of refraction", "index of refraction n",
+       "environment in each form against exact environment; every material's index "
+       "is n"});
 }
 
 std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
-  SeriesDrawer drawer(tools, named("lights", "Programs over the number of lights", "lights",
-                                   "directional lights from the front, together as bright as one; "
-                                   "exact forms against exact phong, blinn-phong against itself"));
+  SeriesDrawer drawer(tools, {"lights", "Programs over the number of lights", "lights",
+                              "directional lights from the front, together as bright as one; "
+                              "exact forms against exact phong, blinn-phong against itself"});
   std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
   if (tools.quick) counts = {1, 8, 64};
   const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
   for (std::size_t i = 0; i < counts.size() && !tools.stopped(); ++i) {
     Look lit = tools.look;
     lit.noLights = false;
-    lit.light = spreadLights(counts[i]);
+    lit.light = spreadLights(counts[i], 75, Light::Type::camera);
     const Radiances phong = truthOf(tools.scene, lit, Shading::phong, mask);
     for (const Shading program : lightPrograms) {
       const Look look = exactLook(lit, program);
@@ -176,8 +132,8 @@ std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
 }
 
 std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
-  StudySeries whole = named("resolution", "Programs over the resolution", "pixels of the picture",
-                            "time alone; exact forms; the aspect of the picture stays");
+  StudySeries whole{"resolution", "Programs over the resolution", "pixels of the picture",
+                    "time alone; exact forms; the aspect of the picture stays"};
   whole.hasErrors = false;
   // Relative to the study's own picture; other series draw it at half the width.
   std::vector<double> scales{0.125, 0.25, 0.5, 1, 2};

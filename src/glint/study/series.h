@@ -67,6 +67,14 @@ std::optional<StudySeries> finenessSeries(const SeriesTools&);   ///< against th
 std::optional<StudySeries> bumpsSeries(const SeriesTools&);
 std::optional<StudySeries> bumpsMotionSeries(const SeriesTools&);
 
+inline bool anyItem(const SeriesTools& tools, const Look& look, bool Variant::*feature) {
+  return anyHas(makeDrawList(tools.scene.scene, tools.scene.bounds, look), feature);
+}
+
+inline SeriesPoint pointOf(double x, const PictureError& error) {
+  return {x, error.max, error.rmse, error.relativeRmse};
+}
+
 /// Sets the orders of convergence of a series whose x is a length, from the last two points of each
 /// line.
 void setOrders(StudySeries& series);

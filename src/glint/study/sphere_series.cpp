@@ -83,13 +83,11 @@ double edgeAngle(int level) { return std::acos(1 / std::sqrt(5.0)) / std::exp2(l
 
 std::optional<StudySeries> incidenceSeries(const SeriesTools& tools) {
   constexpr double exponent = 50;
-  StudySeries series;
-  series.name = "incidence";
-  series.title = "Blinn-Phong against Phong over the highlight's incidence";
-  series.axis = "incidence θ, degrees";
-  series.note =
-      "highlight alone, α = 50, on a sphere with an infinite viewer; all against exact phong";
-  series.logarithmic = false;
+  const StudySeries series{
+      "incidence", "Blinn-Phong against Phong over the highlight's incidence",
+      "incidence θ, degrees",
+      "highlight alone, α = 50, on a sphere with an infinite viewer; all against exact phong",
+      false};
   std::vector<double> angles{0, 10, 20, 30, 40, 45, 50, 60, 70, 75};
   if (tools.quick) angles = {0, 30, 45, 60, 75};
   SeriesDrawer drawer(tools, series);
@@ -113,13 +111,10 @@ std::optional<StudySeries> incidenceSeries(const SeriesTools& tools) {
 }
 
 std::optional<StudySeries> finenessSeries(const SeriesTools& tools) {
-  StudySeries series;
-  series.name = "fineness";
-  series.title = "Programs over the fineness of the mesh";
-  series.axis = "edge / radius h";
-  series.note =
+  StudySeries series{
+      "fineness", "Programs over the fineness of the mesh", "edge / radius h",
       "diffuse 0.8, highlight 0.5 at α = 40 unless named, on spheres seen without perspective; "
-      "against the true sphere per pixel, where N·L > 0.2 and N·V > 0.3";
+      "against the true sphere per pixel, where N·L > 0.2 and N·V > 0.3"};
   series.hasOrders = true;
   SeriesDrawer drawer(tools, series);
   const glm::dvec3 light(0.35, 0.25, 1);

@@ -30,18 +30,6 @@ Spread spreadOf(const std::vector<double>& values) {
           quantile(values, 0.75), quantile(values, 1),    values.size()};
 }
 
-Interval medianInterval(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  std::mt19937 random(1);
-  std::vector<double> sample(values.size()), medians(1000);
-  for (double& median : medians) {
-    for (double& value : sample)
-      value = values[std::size_t(std::uint64_t(random()) * values.size() >> 32)];
-    median = quantile(sample, 0.5);
-  }
-  return {quantile(medians, 0.025), quantile(medians, 0.975)};
-}
-
 QuartileSamples quartileSamples(std::span<const double> rounds) {
   QuartileSamples samples;
   if (rounds.empty()) return samples;

@@ -20,14 +20,6 @@ double quantile(std::vector<double> values, double q);
 /// All zero for no values.
 Spread spreadOf(const std::vector<double>& values);
 
-struct Interval {
-  double low = 0, high = 0;
-};
-
-/// The 95 % interval of the median by the bootstrap's percentiles (Efron 1979): 1000 samples drawn
-/// from `values` with replacement, always the same ones. {0, 0} for no values.
-Interval medianInterval(const std::vector<double>& values);
-
 /// How the times of a and b compare, measured in turn.
 struct TimeRatio {
   double value = 0, low = 0, high = 0;  ///< of a to b, with its 95 % interval; all 0 for no rounds

@@ -45,6 +45,7 @@ class Study {
     if (progress_) progress_(what, share);
   }
 
+  bool stopped() const { return stop_ && stop_(); }
   StudyResult leave(const char* what) {
     result_.missing.emplace_back(what);
     std::erase_if(result_.variants, [](const VariantResult& v) { return v.errors.empty(); });
@@ -86,14 +87,9 @@ class Study {
           "or ones that this model's materials use");
   }
 
-  const Radiances& truth(Shading program) {
-    auto [place, isNew] = truths_.try_emplace(program);
-    if (isNew) place->second = truthOf(scene_, options_.look, program, result_.mask);
-    return place->second;
-  }
-  const Radiances& truthAtDriver(Shading program) {
-    auto [place, isNew] = driverTruths_.try_emplace(program);
-    if (isNew) place->second = truthAtInputs(scene_, options_.look, program, result_.mask);
+  const Radiances& truth(Shading program, bool atInputs = false) {
+    auto [place, isNew] = (atInputs ? driverTruths_ : truths_).try_emplace(program);
+    if (isNew) place->second = truthOf(scene_, options_.look, program, result_.mask, atInputs);
     return place->second;
   }
 
@@ -101,7 +97,7 @@ class Study {
   bool measureErrors() {
     std::size_t number = 0;
     for (VariantResult& v : result_.variants) {
-      if (stop_ && stop_()) return false;
+      if (stopped()) return false;
       tell("errors: " + v.variant.name, double(number++) / double(result_.variants.size()));
       DrawList list = makeDrawList(scene_.scene, scene_.bounds, v.variant.look);
       std::set<std::string> features;
@@ -152,7 +148,7 @@ class Study {
     };
     against(model);
     if (program == Shading::blinnPhong) against(Shading::phong);
-    const Radiances& given = program == model ? truthAtDriver(program) : truth(program);
+    const Radiances& given = truth(program, program == model);
     v.shading = errorOf(given, drawn, exposure);
     v.interpolation = errorOf(truth(model), given, exposure);
     if (const WholeTruth* whole = wholeTruth(model))
@@ -177,16 +173,9 @@ class Study {
         pictures_.push_back(renderer_->begin(
             gpu_, makeDrawList(scene_.scene, scene_.bounds, v.variant.look), v.variant.look));
     const Look exact = exactLook(options_.look, Shading::phong);
-    DrawList list = makeDrawList(scene_.scene, scene_.bounds, exact);
-    DrawList empty = list;
-    empty.items.clear();
-    for (DrawItem& item : list.items) {
-      Variant constant;
-      constant.unlit = true;
-      item.variant = constant;
-    }
-    pictures_.push_back(renderer_->begin(gpu_, std::move(empty), exact));
-    pictures_.push_back(renderer_->begin(gpu_, std::move(list), exact));
+    const DrawList list = makeDrawList(scene_.scene, scene_.bounds, exact);
+    pictures_.push_back(renderer_->begin(gpu_, emptied(list), exact));
+    pictures_.push_back(renderer_->begin(gpu_, inOneColor(list), exact));
     renderer_->setProgramsAside();  // or a control would be drawn with its variant's program
     for (const std::size_t i : controls)
       pictures_.push_back(
@@ -206,7 +195,7 @@ class Study {
     };
     int whole = options_.rounds, past = 0;
     for (int build = 0; build < builds; ++build) whole += warmUpOf(build);
-    for (int build = 0; build < builds && !(stop_ && stop_()); ++build) {
+    for (int build = 0; build < builds && !stopped(); ++build) {
       if (build > 0) {
         pictures_.clear();
         renderer_.emplace();
@@ -219,12 +208,10 @@ class Study {
           timeInTurn(pictures, {warmUpOf(build), rounds, result_.clock == FrameClock::gpu, stop_,
                                 [&](int) { tell("frame times", double(++past) / whole); }});
       for (std::size_t i = 0; i < times.size(); ++i) {
-        const auto add = [&](std::vector<double> FrameTimes::*clock) {
+        for (const auto clock : {&FrameTimes::wall, &FrameTimes::cpu, &FrameTimes::query}) {
           const std::vector<double>& more = part[i].*clock;
           (times[i].*clock).insert((times[i].*clock).end(), more.begin(), more.end());
-        };
-        for (const auto clock : {&FrameTimes::wall, &FrameTimes::cpu, &FrameTimes::query})
-          add(clock);
+        }
         times[i].batch = std::max(times[i].batch, part[i].batch);
       }
     }
@@ -284,18 +271,12 @@ class Study {
   }
 
   void measureParts() {
-    if (stop_ && stop_()) {
-      result_.missing.emplace_back("parts of a frame");
-      return;
-    }
+    if (stopped()) return result_.missing.push_back("parts of a frame");
     tell("parts of a frame", 0);
+    const int rounds = std::min(options_.rounds, options_.quick ? 20 : 40);
     result_.parts =
         frameParts(scene_, gpu_, options_.look, modelOf(programOf(options_.look)), result_.clock,
-                   {3,
-                    std::min(options_.rounds, options_.quick ? 20 : 40),
-                    result_.clock == FrameClock::gpu,
-                    stop_,
-                    {}});
+                   {3, rounds, result_.clock == FrameClock::gpu, stop_, {}});
     if (result_.parts.empty()) result_.missing.emplace_back("parts of a frame");
   }
 
@@ -311,11 +292,8 @@ class Study {
     for (std::size_t i = 0; i < ways.size(); ++i) {
       StudyWay& way = ways[i];
       tell("whole pictures", 0.5 * double(i) / double(ways.size()));
-      const WholeTruth* truth = stop_ && stop_() ? nullptr : wholeTruth(way.model);
-      if (!truth) {
-        result_.missing.emplace_back("whole pictures");
-        return;
-      }
+      const WholeTruth* truth = stopped() ? nullptr : wholeTruth(way.model);
+      if (!truth) return result_.missing.push_back("whole pictures");
       Renderer& renderer = renderers[antiAliasingText(way.look.antiAliasing)];
       const auto list = [&] { return makeDrawList(scene_.scene, scene_.bounds, way.look); };
       try {

@@ -91,7 +91,7 @@ struct StudySeries {
   std::string name, title, axis;
   std::string note;  ///< what is compared with what
   bool logarithmic = true, hasErrors = true, hasOrders = false;
-  std::vector<SeriesLine> lines;
+  std::vector<SeriesLine> lines = {};
 };
 
 /// Model and look drawn by shaders that contain what they need, and by ones that contain

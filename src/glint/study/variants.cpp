@@ -10,11 +10,6 @@
 namespace glint {
 namespace {
 
-bool has(const DrawList& list, bool Variant::*feature) {
-  return std::any_of(list.items.begin(), list.items.end(),
-                     [&](const DrawItem& item) { return item.variant.*feature; });
-}
-
 /// Whether two looks are drawn by the same programs with the same constants.
 bool drawnAlike(const DrawList& a, const DrawList& b) {
   const auto bytes = [](const std::vector<LightEntry>& lights) {
@@ -61,6 +56,11 @@ StudyVariant chosenVariant(const Scene& scene, const Bounds& bounds, const Look&
 
 }  // namespace
 
+bool anyHas(const DrawList& list, bool Variant::*feature) {
+  return std::ranges::any_of(list.items,
+                             [&](const DrawItem& item) { return item.variant.*feature; });
+}
+
 std::vector<std::string> formsOf(std::span<const std::string_view> texts, bool quick) {
   std::vector<std::string> forms;
   for (const std::string_view form : texts) {
@@ -94,6 +94,11 @@ void setForms(Look& look, const std::string& highlight, const std::string& fresn
   look.maxError.reset();  // it would choose forms
 }
 
+glm::ivec2 resolutionOf(const Look& look, int longerSide) {
+  const double shrink = double(longerSide) / std::max(look.resolution.x, look.resolution.y);
+  return glm::max(glm::ivec2(1), glm::ivec2(glm::round(shrink * glm::dvec2(look.resolution))));
+}
+
 Look exactLook(const Look& look, Shading program) {
   Look exact = look;
   exact.shading = program;
@@ -122,7 +127,7 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
     const std::string& other = environment ? filter.highlight : filter.fresnel;
     if (!wanted(other, "exact")) continue;  // a form that this program does not have
     const DrawList list = makeDrawList(scene, bounds, exactLook(look, v.program));
-    const bool choosable = has(list, environment ? &Variant::dielectric : &Variant::specular);
+    const bool choosable = anyHas(list, environment ? &Variant::dielectric : &Variant::specular);
     std::vector<std::string> forms{"exact"};
     if (choosable && only.empty())
       forms = environment ? reflectanceForms(filter.quick) : lobeForms(filter.quick);

@@ -30,6 +30,9 @@ struct StudyFilter {
   bool isEmpty() const { return shading.empty() && highlight.empty() && fresnel.empty(); }
 };
 
+/// Whether any item's variant has a feature.
+bool anyHas(const DrawList& list, bool Variant::*feature);
+
 /// The texts of all forms of the lobe, or of the reflectance. Quick: of those with a number only
 /// the ones with 4, 16 and 256.
 std::vector<std::string> lobeForms(bool quick);
@@ -51,6 +54,9 @@ std::vector<StudyVariant> studyVariants(const Scene& scene, const Bounds& bounds
 /// The model that a program approximates, whose exact form per pixel is its truth: phong for flat,
 /// gouraud and phong.
 Shading modelOf(Shading program);
+
+/// The look's resolution made so that its longer side has so many pixels.
+glm::ivec2 resolutionOf(const Look& look, int longerSide);
 
 /// A look in the exact forms of a program.
 Look exactLook(const Look& look, Shading program);

@@ -78,9 +78,7 @@ std::vector<StudyWay> studyWays(const StudyScene& scene, const Look& given) {
         way.name += " " + std::string(specularAntialiasingNames[std::size_t(filter)]);
       if (samples.mode != AntiAliasing::Mode::none) way.name += " " + antiAliasingText(samples);
       const DrawList list = makeDrawList(scene.scene, scene.bounds, way.look);
-      if (filter != Filter::none && std::ranges::none_of(list.items, [](const DrawItem& item) {
-            return item.variant.specularAntialiasing;
-          }))
+      if (filter != Filter::none && !anyHas(list, &Variant::specularAntialiasing))
         return;  // no highlight, or no normal map
       ways.push_back(std::move(way));
     };
