@@ -45,7 +45,7 @@ void update(const std::set<std::string>& meant, DiffEntry& entry, const std::str
   if (pictureFormatOf(target) != pictureFormatOf(entry.b))
     throw InputError("--update: " + printablePath(entry.b) + " is not of the format of " +
                      printablePath(target) + ": give one that is");
-  const bool made = !isThere(target);
+  const bool made = isMissing(target);
   forgetReadFile(target);
   OutputFile file(target);
   file.write(readFile(entry.b));

@@ -337,7 +337,7 @@ void useDriverBaseline(const std::string& folder, DiffEntry& entry) {
     return;  // reported by the comparison
   }
   const std::string path = driverBaseline(folder, entry);
-  if (isThere(path)) entry.a = path;
+  if (!isMissing(path)) entry.a = path;
 }
 
 std::vector<std::string> otherBaselines(const std::string& path) {

@@ -73,7 +73,7 @@ void PicturePlan::forEachOutput(const std::function<void(const std::string&)>& v
 }
 
 void PicturePlan::noteInputs(bool replaces) {
-  forEachOutput([&](const std::string& output) { replaces = replaces || isThere(output); });
+  forEachOutput([&](const std::string& output) { replaces = replaces || !isMissing(output); });
   list_.lookThrough([&](const ModelEntry& entry) {
     if (!entry.error.empty()) return;
     if (!entry.lookFile.empty()) noteReadFile(entry.lookFile);

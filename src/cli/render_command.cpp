@@ -41,7 +41,7 @@ int render(const RenderOptions& options, const LookSource& makeLook) {
   const Interrupt interrupt;
   const auto list = listOf(options);
   PicturePlan plan(options, *list);
-  plan.noteInputs(isThere(options.json) || isThere(saveFile));
+  plan.noteInputs(!isMissing(options.json) || !isMissing(saveFile));
   const std::vector<Sweep> sweeps(options.sweeps.begin(), options.sweeps.end());
   const Look look = makeLook(reference ? referenceDefaults() : Look{});
   if (reference) checkReferenceAntiAliasing(look.antiAliasing);

@@ -30,8 +30,8 @@ bool isSameFile(const std::string& a, const std::string& b) {
 void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
   // A file that does not exist yet cannot be lost.
-  const bool replaces =
-      std::ranges::any_of(outputs, [](const OutputOption& output) { return isThere(output.path); });
+  const bool replaces = std::ranges::any_of(
+      outputs, [](const OutputOption& output) { return !isMissing(output.path); });
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
     noteReadFile(input);
@@ -46,7 +46,7 @@ void checkOutputs(const std::vector<OutputOption>& outputs,
         throw InputError(what + other->option + " goes to stdout already: give one of them a file");
       // Devices, above all /dev/null, may be given twice.
       std::error_code ignored;
-      if (isThere(output.path) && !fs::is_regular_file(output.path, ignored)) continue;
+      if (!isMissing(output.path) && !fs::is_regular_file(output.path, ignored)) continue;
       if (output.path != "-" && isSameFile(output.path, other->path))
         throw InputError(what + other->option + " writes that file already: give another");
     }

@@ -12,7 +12,7 @@ GlslSources::GlslSources(const std::filesystem::path& folder) {
     throw InputError("--glsl " + folder.string() + ": not a folder: give one with .glsl files");
   for (const auto& [name, text] : builtinGlsl()) {
     const auto file = folder / name;
-    if (!isThere(file)) continue;
+    if (isMissing(file)) continue;
     const auto bytes = readFile(file.string());
     replaced_[name] = std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
