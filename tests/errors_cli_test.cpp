@@ -93,7 +93,7 @@ TEST(Usage, BadValuesOfOptions) {
     // Two messages name the value instead.
     const std::string name = option[0] == "--bit-depth" && option[1] == "12" ? "bits per channel"
                              : option[0] == "--rendering-backend"
-                                 ? "no rendering backend is called"
+                                 ? "there is no rendering backend"
                                  : option[0].substr(0, option[0].find('='));
     expectRefusal(runGlint(arguments), name);
     if (option[0] != "--bit-depth" && option[0] != "--rendering-backend") {
@@ -112,8 +112,8 @@ TEST(Usage, OptionsThatExcludeEachOther) {
     expectRefusal(runGlint(arguments), what);
   };
   const std::string png = folder / "a.png";
-  refused({"-o", folder / "a.exr", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
-  refused({"-o", folder / "a.pfm", "--bit-depth", "16"}, "--bit-depth: of PNG alone");
+  refused({"-o", folder / "a.exr", "--bit-depth", "16"}, "--bit-depth: only for PNG");
+  refused({"-o", folder / "a.pfm", "--bit-depth", "16"}, "--bit-depth: only for PNG");
   refused({"-o", png, "--no-lights", "--light", "camera"}, "--light and --no-lights");
   refused({"-o", png, "--camera-intrinsics", "9,9,5,5", "--camera-view-angle", "30"},
           "--camera-intrinsics and --camera-view-angle");
@@ -149,7 +149,7 @@ TEST(Usage, OutputsThatCannotBeWritten) {
   const auto to = [&](const std::string& name) {
     return runGlint(quick({"render", sphere, "-o", name}));
   };
-  expectRefusal(to(folder / "a.bmp"), "a.bmp: BMP is not written: use .png");
+  expectRefusal(to(folder / "a.bmp"), "a.bmp: BMP cannot be written: use .png");
   expectRefusal(to("/proc/none/a.png"), "/proc/none");
   expectRefusal(to("/proc/a.png"), "/proc/a.png");
   std::filesystem::create_directory(folder / "folder.png");
@@ -197,14 +197,14 @@ TEST(Usage, OneOutputDoesNotDestroyAnother) {
   };
   const std::string picture = folder / "a.png", list = folder / "list";
   std::ofstream(list) << sphere << "\n";
-  expectRefusal(render("-", {"--save-look", "-"}), "--save-look -: -o goes to stdout already");
+  expectRefusal(render("-", {"--save-look", "-"}), "--save-look -: -o already goes to stdout");
   expectRefusal(render(picture, {"--json", "-", "--save-look", "-"}), "--json goes to stdout");
   expectRefusal(runGlint(quick({"render", "--from-list", list, "-o", picture, "--save-look", "-"})),
                 "--from-list goes to stdout");
-  expectRefusal(render(picture, {"--json", folder / "./a.png"}), "-o writes that file already");
-  expectRefusal(render(picture, {"--save-look", picture}), "-o writes that file already");
+  expectRefusal(render(picture, {"--json", folder / "./a.png"}), "-o already writes to that file");
+  expectRefusal(render(picture, {"--save-look", picture}), "-o already writes to that file");
   expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json goes to");
-  expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite what is read");
+  expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite an input file");
   expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json goes to stdout");
   EXPECT_THAT(folder.names(), ElementsAre("list"));
   EXPECT_EQ(render(picture, {"--json", "/dev/null", "--save-look", "/dev/null"}).status, 0);
@@ -368,7 +368,7 @@ TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
       runGlint({"render", sphere, "-o", folder / "a.png", "--resolution", "8,8"}, options);
   if (list.status == 0) {
     EXPECT_EQ(automatic.status, 0);
-    EXPECT_THAT(automatic.err, HasSubstr("warning")) << "EGL was passed over in silence";
+    EXPECT_THAT(automatic.err, HasSubstr("warning")) << "EGL was skipped in silence";
     return;
   }
   EXPECT_EQ(list.status, 3);

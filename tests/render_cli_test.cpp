@@ -261,7 +261,7 @@ TEST(Render, ThePictureHoldsItsLook) {
   const std::string foreign = GLINT_SOURCE_DIR "/docs/programs.png";
   const Ran ran = runGlint({"render", torus, "-o", folder / "c.png", "--look", foreign});
   EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("does not say how it was made"));
+  EXPECT_THAT(ran.err, HasSubstr("a picture without a stored look"));
 }
 
 TEST(Render, ExrHoldsTheLinearValues) {

@@ -136,7 +136,7 @@ TEST(DamagedExr, AsksForNoMoreThanItHas) {
   write(folder / "a.exr", bytes);
   const Ran ran = lit(folder / "a.exr", folder / "a.png", {});
   EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("the EXR is cut short"));
+  EXPECT_THAT(ran.err, HasSubstr("the EXR is truncated"));
   EXPECT_LT(ran.peakKib, fewKib);
   const Ran compared = runGlint({"diff", folder / "a.exr", folder / "a.exr"});
   EXPECT_EQ(compared.status, 2);

@@ -47,7 +47,7 @@ void App::pick(glm::dvec2 pixel) {
   if (!hit) {
     const std::string key = keyText(infoOf(Action::allMaterials));
     return session_.say(
-        "nothing there: " + materialLabel(session_.model->scene, session_.material) +
+        "no surface there: " + materialLabel(session_.model->scene, session_.material) +
         (session_.material < 0 ? " stay" : " stays") + " selected (" + key + ": all)");
   }
   session_.material = hit->material;
@@ -83,7 +83,7 @@ void App::execute(Action command) {
       options_.settings.panel = true;
       ringWanted_ = 2;
       session_.say(
-          "in the panel: arrows go on, Space changes, Enter types, Backspace resets, "
+          "in the panel: arrows move on, Space changes, Enter starts typing, Backspace resets, "
           "Escape leaves");
       break;
     case Action::allMaterials:
@@ -218,7 +218,7 @@ void App::execute(Action command) {
     case Action::copyPixel:
       if (probe_) {
         window_.setClipboard(probeText(session_.model->scene, *probe_));
-        session_.say("copied the values of the pixel");
+        session_.say("copied the pixel's values");
       } else {
         session_.say("point at a pixel, with the tab Info open");
       }

@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
                  "a glTF 2.0 model, .gltf or .glb; models can also be dropped on the window");
   app.add_option(
          "--glsl", glsl,
-         "use the shader files in this folder in place of the built-in ones; changes to them are "
-         "shown at once")
+         "use the shader files in this folder instead of the built-in ones; changes to them appear "
+         "at once")
       ->type_name("DIR");
   app.add_option("--scale", options.scale,
                  "size of text and widgets, 0.5 to 4 [default: the screen's]")

@@ -26,7 +26,7 @@ void takePathsBack(DiffRequest& request) {
     for (const std::string* path : {&request.a, &request.b})
       if (!path->empty())
         throw InputError("--run " + printablePath(request.testRun) + ": leave out " +
-                         printablePath(*path) + ": the tests say what they compared");
+                         printablePath(*path) + ": the test results record what was compared");
     return;
   }
   for (std::string* path : {&request.b, &request.a}) {
@@ -98,8 +98,9 @@ Command addDiff(CLI::App& app) {
   command->add_flag("--pictures-beside", request.picturesBeside,
                     "with --html: put the pictures into a folder next to it, FILE.pictures");
   command
-      ->add_option("--jobs", request.jobs,
-                   "number of pairs compared at the same time [default: the number of processors]")
+      ->add_option(
+          "--jobs", request.jobs,
+          "number of pairs to compare at the same time [default: the number of processors]")
       ->type_name("N")
       ->check(wholeNumberIn(1, 256));
   text("--conditions", request.conditions, "FILE",

@@ -116,7 +116,7 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "[default: 7]");
   command
       .add_option("--shift", given.shift,
-                  "do not count pixels that the other picture has up to N pixels away")
+                  "do not count pixels that occur in the other picture within N pixels")
       ->type_name("N")
       ->check(wholeNumberIn(0, 16));
   command
@@ -244,7 +244,7 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
                                    {"--ignore-anti-aliasing", given.ignoreAntiAliasing}})
     if (used && !counts)
       throw InputError(std::string(name) +
-                       ": it is of --max-pixels: give that, too (--max-pixels 0)");
+                       ": it modifies --max-pixels: give that, too (--max-pixels 0)");
   for (const std::string& box : given.ignored) options.ignored.push_back(boxOf(box));
   options.tolerance = given.tolerance;
   options.ignoreAntiAliasing = given.ignoreAntiAliasing;

@@ -108,7 +108,7 @@ struct Summary {
     std::string ignored;
     for (const auto& [what, count] : notFollowed)
       ignored += (ignored.empty() ? "" : ", ") + what + " of " + std::to_string(count);
-    if (!ignored.empty()) text += "; not followed: " + ignored;
+    if (!ignored.empty()) text += "; ignored metadata: " + ignored;
     return text;
   }
 };
@@ -231,7 +231,7 @@ int diffPictures(const DiffRequest& request) {
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
   if (request.a == "-" && request.b == "-")
-    throw InputError("diff - -: one of the two may come from stdin");
+    throw InputError("diff - -: only one of the two can come from stdin");
   entry.name = request.b == "-" ? "stdin" : fs::path(request.b).filename().string();
   if (request.a == "-" || isThere(request.a)) entry.a = request.a;
   if (request.b == "-" || isThere(request.b)) entry.b = request.b;
@@ -278,7 +278,7 @@ int diffPictures(const DiffRequest& request) {
   } else if (!writesToStdout(request)) {
     std::string line = diffLine(json);
     if (const std::string text = notFollowedText(json); !text.empty())
-      line += "; not followed: " + text;
+      line += "; ignored metadata: " + text;
     std::cout << line << "\n";
   }
   return entry.status;
@@ -302,7 +302,7 @@ int runDiff(DiffRequest request) {
   if (folderB && (folderA || !isThere(request.a))) return diffFolders(request);
   if (folderA != folderB && isThere(request.a) && isThere(request.b))
     throw InputError(printablePath(request.a) + " and " + printablePath(request.b) +
-                     ": one is a folder, the other a file: give two of a kind");
+                     ": one is a folder, the other a file: give two folders or two files");
   if (folderA)
     throw InputError(printablePath(request.b) + ": No such file or directory: check the path");
   if (request.pruning) throw InputError("--prune: only for two folders, or with --run");

@@ -244,7 +244,7 @@ std::vector<Parameter> makeTable() {
                   "what the program environment reflects and refracts"),
            resetting(custom(
                          "hdri-file", "FILE",
-                         "an equirectangular picture in place of --environment, with -Z at its "
+                         "an equirectangular picture instead of --environment, with -Z at its "
                          "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM",
                          [](Look& look, const std::string& text) {
                            look.hdriFile = nonEmpty(text, "--hdri-file");
@@ -334,8 +334,7 @@ std::vector<Parameter> makeTable() {
            &Look::scene),
        resetting(
            custom(
-               "variant", "NAME|N",
-               "variant of the materials (KHR_materials_variants) [default: none]",
+               "variant", "NAME|N", "material variant (KHR_materials_variants) [default: none]",
                [](Look& look, const std::string& text) {
                  look.variant = nonEmpty(text, "--variant");
                },
@@ -388,8 +387,7 @@ std::span<const Parameter> lookParameters() {
 void setParameter(Look& look, std::string_view name, const std::string& text) {
   for (const Parameter& p : lookParameters())
     if (p.name == name) return p.read(look, text);
-  throw InputError("no option of a look is called '" + std::string(name) +
-                   "': see glint render --help");
+  throw InputError("a look has no option '" + std::string(name) + "': see glint render --help");
 }
 
 std::vector<std::string> Parameter::choices() const {

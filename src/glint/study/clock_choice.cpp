@@ -20,18 +20,18 @@ std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameCl
     return each == FrameClock::cpu ? "CPU" : each == FrameClock::gpu ? "GPU" : "wall";
   };
   std::string why = formatted(
-      "There is no front: by %s time one program, measured twice, differs from itself by up to "
-      "%.1f %%, which is more than %g %%. ",
+      "There is no front: in %s time, one program measured twice differs from itself by up to %.1f "
+      "%%, which is more than %g %%. ",
       wordOf(clock), 100 * spread, 100 * spreadLimit);
   for (const FrameClock other : {FrameClock::gpu, FrameClock::cpu}) {
     const double own = noise[std::size_t(other)].spread;
     if (other != clock && own > 0 && own <= spreadLimit)
       return why + formatted(
-                       "By %s time it is %.1f %%: give --clock %s, or measure when the "
-                       "machine is at rest.",
+                       "In %s time it is %.1f %%: use --clock %s, or measure when the machine is "
+                       "idle.",
                        wordOf(other), 100 * own, std::string(clockName(other)).c_str());
   }
-  return why + "Measure when the machine is at rest, or give larger --repetitions.";
+  return why + "Measure when the machine is idle, or with more --repetitions.";
 }
 
 }  // namespace glint

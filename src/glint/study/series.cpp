@@ -152,9 +152,10 @@ std::optional<StudySeries> iorSeries(const SeriesTools& tools) {
 }
 
 std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
-  SeriesDrawer drawer(tools, named("lights", "Programs over the number of lights", "lights",
-                                   "directional lights from the front, together as bright as one; "
-                                   "exact forms against exact phong, blinn-phong against itself"));
+  SeriesDrawer drawer(tools,
+                      named("lights", "Programs over the number of lights", "lights",
+                            "directional lights from the front with the total intensity of one; "
+                            "exact forms against exact phong, blinn-phong against itself"));
   std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
   if (tools.quick) counts = {1, 8, 64};
   const StudyMask mask = maskOf(tools.renderer, tools.gpu, tools.scene, tools.look);
@@ -177,7 +178,7 @@ std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
 
 std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
   StudySeries whole = named("resolution", "Programs over the resolution", "pixels of the picture",
-                            "time alone; exact forms; the aspect of the picture stays");
+                            "time only; exact forms; constant aspect ratio");
   whole.hasErrors = false;
   // Relative to the study's own picture; other series draw it at half the width.
   std::vector<double> scales{0.125, 0.25, 0.5, 1, 2};

@@ -115,7 +115,7 @@ std::optional<StudySeries> incidenceSeries(const SeriesTools& tools) {
 std::optional<StudySeries> finenessSeries(const SeriesTools& tools) {
   StudySeries series;
   series.name = "fineness";
-  series.title = "Programs over the fineness of the mesh";
+  series.title = "Programs over the mesh resolution";
   series.axis = "edge / radius h";
   series.note =
       "diffuse 0.8, highlight 0.5 at α = 40 unless named, on spheres seen without perspective; "
