@@ -74,8 +74,8 @@ void expectIndicesWork() {
   primitive["indices"] = sample.accessor<Index>("SCALAR", {2, 0, 1});
   EXPECT_EQ(sample.load().meshes.at(0).positions.at(0), glm::vec3(0, 1, 0));
   primitive["indices"] = sample.accessor<Index>("SCALAR", {2, 0, 3});
-  EXPECT_THAT(sample.error(), HasSubstr("meshes[0] \"Part\", primitives[0], index 2 is 3 and there "
-                                        "are 3 vertices"));
+  EXPECT_THAT(sample.error(), HasSubstr("meshes[0] \"Part\", primitives[0], index 2 is 3, but "
+                                        "there are only 3 vertices"));
   primitive["indices"] =
       sample.accessor<Index>("SCALAR", {0, 1, std::numeric_limits<Index>::max()});
   EXPECT_THAT(sample.error(), HasSubstr("there are 3 vertices"));
@@ -281,7 +281,8 @@ TEST(GltfGeometry, NonFinitePositionsDropTheirTriangles) {
        {"indices", sample.accessor<std::uint8_t>("SCALAR", {3, 1, 2, 0, 1, 2, 1, 4, 5, 5, 2, 0})}});
   const glint::Scene scene = sample.load();
   const glint::Mesh& mesh = scene.meshes.at(0);
-  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("2 of 4 triangles have a position")));
+  EXPECT_THAT(scene.warnings,
+              ElementsAre(HasSubstr("2 of 4 triangles have a non-finite position")));
   EXPECT_THAT(mesh.indices, ElementsAre(0, 1, 2, 3, 2, 0));
   EXPECT_EQ(mesh.positions.at(3), glm::vec3(0, 0, 1));
   EXPECT_EQ(mesh.colors.at(3), glm::vec4(1));

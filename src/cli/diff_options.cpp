@@ -117,7 +117,7 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab "
        "[default: 7]");
   addNumber(command, "--shift", given.shift, "N", 0, 16,
-            "do not count pixels that the other picture has up to N pixels away");
+            "do not count pixels that occur in the other picture within N pixels");
   addNumber(command, "--window", given.window, "N", 1, 1 << 20,
             "count in the worst window of N x N pixels instead of in the whole picture");
   command.add_flag("--ignore-anti-aliasing", given.ignoreAntiAliasing,
@@ -214,7 +214,7 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
                                    {"--ignore-anti-aliasing", given.ignoreAntiAliasing}})
     if (used && !counts)
       throw InputError(std::string(name) +
-                       ": it is of --max-pixels: give that, too (--max-pixels 0)");
+                       ": it modifies --max-pixels: give that, too (--max-pixels 0)");
   for (const std::string& box : given.ignored) options.ignored.push_back(boxOf(box));
   options.tolerance = given.tolerance;
   options.ignoreAntiAliasing = given.ignoreAntiAliasing;

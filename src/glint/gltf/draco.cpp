@@ -52,7 +52,7 @@ DracoMesh::DracoMesh(const std::vector<unsigned char>& packed, std::uint64_t max
   decoded_->mesh = std::move(result).value();
   const std::uint64_t most = maxGrowth * (packed.size() + 64);
   if (decoded_->mesh->num_points() > most || decoded_->mesh->num_faces() > most)
-    error_ = "unfolds to far more than it holds data for";
+    error_ = "expands to far more than its data allow";
 }
 
 DracoMesh::~DracoMesh() = default;
@@ -65,13 +65,13 @@ std::string DracoMesh::readAttribute(std::uint32_t id, int componentType, const 
   if (!attribute) return "names an attribute that the compressed mesh does not have";
   const int components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
   if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4")
-    return "has an accessor that is no vector";
+    return "has an accessor that is not a vector";
   if (attribute->num_components() < components) return "has fewer components than its accessor";
   bool good = false;
   withComponent(componentType, [&](auto type) {
     good = convert<decltype(type)>(*attribute, points(), components, bytes);
   });
-  return good ? "" : "holds values that its accessor cannot";
+  return good ? "" : "has values that its accessor cannot represent";
 }
 
 std::vector<unsigned char> DracoMesh::indices() const {

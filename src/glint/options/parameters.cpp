@@ -231,7 +231,7 @@ std::vector<Parameter> makeTable() {
            choice("environment", environmentTexts(), &Look::environment,
                   "what the program environment reflects and refracts"),
            text("hdri-file", "FILE", &Look::hdriFile,
-                "an equirectangular picture in place of --environment, with -Z at its "
+                "an equirectangular picture instead of --environment, with -Z at its "
                 "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM"),
            slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
                          "turn the environment about +Y"),
@@ -299,7 +299,7 @@ std::vector<Parameter> makeTable() {
   section("Model",
           {text("scene", "NAME|N", &Look::scene, "scene of the file [default: the file's own]"),
            text("variant", "NAME|N", &Look::variant,
-                "variant of the materials (KHR_materials_variants) [default: none]"),
+                "material variant (KHR_materials_variants) [default: none]"),
            choice("up", std::span<const std::string_view>(upAxes), &Look::up,
                   "axis of the model that points up; its cameras and lights turn with it")});
   section(
@@ -347,8 +347,7 @@ std::span<const Parameter> lookParameters() {
 void setParameter(Look& look, std::string_view name, const std::string& text) {
   for (const Parameter& p : lookParameters())
     if (p.name == name) return p.read(look, text);
-  throw InputError("no option of a look is called '" + std::string(name) +
-                   "': see glint render --help");
+  throw InputError("a look has no option '" + std::string(name) + "': see glint render --help");
 }
 
 std::vector<std::string> Parameter::choices() const {

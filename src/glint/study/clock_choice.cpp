@@ -18,18 +18,18 @@ std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameCl
   const double spread = noise[std::size_t(clock)].spread;
   if (spread <= spreadLimit) return {};
   std::string why = formatted(
-      "There is no front: by %s one program, measured twice, differs from itself by up to "
+      "There is no front: in %s, one program measured twice differs from itself by up to "
       "%.1f %%, which is more than %g %%. ",
       clockWords(clock), 100 * spread, 100 * spreadLimit);
   for (const FrameClock other : {FrameClock::gpu, FrameClock::cpu}) {
     const double own = noise[std::size_t(other)].spread;
     if (other != clock && own > 0 && own <= spreadLimit)
       return why + formatted(
-                       "By %s it is %.1f %%: give --clock %s, or measure when the "
-                       "machine is at rest.",
+                       "In %s it is %.1f %%: use --clock %s, or measure when the "
+                       "machine is idle.",
                        clockWords(other), 100 * own, std::string(clockName(other)).c_str());
   }
-  return why + "Measure when the machine is at rest, or give larger --repetitions.";
+  return why + "Measure when the machine is idle, or with more --repetitions.";
 }
 
 }  // namespace glint
