@@ -165,7 +165,7 @@ class Viewer:
         """The bytes of the whole screen, RGB."""
         return self.x.capture(0, 0, *self.screen)
 
-    def settled(self, shaded=False, quiet=0.25):
+    def settled(self, shaded=False, quiet=0.35):
         """The screen once it has not changed for a while."""
         last, since = None, time.monotonic()
         picture = (self.screen[0] - self.panel - 30, self.screen[1] - 65 - self.top)
@@ -180,6 +180,16 @@ class Viewer:
             return time.monotonic() - since > quiet
         wait_for("the picture to be still", still)
         return x11.rgb_of(last)
+
+    def opened(self, act):
+        """The screen after something that changes it: no later input may come before that."""
+        shown = self.x.raw(0, 0, *self.screen)
+        act()
+        wait_for("the screen to change", lambda: self.x.raw(0, 0, *self.screen) != shown)
+        return self.settled(quiet=0.15)
+
+    def type(self, text):
+        self.xdotool("type", "--delay", "15", text)
 
     def shows(self, size, expected, what):
         """Waits until the window shows the picture `expected`."""
@@ -212,11 +222,11 @@ class Viewer:
         path = os.path.join(self.folder, os.path.splitext(os.path.basename(self.model))[0]
                             + "_1.json")
         before = os.stat(path).st_mtime_ns if os.path.exists(path) else None
-        shown = self.x.raw(0, 0, *self.screen)
-        self.key("ctrl+s")
         if before is None:
-            wait_for("the name that is offered", lambda: self.x.raw(0, 0, *self.screen) != shown)
+            self.opened(lambda: self.key("ctrl+s"))
             self.key("Return")
+        else:
+            self.key("ctrl+s")
 
         def written():
             return os.path.exists(path) and os.stat(path).st_mtime_ns != before

@@ -278,6 +278,7 @@ def test_saving_asks_once_and_a_deleted_model_is_told():
         drag_slider(viewer, "specular", 0.8, 0.3)
         viewer.key("ctrl+m")
         wait_for("the model to be saved again, unasked", lambda: content() != once)
+        viewer.settled()
         os.remove(viewer.model)
         wait_for("the message", lambda: "no longer exists" in viewer.told())
         assert viewer.alive()

@@ -23,26 +23,22 @@ class Job(Viewer):
     def say(self, *words):
         """Runs palette commands."""
         for each in words:
-            self.key("ctrl+p")
-            self.settled()
-            self.xdotool("type", "--delay", "15", each)
-            self.settled()
-            self.key("Return")
-            self.settled()
+            self.opened(lambda: self.key("ctrl+p"))
+            self.opened(lambda: self.type(each))
+            self.opened(lambda: self.key("Return"))
 
     def select(self, material):
-        self.key("ctrl+f")
-        self.settled()
-        self.xdotool("type", "--delay", "15", material)
+        self.opened(lambda: self.key("ctrl+f"))
+        self.opened(lambda: self.type(material))
         self.key("Return")
         self.settled()
 
     def set(self, row, text):
         """Types a value for a parameter of the selected material."""
         self.move(SLIDER[0] + 60, ROW[row] + self.below)
-        self.xdotool("keydown", "ctrl", "click", "1", "keyup", "ctrl")
-        self.settled()
-        self.xdotool("type", "--delay", "15", text)
+        self.settled(quiet=0.15)  # the slider under the pointer is lit
+        self.opened(lambda: self.xdotool("keydown", "ctrl", "click", "1", "keyup", "ctrl"))
+        self.opened(lambda: self.type(text))
         self.key("Return")
         self.move(20, 20)
         self.settled()
