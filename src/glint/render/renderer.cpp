@@ -1,13 +1,16 @@
 #include "glint/render/renderer.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "glint/gl/check.h"
 #include "glint/image/clock.h"
 #include "glint/image/srgb.h"
+#include "glint/render/block_buffer.h"
 #include "glint/render/composition.h"
+#include "glint/render/thin.h"
 
 namespace glint {
 namespace {
@@ -60,37 +63,6 @@ Program build(const ComposedProgram& text) {
   return program;
 }
 
-// Packs blocks into one uniform buffer, each at an offset with the driver's alignment.
-class BlockBuffer {
- public:
-  BlockBuffer() {
-    GLint alignment = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    step_ = std::size_t(std::max(alignment, 1));
-  }
-  /// The offset at which the next block begins.
-  GLintptr begin() {
-    bytes_.resize((bytes_.size() + step_ - 1) / step_ * step_);
-    return GLintptr(bytes_.size());
-  }
-  template <typename Block>
-  void add(const Block& block) {
-    const auto* from = reinterpret_cast<const char*>(&block);
-    bytes_.insert(bytes_.end(), from, from + sizeof block);
-  }
-  /// `room` bytes follow the last block, since a block that is not full is bound at its full
-  /// length.
-  void upload(const Buffer& buffer, std::size_t room = 0) {
-    bytes_.resize(bytes_.size() + room);
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-    glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes_.size()), bytes_.data(), GL_STREAM_DRAW);
-  }
-
- private:
-  std::size_t step_ = 1;
-  std::vector<char> bytes_;
-};
-
 void setFaces(const DrawItem& item) {
   glFrontFace(item.mirrored ? GL_CW : GL_CCW);
   if (item.faces == FaceSide::both) {
@@ -102,9 +74,9 @@ void setFaces(const DrawItem& item) {
 }
 
 // The pixels that the items' boxes may cover in a picture with this projection: x, y, width,
-// height. The whole picture if a box reaches behind the eye.
+// height; points and lines are `thickness` wide. The whole picture if a box reaches behind the eye.
 glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection, int width,
-                    int height) {
+                    int height, int thickness) {
   const glm::dvec2 size(width, height);
   glm::dvec2 low(1e300), high(-1e300);
   for (const DrawItem& item : items) {
@@ -120,9 +92,9 @@ glm::ivec4 pixelsOf(std::span<const DrawItem> items, const glm::mat4& projection
       high = glm::max(high, place);
     }
   }
-  // Two extra pixels on every side: points and lines are a pixel wide, and all of this is rounded.
-  const glm::ivec2 first(glm::clamp(glm::floor(low - 2.0), glm::dvec2(0), size));
-  const glm::ivec2 end(glm::clamp(glm::ceil(high + 2.0), glm::dvec2(first), size));
+  const double extra = 1.0 + thickness;  // more than half of it, because all of this is rounded
+  const glm::ivec2 first(glm::clamp(glm::floor(low - extra), glm::dvec2(0), size));
+  const glm::ivec2 end(glm::clamp(glm::ceil(high + extra), glm::dvec2(first), size));
   return {first, end - first};
 }
 
@@ -151,7 +123,8 @@ Renderer::Renderer(GlslSources sources)
       fileNames_(fileNamesInLines()),
       clipControl_(GLINT_GLAD_GL_ARB_clip_control != 0),
       noVertices_(VertexArray::make()),
-      frame_(Buffer::make()) {}
+      frame_(Buffer::make()),
+      thinFrame_(Buffer::make()) {}
 
 const Program& Renderer::programFor(const Variant& variant, bool instanced) {
   const std::pair key(variant, instanced);
@@ -230,7 +203,9 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
       lights_(Buffer::make()),
       draws_(Buffer::make()),
       materials_(Buffer::make()),
-      calls_(drawCalls(list_.items)) {
+      calls_(drawCalls(list_.items)),
+      wideThins_(hasWideThins(scene.scene(), list_, layout_)) {
+  if (wideThins_) scene.warn(thinWarning(thinLimits(), layout_.scale));
   {
     const Stopwatch time(times_.compile);
     for (const DrawCall& call : calls_)
@@ -314,9 +289,23 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
       frame.rayScale = (upper - lower) * reach;
       frame.rayOffset = (upper + lower - 1.0 + list_.camera.shift) * reach;
     }
-    glBindBuffer(GL_UNIFORM_BUFFER, renderer_.frame_.id());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+    const auto upload = [&](const Buffer& buffer) {
+      glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
+      glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+    };
+    std::optional<ThinWidth> thinWidth;
+    if (wideThins_) {
+      // A pixel more on every side: GL drops points whose middle is outside, and cuts lines there.
+      const glm::dvec2 pixel = 1.0 / whole;
+      frame.projection = glm::mat4(
+          projection(list_.camera, lower - pixel, upper + pixel, renderer_.clipControl_));
+      upload(renderer_.thinFrame_);
+      frame.projection = projection_;
+      thinWidth.emplace(layout_.scale);
+    }
+    upload(renderer_.frame_);
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
+    inThinFrame_ = false;
     if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
     if (renderer_.curve_) glBindBufferBase(GL_UNIFORM_BUFFER, curveBinding, renderer_.curve_.id());
 
@@ -351,12 +340,14 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
     for (; next < calls_.size() && !list_.items[calls_[next].first].blended; ++next) drawCall(next);
     if (next < calls_.size()) {
       const auto first = list_.items.begin() + std::ptrdiff_t(calls_[next].first);
-      const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width, height);
+      const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width,
+                                       height, layout_.scale);
       glEnable(GL_SCISSOR_TEST);
       glScissor(box.x, box.y, box.z, box.w);
       if (box.z > 0 && box.w > 0) drawLayers(next);
       glDisable(GL_SCISSOR_TEST);
     }
+    thinWidth.reset();
     target.resolve();
     if (rows) glFinish();  // read-back would wait anyway; this separates the two times
     checkGl("draw");
@@ -381,6 +372,14 @@ void Renderer::Picture::bindDraw(std::size_t i) {
   glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawOffsets_[i],
                     GLsizeiptr(places * sizeof(DrawBlock)));
   setFaces(list_.items[call.first]);
+  const Mesh& mesh = scene_.scene().meshes[std::size_t(list_.items[call.first].mesh)];
+  const bool thin = wideThins_ && mesh.topology != Topology::triangles;
+  if (thin == inThinFrame_) return;
+  inThinFrame_ = thin;
+  const Buffer& frame = thin ? renderer_.thinFrame_ : renderer_.frame_;
+  glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.id());
+  const int extra = thin ? layout_.scale : 0;
+  glViewport(-extra, -extra, tilePixels_.x + 2 * extra, tilePixels_.y + 2 * extra);
 }
 
 void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {
