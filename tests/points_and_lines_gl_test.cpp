@@ -13,7 +13,8 @@
 
 namespace glint::test::points_and_lines_gl_test {
 
-constexpr const char* everyAntiAliasing[] = {"none", "msaa:2", "msaa:4", "ssaa:2", "ssaa:3", "ssaa:4"};
+constexpr const char* everyAntiAliasing[] = {"none",   "msaa:2", "msaa:4",
+                                             "ssaa:2", "ssaa:3", "ssaa:4"};
 
 class PointsAndLines : public OnStage {
  protected:
@@ -35,9 +36,9 @@ class PointsAndLines : public OnStage {
   }
 
   // The driver snaps places to 1/256 of a pixel of its grid, in which a line is `width` wide. So
-  // samples within 1/256 of one of two edges may differ: at most 4/256 of a grid's pixel of `width`.
-  // A point has four edges as long as it is wide, of which each makes half as much of a difference:
-  // 8/256.
+  // samples within 1/256 of one of two edges may differ: at most 4/256 of a grid's pixel of
+  // `width`. A point has four edges as long as it is wide, of which each makes half as much of a
+  // difference: 8/256.
   void expectSameCoverage(const Scene& scene, const Look& look, const std::string& what) {
     const Image truth = reference(scene, look), image = draw(scene, look);
     double covered = 0, other = 0;
@@ -165,19 +166,19 @@ TEST_P(PointsAndLines, CrossTheBordersOfTiles) {
     const char* antiAliasing;
     glm::ivec2 resolution;
   };
-  for (const Case& each : {Case{"ssaa:4", {2100, 8}}, Case{"ssaa:4", {8, 2100}},
-                           Case{"msaa:4", {8200, 8}}, Case{"msaa:4", {8, 8200}}}) {
+  for (const Case& each : {Case{"ssaa:4", {2100, 24}}, Case{"ssaa:4", {24, 2100}},
+                           Case{"msaa:4", {8200, 24}}, Case{"msaa:4", {24, 8200}}}) {
     Look look = lookWith(each.antiAliasing, each.resolution);
     const TileLayout layout = tilesFor(look.resolution, look.antiAliasing);
     const bool across = each.resolution.x > each.resolution.y;
     ASSERT_EQ(layout.bands.size() * layout.bands[0].size(), 2u);
     const double border =
         across ? layout.tileWidth : look.resolution.y - layout.bandHeight;  // y upwards
-    glm::dvec2 low(0.5), high(7.5);
+    glm::dvec2 low(0.5), high(23.5);
     low[across ? 0 : 1] = border - 1;
     high[across ? 0 : 1] = border + 1;
     for (const Topology topology : {Topology::points, Topology::lines}) {
-      Scene scene = sceneOf(thin(topology, places(160, low, high, 5)));
+      Scene scene = sceneOf(thin(topology, places(240, low, high, 5)));
       lookAtPixels(scene, look);
       expectSameCoverage(scene, look, std::string(each.antiAliasing) + " at a border");
     }
@@ -214,9 +215,10 @@ TEST_P(PointsAndLines, LeaveTrianglesAlone) {
   }
 }
 
-// Red grows from 0 to 1 along a line. Without multisampling the driver computes what the reference
-// does, to a few roundings of positions of up to 64 samples. With it, Mesa 22.3 takes the values and
-// depths half a pixel further to the right and up, up to 0.7072 pixels along the line.
+// Red grows from 1 to 2 along a line. Without multisampling the driver computes what the reference
+// does, to a few roundings of places of up to 64 samples. With it, Mesa 22.3 takes the values half
+// a pixel too far to the right and up: 0.7072 pixels along the line. Where the pixel's centre is up
+// to 0.7072 pixels beyond an end, which has the reference's value, that comes on top.
 TEST_P(PointsAndLines, HaveTheReferencesValues) {
   for (const std::string antiAliasing : everyAntiAliasing) {
     double worst = 0;
@@ -224,7 +226,7 @@ TEST_P(PointsAndLines, HaveTheReferencesValues) {
     for (unsigned seed = 0; seed < 30; ++seed) {
       Look look = lookWith(antiAliasing, {16, 16});
       Mesh line = thin(Topology::lines, places(2, {1, 1}, {15, 15}, 100 + seed));
-      line.colors = {{0, 1, 0, 1}, {1, 1, 0, 1}};
+      line.colors = {{1, 1, 0, 1}, {2, 1, 0, 1}};
       const double length =
           glm::distance(glm::dvec2(line.positions[0]), glm::dvec2(line.positions[1]));
       Scene scene = sceneOf(line);
@@ -242,7 +244,6 @@ TEST_P(PointsAndLines, HaveTheReferencesValues) {
                 compared, worst);
     EXPECT_GT(compared, 200) << antiAliasing;
     const bool multisampled = antiAliasing.starts_with("msaa");
-    // In pixels of the picture, beyond the ends up to as much as the driver continues them.
     EXPECT_LE(worst, multisampled ? 2 * 0.7072 : 1e-4) << antiAliasing;
   }
 }

@@ -82,8 +82,8 @@ TEST(ReferencePointCoverage, IsASquareOfOnePixel) {
 TEST(ReferencePointCoverage, IsHalfOpen) {
   for (const std::string antiAliasing : {"none", "ssaa:3"}) {
     const Shares shares = sharesOf(drawn(thin(Topology::points, {{5, 9}}), antiAliasing));
-    const Shares expected = {{{4, 8}, 4.0 / 9}, {{5, 8}, 2.0 / 9}, {{4, 9}, 2.0 / 9},
-                             {{5, 9}, 1.0 / 9}};
+    const Shares expected = {
+        {{4, 8}, 4.0 / 9}, {{5, 8}, 2.0 / 9}, {{4, 9}, 2.0 / 9}, {{5, 9}, 1.0 / 9}};
     expectShares(shares, antiAliasing == "none" ? Shares{{{4, 8}, 1.0}} : expected, antiAliasing);
   }
   // On a sample's own place, half a pixel away: x from 4.875, where the second sample is.
@@ -107,9 +107,13 @@ TEST(ReferencePointCoverage, AddsUpToOnePixelAnywhere) {
 
 // From x = 2 to 14 at the height 9.8: y from 9.3 to 10.3. The same upright.
 TEST(ReferenceLineCoverage, IsOnePixelWide) {
-  const std::map<std::string, std::pair<double, double>> expected = {  // rows 9 and 10
-      {"none", {1, 0}},         {"msaa:4", {0.75, 0.25}},      {"ssaa:2", {0.5, 0.5}},
-      {"ssaa:4", {0.75, 0.25}}, {"ssaa:3", {2.0 / 3, 1.0 / 3}}};
+  const std::map<std::string, std::pair<double, double>> expected = {
+      // rows 9 and 10
+      {"none", {1, 0}},
+      {"msaa:4", {0.75, 0.25}},
+      {"ssaa:2", {0.5, 0.5}},
+      {"ssaa:4", {0.75, 0.25}},
+      {"ssaa:3", {2.0 / 3, 1.0 / 3}}};
   for (const auto& [antiAliasing, rows] : expected) {
     Shares level;
     for (int x = 2; x < 14; ++x) {
@@ -133,8 +137,8 @@ TEST(ReferenceLineCoverage, IsOnePixelWide) {
 // With ends inside pixels: x from 4.6 to 7.3.
 TEST(ReferenceLineCoverage, EndsWhereTheLineEnds) {
   const std::vector<glm::vec2> ends = {{4.6f, 9.5f}, {7.3f, 9.5f}};
-  // Of the samples at x = .375, .875, .125 and .625: the two beyond .6 in pixel 4, the one before .3
-  // in pixel 7.
+  // Of the samples at x = .375, .875, .125 and .625: the two beyond .6 in pixel 4, the one before
+  // .3 in pixel 7.
   expectShares(sharesOf(drawn(thin(Topology::lines, ends), "msaa:4")),
                {{{4, 9}, 0.5}, {{5, 9}, 1.0}, {{6, 9}, 1.0}, {{7, 9}, 0.25}}, "msaa:4");
   // In quarters of a pixel from 18.4 to 29.2: centres from 18.5 to 28.5.

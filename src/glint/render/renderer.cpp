@@ -297,8 +297,8 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
     if (wideThins_) {
       // A pixel more on every side: GL drops points whose middle is outside, and cuts lines there.
       const glm::dvec2 pixel = 1.0 / whole;
-      frame.projection = glm::mat4(
-          projection(list_.camera, lower - pixel, upper + pixel, renderer_.clipControl_));
+      frame.projection =
+          glm::mat4(projection(list_.camera, lower - pixel, upper + pixel, renderer_.clipControl_));
       upload(renderer_.thinFrame_);
       frame.projection = projection_;
       thinWidth.emplace(layout_.scale);
@@ -340,8 +340,8 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
     for (; next < calls_.size() && !list_.items[calls_[next].first].blended; ++next) drawCall(next);
     if (next < calls_.size()) {
       const auto first = list_.items.begin() + std::ptrdiff_t(calls_[next].first);
-      const glm::ivec4 box = pixelsOf({first, list_.items.end()}, frame.projection, width,
-                                       height, layout_.scale);
+      const glm::ivec4 box =
+          pixelsOf({first, list_.items.end()}, frame.projection, width, height, layout_.scale);
       glEnable(GL_SCISSOR_TEST);
       glScissor(box.x, box.y, box.z, box.w);
       if (box.z > 0 && box.w > 0) drawLayers(next);
