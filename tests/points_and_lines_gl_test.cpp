@@ -185,28 +185,36 @@ TEST_P(PointsAndLines, CrossTheBordersOfTiles) {
   }
 }
 
-// Triangles drawn after points and lines are where they are without them.
+// Triangles drawn after points and lines have the bits that they have without them.
 TEST_P(PointsAndLines, LeaveTrianglesAlone) {
   for (const std::string antiAliasing : {"msaa:4", "ssaa:3"}) {
     Look look = lookWith(antiAliasing, {32, 24});
-    Mesh triangle = quad({0, 0, 1}, 5);
-    for (glm::vec3& place : triangle.positions) place += glm::vec3(11.3f, 12.6f, 20);
-    Scene alone = sceneOf(triangle), both = sceneOf(thin(Topology::points, {{2.5f, 2.5f, 0}}));
-    both.meshes.push_back(thin(Topology::lines, {{1.5f, 20.5f, 0}, {3.5f, 22, 0}}));
-    both.meshes.push_back(triangle);
+    look.light = {directional({0.3, 0.5, 1})};
+    const Mesh ball = sphere(24, 12);
+    Scene alone = sceneOf(ball), both = sceneOf(thin(Topology::points, {{-2, 1.3f, 0}}));
+    both.meshes.push_back(thin(Topology::lines, {{-2.1f, 0, 0}, {-1.9f, 0.5f, 0}}));
+    both.meshes.push_back(ball);
     both.instances.push_back({1, glm::dmat4(1)});
     both.instances.push_back({2, glm::dmat4(1)});
-    lookAtPixels(alone, look);
-    both.cameras = alone.cameras;
-    look.light = {directional({0, 0, 1})};
+    FileCamera camera;
+    camera.viewAngle = 1;
+    camera.world[3] = glm::dvec4(-0.3, 0.1, 4, 1);
+    alone.cameras = both.cameras = {camera};
+    look.cameraIndex = 0;
+    look.clippingRange = glm::dvec2(2, 6);
     const Image expected = draw(alone, look), image = draw(both, look);
-    int covered = 0;
+    int covered = 0, thins = 0;
     for (int y = 0; y < 24; ++y)
-      for (int x = 5; x < 32; ++x) {
-        covered += pixel(expected, x, y).a > 0;
+      for (int x = 0; x < 32; ++x) {
+        if (pixel(expected, x, y).a == 0) {
+          thins += pixel(image, x, y).a > 0;
+          continue;
+        }
+        ++covered;
         EXPECT_EQ(pixel(image, x, y), pixel(expected, x, y)) << x << "," << y;
       }
     EXPECT_GT(covered, 90);
+    EXPECT_GT(thins, 3);
     GLfloat width = 0, size = 0;
     glGetFloatv(GL_LINE_WIDTH, &width);
     glGetFloatv(GL_POINT_SIZE, &size);
