@@ -67,7 +67,8 @@ inline bool ownsEdge(const glm::dvec3& edge) { return edge.x > 0 || (edge.x == 0
 inline double at(const glm::dvec3& f, double x, double y) { return f.x * x + f.y * y + f.z; }
 
 /// Whether a convex polygon, given by its edges' functions, covers the place (x, y).
-inline bool covers(std::span<const glm::dvec3> edges, double x, double y) {
+template <std::size_t count>
+bool covers(const std::array<glm::dvec3, count>& edges, double x, double y) {
   for (const glm::dvec3& edge : edges) {
     const double e = at(edge, x, y);
     if (!(e > 0 || (e == 0 && ownsEdge(edge)))) return false;
@@ -123,15 +124,18 @@ void forEachSample(const Primitive& p, const glm::ivec2& grid, int firstRow, int
     }
     return;
   }
-  std::array<glm::dvec3, 4> outline;
-  std::span<const glm::dvec3> edges = p.edges;
-  if (p.topology != Topology::triangles) edges = outline = outlineOf(p);
-  for (int row = top; row <= bottom; ++row) {
-    const double y = grid.y - row - 0.5 + sample.y;
-    const Columns columns = columnsAt(p, edges, y, grid.x);
-    for (int column = columns.first; column <= columns.last; ++column)
-      if (covers(edges, column + 0.5 + sample.x, y)) visit(column, row);
-  }
+  const auto fill = [&](const auto& edges) {
+    for (int row = top; row <= bottom; ++row) {
+      const double y = grid.y - row - 0.5;
+      const Columns columns = columnsAt(p, edges, y + sample.y, grid.x);
+      for (int column = columns.first; column <= columns.last; ++column)
+        if (covers(edges, column + 0.5 + sample.x, y + sample.y)) visit(column, row);
+    }
+  };
+  if (p.topology == Topology::triangles)
+    fill(p.edges);
+  else
+    fill(outlineOf(p));
 }
 
 }  // namespace glint::reference
