@@ -199,7 +199,7 @@ TEST(Api, RefusesInOneLine) {
   EXPECT_THAT(refusal([](Arrays& a) { a.indices[1] = 4; }),
               ThrowsMessage<InputError>(HasSubstr("arrays[0]: index 4 and 4 positions")));
   EXPECT_THAT(refusal([](Arrays& a) { a.indices.pop_back(); }),
-              ThrowsMessage<InputError>(HasSubstr("5 indices are no whole number of triangles")));
+              ThrowsMessage<InputError>(HasSubstr("5 indices are not a multiple of 3")));
   EXPECT_THAT(refusal([](Arrays& a) { a.normals.resize(3); }),
               ThrowsMessage<InputError>(HasSubstr("3 normals for 4 positions")));
   EXPECT_THAT(refusal([](Arrays& a) { a.material = "shine=5"; }),
@@ -214,7 +214,7 @@ TEST(Api, RefusesInOneLine) {
   Arrays part = square();
   part.positions[3][0] = NAN;
   EXPECT_THAT(Model::fromArrays({&part, 1}).warnings(),
-              ElementsAre(HasSubstr("1 of 2 triangles have a position that is not finite")));
+              ElementsAre(HasSubstr("1 of 2 triangles have a non-finite position")));
 }
 
 TEST(Api, ComparesPictures) {

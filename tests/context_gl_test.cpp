@@ -200,7 +200,7 @@ TEST_P(OnBackend, RefusesMoreSamplesThanTheDriverHas) {
 
 TEST_P(OnBackend, RefusesSizesTheDriverLacks) {
   EXPECT_THAT(message([] { glint::RenderTarget target(1 << 20, 8, 1); }),
-              AllOf(HasSubstr("--resolution 1048576,8"), HasSubstr("pixels a side")));
+              AllOf(HasSubstr("--resolution 1048576,8"), HasSubstr("pixels per side")));
   EXPECT_THROW(glint::RenderTarget(0, 8, 1), glint::InputError);
 }
 

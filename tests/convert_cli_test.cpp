@@ -130,7 +130,7 @@ TEST(Convert, FilesBesideTheModelGoWithIt) {
   std::ofstream(other / "model.bin") << "something else";
   std::filesystem::remove(out);
   expectRefusalBesideWarnings(runGlint({"convert", in, out, "--material", edit}),
-                              "is another file");
+                              "already exists and differs");
   EXPECT_EQ(contents(other / "model.bin"), "something else");
   EXPECT_THAT(other.names(), ElementsAre("model.bin"));
   // Names that lead out of the folder are not followed.
@@ -140,7 +140,7 @@ TEST(Convert, FilesBesideTheModelGoWithIt) {
   std::ofstream(folder / "inner/model.gltf") << text;
   expectRefusalBesideWarnings(
       runGlint({"convert", folder / "inner/model.gltf", out, "--material", edit}),
-      "outside of its folder");
+      "outside its folder");
   EXPECT_THAT(other.names(), ElementsAre("model.bin"));
 }
 

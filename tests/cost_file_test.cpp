@@ -73,8 +73,8 @@ TEST(CostFile, RefusesWhatIsNoTable) {
   };
   refused("", "is not valid JSON");
   refused("{\"glint-costs\": 1", "is not valid JSON");
-  refused("[1, 2]", "is no table of costs");
-  refused("{\"glint-look\": 1}", "is no table of costs");
+  refused("[1, 2]", "is not a cost table");
+  refused("{\"glint-look\": 1}", "is not a cost table");
   refused(changed("/glint-costs", 2), "version 2, and this glint reads 1");
   refused(changed("/highlight", 3), "lacks the cost of highlight exact");
   refused(changed("/highlight/pow", "dear"), "highlight pow is not a number");
@@ -83,7 +83,7 @@ TEST(CostFile, RefusesWhatIsNoTable) {
   refused(changed("/fresnel/rational", 1e300), "fresnel rational is not from 0 to 1e6");
   refused(changed("/highlight/lyon", Json::array({1, 2})), "is not a list of 7 numbers");
   refused(changed("/highlight/lyon/3", Json::object()), "highlight lyon is not a number");
-  refused(changed("/fresnel/magic", 1), "a form that this glint does not know");
+  refused(changed("/fresnel/magic", 1), "a form that this version does not know");
   Json less = good;
   less["fresnel"].erase("schlick");
   refused(less.dump(), "lacks the cost of fresnel schlick");

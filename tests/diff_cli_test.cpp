@@ -189,7 +189,7 @@ TEST(DiffReports, JUnit) {
   EXPECT_THAT(xml, HasSubstr("name=\"two &amp; &lt;three&gt;.png\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"3 pixels differ\">"));
   EXPECT_THAT(xml, HasSubstr("(0, 0): "));
-  EXPECT_THAT(xml, HasSubstr("<error message=\"missing: there is a baseline and no picture\">"));
+  EXPECT_THAT(xml, HasSubstr("<error message=\"missing: there is a baseline but no picture\">"));
 }
 
 TEST(DiffPicture, Kinds) {
@@ -223,7 +223,7 @@ TEST(DiffFolders, MissingExtraAndSummary) {
   const Ran ran = pictures.diff("x y --json r.json --jobs 3");
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.out, HasSubstr("extra.png: no baseline: accept it with --update\n"));
-  EXPECT_THAT(ran.out, HasSubstr("gone.png: missing: there is a baseline and no picture\n"));
+  EXPECT_THAT(ran.out, HasSubstr("gone.png: missing: there is a baseline but no picture\n"));
   EXPECT_THAT(ran.out, HasSubstr("sub/two.png: differs"));
   EXPECT_THAT(ran.out, HasSubstr("4 pairs: 1 same, 1 differ, 1 missing, 1 without baseline, 0 "
                                  "unreadable\n"));

@@ -172,7 +172,7 @@ TEST(Usage, OneOutputDoesNotDestroyAnother) {
   expectRefusal(draw(picture, "--json " + folder / "./a.png"), "-o writes that file already");
   expectRefusal(draw(picture, "--save-look " + picture), "-o writes that file already");
   expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json goes to");
-  expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite what is read");
+  expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite an input file");
   expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json goes to stdout");
   EXPECT_THAT(folder.names(), ElementsAre("list"));
   EXPECT_EQ(draw(picture, "--json /dev/null --save-look /dev/null").status, 0);
@@ -312,7 +312,7 @@ TEST_P(FakeDrivers, GiveReasonsAndStatusThree) {
       runGlint({"render", sphere, "-o", folder / "a.png", "--resolution", "8,8"}, options);
   if (list.status == 0) {
     EXPECT_EQ(automatic.status, 0);
-    EXPECT_THAT(automatic.err, HasSubstr("warning")) << "EGL was passed over in silence";
+    EXPECT_THAT(automatic.err, HasSubstr("warning")) << "EGL was skipped in silence";
     return;
   }
   EXPECT_EQ(list.status, 3);

@@ -75,22 +75,22 @@ TEST(GltfCheck, WholeNumbersMayBeWrittenWithAPoint) {
 }
 
 TEST(GltfCheck, BytesAreChecked) {
-  expectRefused("/accessors/0/count", 4, "accessors[0] runs over the end of its buffer view");
-  expectRefused("/accessors/0/count", 4294967295, "runs over the end");
+  expectRefused("/accessors/0/count", 4, "accessors[0] extends past the end of its buffer view");
+  expectRefused("/accessors/0/count", 4294967295, "extends past the end");
   expectRefused("/accessors/0/count", -1, "accessors[0].count must be");
-  expectRefused("/accessors/0/byteOffset", 4, "runs over the end");
+  expectRefused("/accessors/0/byteOffset", 4, "extends past the end");
   expectRefused("/accessors/0/byteOffset", 18446744073709551615ull, "byteOffset must be");
   expectRefused("/accessors/0/type", "VEC5", "accessors[0].type is not one");
-  expectRefused("/accessors/0/componentType", 5124, "componentType is not one");
-  expectRefused("/accessors/0/componentType", 5130, "componentType is not one");
+  expectRefused("/accessors/0/componentType", 5124, "componentType is not defined in glTF 2.0");
+  expectRefused("/accessors/0/componentType", 5130, "componentType is not defined in glTF 2.0");
   expectRefused("/bufferViews/0/byteLength", 1000, "bufferViews[0] ends at byte 1000");
   expectRefused("/bufferViews/0/byteOffset", 1e15, "byteOffset must be");
   expectRefused("/bufferViews/0/byteStride", 8, "accessors[0] has elements of 12 bytes");
   expectRefused("/bufferViews/0/byteStride", 14, "must be a multiple of 4");
   expectRefused("/bufferViews/0/byteStride", 256, "byteStride must be");
-  expectRefused("/accessors/1/type", "VEC2", "runs over the end");
-  expectRefused("/accessors/1/componentType", 5120, "does not hold unsigned whole numbers");
-  expectRefused("/accessors/0/type", "VEC2", "POSITION must have 3 components a vertex, not 2");
+  expectRefused("/accessors/1/type", "VEC2", "extends past the end");
+  expectRefused("/accessors/1/componentType", 5120, "is not of unsigned integers");
+  expectRefused("/accessors/0/type", "VEC2", "POSITION must have 3 components per vertex, not 2");
 }
 
 TEST(GltfCheck, BufferShorterThanToldIsRefused) {
@@ -98,7 +98,7 @@ TEST(GltfCheck, BufferShorterThanToldIsRefused) {
   sample.triangle();
   sample.writeGltf();
   sample.buffers = {{{"byteLength", 1000}, {"uri", "sample.bin"}}};
-  EXPECT_THAT(sample.error(), StartsWith("buffers[0] tells 1000 bytes and has 36"));
+  EXPECT_THAT(sample.error(), StartsWith("buffers[0] declares 1000 bytes but has 36"));
 }
 
 TEST(GltfCheck, SparseAccessorsAreChecked) {
@@ -114,8 +114,8 @@ TEST(GltfCheck, SparseAccessorsAreChecked) {
   refuse("/indices", 1, "sparse.indices must be an object");
   refuse("/indices/componentType", 5126, "must be 5121, 5123 or 5125");
   refuse("/indices/bufferView", 9, "sparse.indices.bufferView");
-  refuse("/indices/byteOffset", 5, "runs over the end");
-  refuse("/values/byteOffset", 30, "runs over the end");
+  refuse("/indices/byteOffset", 5, "extends past the end");
+  refuse("/values/byteOffset", 30, "extends past the end");
 }
 
 TEST(GltfCheck, NodesAreTrees) {
@@ -153,7 +153,7 @@ TEST(GltfCheck, VersionsAreChecked) {
   sample.json["asset"] = {{"version", "2.1"}};
   EXPECT_EQ(sample.error(), "");
   sample.json["asset"] = {{"version", "2.1"}, {"minVersion", "2.1"}};
-  EXPECT_THAT(sample.error(), HasSubstr("needs a reader of glTF \"2.1\""));
+  EXPECT_THAT(sample.error(), HasSubstr("needs glTF version \"2.1\""));
   sample.json["asset"] = {{"version", 2.0}};
   EXPECT_THAT(sample.error(), HasSubstr("asset.version must be text"));
 }
@@ -179,7 +179,7 @@ TEST(GltfCheck, SmallFileMayNotUnfoldToAHugeModel) {
   sample.triangle();
   sample.json["accessors"][0].erase("bufferView");
   sample.json["accessors"][0]["count"] = 4000000000u;
-  EXPECT_THAT(sample.error(), HasSubstr("unfolds to far more vertices"));
+  EXPECT_THAT(sample.error(), HasSubstr("expands to far more vertices"));
 
   // A million vertices of zeros, drawn repeatedly with different weights.
   sample.json["accessors"][0]["count"] = 3000000;
@@ -187,7 +187,7 @@ TEST(GltfCheck, SmallFileMayNotUnfoldToAHugeModel) {
     sample.json["nodes"].push_back({{"mesh", 0}, {"weights", {i}}});
     sample.json["scenes"][0]["nodes"].push_back(i + 1);
   }
-  EXPECT_THAT(sample.error(), HasSubstr("unfolds to far more vertices"));
+  EXPECT_THAT(sample.error(), HasSubstr("expands to far more vertices"));
 }
 
 TEST(GltfCheck, NothingToDraw) {

@@ -109,7 +109,7 @@ TEST(Meshopt, WhatDoesNotFitIsRefusedByPlace) {
       {[](MeshoptSample& s) { s.extension(0)["count"] = 4000000000u; }, "far more than"},
       {[](MeshoptSample& s) { s.extension(0)["count"] = 12; }, ""},
       {[](MeshoptSample& s) { s.extension(0)["buffer"] = 7; }, "buffer"},
-      {[](MeshoptSample& s) { s.extension(0)["byteOffset"] = 1 << 20; }, "runs over the end"},
+      {[](MeshoptSample& s) { s.extension(0)["byteOffset"] = 1 << 20; }, "extends past the end"},
       {[](MeshoptSample& s) { s.extension(0)["filter"] = "WARP"; }, "filter"},
       {[](MeshoptSample& s) { s.extension(1)["filter"] = "OCTAHEDRAL"; }, "filter"},
       {[](MeshoptSample& s) { s.json["bufferViews"][0]["byteLength"] = 60000; },
@@ -205,7 +205,7 @@ TEST(Draco, WhatDoesNotFitIsRefusedByPlace) {
       {[](DracoSample& s) { s.extension()["bufferView"] = 5; }, "bufferView"},
       {[](DracoSample& s) { s.extension().erase("attributes"); }, "attributes is missing"},
       {[](DracoSample& s) { s.json["accessors"][1]["type"] = "VEC4"; }, "fewer components"},
-      {[](DracoSample& s) { s.json["accessors"][0]["type"] = "MAT4"; }, "no vector"},
+      {[](DracoSample& s) { s.json["accessors"][0]["type"] = "MAT4"; }, "not a vector"},
       {[](DracoSample& s) { s.json["bufferViews"][0]["byteLength"] = 20; }, "damaged"},
       {[](DracoSample& s) { s.binary[0] = 'X'; }, "damaged"},
   };

@@ -57,7 +57,7 @@ TEST(GltfFile, MissingBufferIsNamed) {
             "buffers[0], the file \"gone.bin\", does not exist: put it there or export the model "
             "as .glb");
   sample.buffers = {{{"byteLength", 36}, {"uri", "http://host/gone.bin"}}};
-  EXPECT_THAT(sample.error(), HasSubstr("is not a file beside the model"));
+  EXPECT_THAT(sample.error(), HasSubstr("is not a file next to the model"));
   sample.buffers = {{{"byteLength", 36}, {"uri", "%00"}}};
   EXPECT_THAT(sample.error(), HasSubstr("is not a file name"));
   sample.buffers = {{{"byteLength", 36}}};
@@ -113,8 +113,8 @@ TEST(GltfFile, DamagedGlbIsRefused) {
   EXPECT_EQ(errorOf(glb(2, whole, json.size(), "JSON") + "behind the end"), "");
   EXPECT_THAT(errorOf("glTF"), StartsWith("ends in its GLB header"));
   EXPECT_THAT(errorOf(glb(1, whole, json.size(), "JSON")), StartsWith("is GLB version 1"));
-  EXPECT_THAT(errorOf(glb(2, whole + 1, json.size(), "JSON")), StartsWith("is cut off"));
-  EXPECT_THAT(errorOf(glb(2, whole, 0xffffffff, "JSON")), HasSubstr("runs over the end"));
+  EXPECT_THAT(errorOf(glb(2, whole + 1, json.size(), "JSON")), StartsWith("is truncated"));
+  EXPECT_THAT(errorOf(glb(2, whole, 0xffffffff, "JSON")), HasSubstr("extends past the end"));
   EXPECT_THAT(errorOf(glb(2, whole, json.size(), "NOSJ")), HasSubstr("is not JSON"));
   EXPECT_THAT(errorOf(glb(2, 12, json.size(), "JSON")), StartsWith("has no JSON chunk"));
 }

@@ -181,7 +181,7 @@ TEST(Texture, GiantsAreRefusedAtOnce) {
       messageOf([&] { glint::decodeTexture(makePng(0x7fffffff, 0x7fffffff, 8, 6, row), "a"); }),
       HasSubstr("PNG is damaged (arithmetic overflow)"));
   EXPECT_THAT(messageOf([&] { glint::decodeTexture(makePng(16384, 16384, 16, 6, row), "a"); }),
-              HasSubstr("cut short"));
+              HasSubstr("truncated"));
   // The JPEG's size follows its SOF0 marker: length, precision, height, width.
   Bytes jpeg = makeJpeg(3, false);
   for (std::size_t i = 0; i + 8 < jpeg.size(); ++i) {
@@ -245,8 +245,8 @@ TEST(Image, DamagedPfmIsRefused) {
                              "PF\n1 x\n-1\n", "PF\n1 1 1", "PF\n99999999999 1\n-1\n", "PF\n"}) {
     EXPECT_THAT(message(header), HasSubstr("a.pfm: the PFM's header is damaged")) << header;
   }
-  EXPECT_THAT(message("PF\n2 1\n-1\n"), HasSubstr("cut short"));
-  EXPECT_THAT(message("PF\n16384 16384\n-1\n"), HasSubstr("cut short"));
+  EXPECT_THAT(message("PF\n2 1\n-1\n"), HasSubstr("truncated"));
+  EXPECT_THAT(message("PF\n16384 16384\n-1\n"), HasSubstr("truncated"));
   EXPECT_THAT(message("PF\n4000000000 4000000000\n-1\n"), HasSubstr("too many"));
 }
 

@@ -179,11 +179,11 @@ TEST_F(Writer, EndingsAndSizesThatDoNotWorkAreRefused) {
     options.bitDepth = depth;
     return messageOf([&] { glint::openPictureWriter(in(name), width, height, options); });
   };
-  EXPECT_THAT(open("a.bmp"), HasSubstr("BMP is not written: use .png, .jpg"));
+  EXPECT_THAT(open("a.bmp"), HasSubstr("BMP cannot be written: use .png, .jpg"));
   EXPECT_THAT(open("png"), HasSubstr(".exr or .pfm"));
-  EXPECT_THAT(open("a.xyz"), HasSubstr("is that of no known format"));
-  EXPECT_THAT(open("a.jpg", 65501), HasSubstr("JPEG has at most 65500 pixels a side"));
-  EXPECT_THAT(open("a.webp", 1, 16384), HasSubstr("WebP has at most 16383 pixels a side"));
+  EXPECT_THAT(open("a.xyz"), HasSubstr("is not that of a known format"));
+  EXPECT_THAT(open("a.jpg", 65501), HasSubstr("JPEG has at most 65500 pixels per side"));
+  EXPECT_THAT(open("a.webp", 1, 16384), HasSubstr("WebP has at most 16383 pixels per side"));
   for (const int quality : {0, 101, -1}) {
     glint::PictureOptions options;
     options.quality = quality;

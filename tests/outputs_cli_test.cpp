@@ -111,7 +111,7 @@ TEST(Formats, AreAPngWhereTheEndingTellsNone) {
   EXPECT_THAT(ran.err, IsEmpty());
   EXPECT_EQ(render(folder / "other", "--output-format jpg").status, 0);
   EXPECT_EQ(contents(folder / "other").substr(0, 2), "\xFF\xD8");
-  expectRefusal(render(folder / "a.tif"), "TIFF is not written");
+  expectRefusal(render(folder / "a.tif"), "TIFF cannot be written");
 }
 
 TEST(Raw, IsTheFloatsOfThePfm) {

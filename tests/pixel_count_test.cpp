@@ -143,7 +143,7 @@ TEST(PixelCount, NumberAndShareAllowed) {
   EXPECT_TRUE(compare(a, b, options).same);
   options.maxPixels = {{2}};
   EXPECT_THAT(compare(a, b, options).failures,
-              ElementsAre("3 pixels are over the tolerance of 0.1, allowed are 2"));
+              ElementsAre("3 pixels are over the tolerance of 0.1, the limit is 2"));
   options.maxPixels = {{0.03, true}};
   EXPECT_TRUE(compare(a, b, options).same);
   options.maxPixels = {{0.0299, true}};

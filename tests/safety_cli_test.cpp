@@ -87,7 +87,7 @@ TEST(NoOutput, IsAFileThatIsRead) {
   const std::string before = contents(texture), bin = contents((folder / "sample.bin").string());
   for (const char* name : {"{model}.png", "hard.png", "soft.png", "./tree.png"}) {
     SCOPED_TRACE(name);
-    expectRefusal(draw(model, folder / name), "would be lost");
+    expectRefusal(draw(model, folder / name), "would be overwritten");
     EXPECT_EQ(contents(texture), before);
   }
   // For any output and any input.
@@ -339,14 +339,14 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
       const Ran ran = runGlint(command);
       EXPECT_EQ(ran.status, each.good ? 0 : 2) << ran.err;
       if (!each.good) {
-        EXPECT_THAT(ran.err, HasSubstr("lies outside of the model's folder"));
+        EXPECT_THAT(ran.err, HasSubstr("is outside the model's folder"));
       }
     }
   }
   // The model itself may also be a link that leads out.
   fs::rename(inner / "m.gltf", folder / "m.gltf");
   fs::create_symlink("../m.gltf", inner / "m.gltf");
-  expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "lies outside");
+  expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "is outside the model's folder");
 }
 
 TEST(Converting, TakesATimeThatGrowsWithTheFile) {

@@ -88,8 +88,8 @@ TEST(StudyCommand, MakesNoFrontOfWhatItCannotTell) {
   const Json json = Json::parse(contents(folder / "out/study.json"));
   EXPECT_EQ(json["clock"], "cpu");
   const std::string why = json["noFront"];
-  EXPECT_THAT(why, HasSubstr("There is no front: by CPU time"));
-  EXPECT_THAT(why, HasSubstr("when the machine is at rest"));
+  EXPECT_THAT(why, HasSubstr("There is no front: in CPU time"));
+  EXPECT_THAT(why, HasSubstr("when the machine is idle"));
   EXPECT_TRUE(json["fronts"].empty());
   for (const Json& v : json["variants"]) EXPECT_TRUE(v["errors"][0]["fronts"].empty());
   EXPECT_THAT(ran.out, HasSubstr(why));

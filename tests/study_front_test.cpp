@@ -272,12 +272,12 @@ TEST(StudyFront, IsNotMadeBeyondTheLimit) {
   EXPECT_EQ(whyNoFront(noise, FrameClock::cpu, 0.1), "");
   const std::string why = whyNoFront(noise, FrameClock::wall, 0.1);
   EXPECT_NE(
-      why.find("by wall time one program, measured twice, differs from itself by up to 39.0 %"),
+      why.find("in wall time, one program measured twice differs from itself by up to 39.0 %"),
       std::string::npos)
       << why;
-  EXPECT_NE(why.find("By CPU time it is 1.5 %: give --clock cpu"), std::string::npos) << why;
+  EXPECT_NE(why.find("In CPU time it is 1.5 %: use --clock cpu"), std::string::npos) << why;
   noise[1].spread = 0.53;
-  EXPECT_NE(whyNoFront(noise, FrameClock::wall, 0.1).find("larger --repetitions"),
+  EXPECT_NE(whyNoFront(noise, FrameClock::wall, 0.1).find("with more --repetitions"),
             std::string::npos);
   EXPECT_EQ(whyNoFront(noise, FrameClock::wall, 0.4), "");
 }

@@ -117,7 +117,7 @@ def test_makes_no_front_of_what_it_cannot_tell(browser):
                         "--repetitions", "3", "--shading", "phong", "--spread-limit", "0", "--output", folder],
                        check=True, stdout=subprocess.DEVNULL)
         browser.open(folder + "/study.html")
-        assert browser.evaluate("$('nofront').textContent").startswith("There is no front: by wall time")
+        assert browser.evaluate("$('nofront').textContent").startswith("There is no front: in wall time")
         assert browser.evaluate("document.querySelectorAll('#front-plot .name').length") == 0
         assert "on the front" not in browser.evaluate("document.body.innerText")
         assert not browser.errors, browser.errors

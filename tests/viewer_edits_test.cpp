@@ -230,7 +230,7 @@ TEST(LightEdit, OneTooBrightForAnOptionGetsWhatArrivesAtTheCentre) {
   }
   Look look;
   const std::string told = setLights(look, &scene, bounds, shownLights(&scene, look));
-  EXPECT_THAT(told, HasSubstr("2 fall off no more"));
+  EXPECT_THAT(told, HasSubstr("2 no longer fall off"));
   EXPECT_THAT(told, testing::Not(HasSubstr("\n")));
   EXPECT_EQ((*look.light)[1].intensity, glm::dvec3(400, 200, 0));
   EXPECT_FALSE((*look.light)[1].fallsOff);

@@ -47,7 +47,7 @@ def test_the_palette_finds_and_does():
         assert viewer.picture()[0] == top, "the palette did not do what the key does"
         viewer.key("ctrl+p")
         viewer.settled()
-        viewer.xdotool("type", "--delay", "20", "first view again")
+        viewer.xdotool("type", "--delay", "20", "reset the view")
         viewer.key("Escape")  # has no effect
         assert viewer.picture()[0] == top
         assert viewer.alive()
@@ -279,7 +279,7 @@ def test_saving_asks_once_and_a_deleted_model_is_told():
         viewer.key("ctrl+m")
         wait_for("the model to be saved again, unasked", lambda: content() != once)
         os.remove(viewer.model)
-        wait_for("the message", lambda: "no longer there" in viewer.told())
+        wait_for("the message", lambda: "no longer exists" in viewer.told())
         assert viewer.alive()
 
 

@@ -64,7 +64,7 @@ def test_job_lights_are_set():
         bright, look = job.picture()
         assert len(set((first, two, bright))) == 3
         assert not [text for text in look["light"] if text.endswith(":0,0,0")], look["light"]
-        job.say("ambient light alone")
+        job.say("only ambient light")
         assert job.save_look()[0]["no-lights"] is True
         job.key("ctrl+z", "shift+Delete")
         assert job.picture()[0] == first
@@ -239,7 +239,7 @@ def test_job_a_measured_material_is_fitted():
         job.settled()
         job.key("p")
         first, _ = job.picture()
-        job.say("fit to the measured")
+        job.say("fit to the open measured")
         fitted, look = job.picture()
         values = list(look["material"].values())[0]
         assert 40 < values["exponent"] < 80, values  # a quarter of Blinn's

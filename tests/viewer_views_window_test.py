@@ -57,7 +57,7 @@ def test_split_and_difference():
             viewer.crop(viewer.capture(), size), size, 0, size[0]) == columns(
                 expected, size, 0, size[0]))
         viewer.key("Tab")
-        wait_for("B in place of A", lambda: columns(
+        wait_for("B instead of A", lambda: columns(
             viewer.crop(viewer.capture(), size), size, 60, size[0]) == columns(
                 a, size, 60, size[0]))
 

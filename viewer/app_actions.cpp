@@ -68,7 +68,7 @@ void App::pick(glm::dvec2 pixel) {
   if (!hit) {
     const std::string key = keyText(infoOf(Action::allMaterials));
     return session_.say(
-        "nothing there: " + materialLabel(session_.model->scene, session_.material) +
+        "no surface there: " + materialLabel(session_.model->scene, session_.material) +
         (session_.material < 0 ? " stay" : " stays") + " selected (" + key + ": all)");
   }
   session_.material = hit->material;

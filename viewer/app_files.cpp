@@ -61,7 +61,7 @@ void App::finishLoading() {
     pivot_.reset();
     screenStale_ = probeStale_ = true;
     const std::size_t warnings = session_.log.size() - before;
-    session_.say("read " + session_.model->path.string() +
+    session_.say("opened " + session_.model->path.string() +
                  (warnings ? " (" + std::to_string(warnings) + " warnings: see Info)" : ""));
   });
   // A model that could not be reloaded is retried when its file changes; another file that could
@@ -86,7 +86,7 @@ void App::offerRecovered() {
   std::strftime(when, sizeof when, "%Y-%m-%d %H:%M", std::localtime(&time));
   const std::string name = found.model.empty() ? "a look" : found.model.filename().string();
   dialogs_.ask("Not saved last time",
-               "Edits of " + name + " of " + when + " were not saved when the window ended.",
+               "Edits of " + name + " of " + when + " were not saved when the window closed.",
                {{"Restore",
                  [this, found] {
                    if (found.model.empty() || !options_.model.empty()) return restore(found);
@@ -120,8 +120,7 @@ bool App::watch() {
     } else if (!toldMissing_ && seconds(Clock::now() - *missingSince_) > 2) {
       toldMissing_ = tried = true;
       session_.fail(session_.model->path.string() +
-                    " is no longer there: what is shown stays; save the model under a name to keep "
-                    "it");
+                    " no longer exists: the model stays open; save it under a name to keep it");
     }
     if (!missingSince_) toldMissing_ = false;
   }
@@ -146,7 +145,7 @@ bool App::watch() {
         requested_.reset();
         failed_.reset();
         shownResult_.request = {};
-        session_.say("compiled the shaders of " + options_.glsl.string() + " again");
+        session_.say("recompiled the shaders in " + options_.glsl.string());
       });
     }
   }
@@ -173,7 +172,7 @@ void App::openMeasured(const std::string& path) {
     session_.measured = std::make_shared<const MeasuredMaterial>(path);
     options_.settings.panel = true;
     session_.wantedTab = 0;
-    session_.say("read " + path + ": its plot stands below the material");
+    session_.say("opened " + path + ": its plot is below the material");
   });
 }
 
@@ -192,13 +191,13 @@ void App::open(const std::string& path) {
       session_.saved = session_.lookOnDisk = look;
       session_.lookPath = file;
       lookState_ = stateOf(file);
-      session_.say("read the look " + path);
+      session_.say("loaded the look " + path);
     });
     return;
   }
   if (!session_.unsaved()) return load(file);
   dialogs_.ask("Not saved", "Edits are not saved. Open " + file.filename().string() + " anyway?",
-               {{"Open, and lose them", [this, file] { load(file); }}, {"Cancel", {}}});
+               {{"Open without saving", [this, file] { load(file); }}, {"Cancel", {}}});
 }
 
 bool App::asksFirst(const std::string& path, bool sure, const std::function<void()>& replace,

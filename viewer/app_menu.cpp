@@ -70,8 +70,8 @@ void App::paletteWindow() {
   ImGui::SetNextItemWidth(-1);
   const bool typed = ImGui::InputTextWithHint(
       "##words",
-      palette_.materialsAlone ? "a material by words of its name; Enter selects it"
-                              : "an action or a material by words; Enter does it",
+      palette_.materialsAlone ? "words of a material's name; Enter selects it"
+                              : "words of an action or a material; Enter runs or selects it",
       &palette_.words);
   if (typed || appearing) {
     std::vector<std::string> names;
@@ -84,7 +84,7 @@ void App::paletteWindow() {
   std::optional<Finding> chosen;
   static int shown = -1;
   ImGui::BeginChild("found");
-  if (palette_.found.empty()) ImGui::TextDisabled("nothing has these words");
+  if (palette_.found.empty()) ImGui::TextDisabled("nothing matches");
   for (std::size_t i = 0; i < palette_.found.size(); ++i) {
     const Finding& each = palette_.found[i];
     const bool here = int(i) == palette_.at;
@@ -128,19 +128,20 @@ void App::helpWindow() {
                       std::exchange(helpScroll_, 0.0f) * ImGui::GetTextLineHeightWithSpacing());
   ImGui::Columns(wide ? 3 : 2, "keys", false);
   ImGui::TextDisabled("Mouse over the picture");
-  line("left drag", "turn the camera about what it looks at");
+  line("left drag", "orbit around the focal point");
   line("middle drag", "move the camera sideways (also Shift + left)");
-  line("right drag", "nearer, farther");
-  line("wheel", "nearer to, farther from what is under the cursor");
+  line("right drag", "zoom in, out");
+  line("wheel", "zoom in or out at the cursor");
   line("Ctrl+left drag", "roll");
   line("click", "select the material under the cursor");
-  line("double-click", "turn about the point there; on the background about the middle again");
+  line("double-click", "orbit around the point there; on the background, around the middle again");
   ImGui::Spacing();
   ImGui::TextDisabled("Panel");
-  line("double-click", "on a slider, or the name of anything else: reset it");
-  line("Ctrl+click", "on a slider: type a value, beyond the slider too; 0,5 and 1/3 are numbers");
+  line("double-click", "on a slider, or on the name of any other row: reset it");
+  line("Ctrl+click",
+       "on a slider: type a value, which may be outside its range; 0,5 and 1/3 are accepted");
   line("Down",
-       "into the panel; there arrows go on, Space works, Enter types, Backspace resets, "
+       "into the panel: arrows move on, Space changes, Enter starts typing, Backspace resets, "
        "Escape leaves");
   std::string_view section;
   for (const ActionInfo& info : actions()) {

@@ -171,7 +171,7 @@ void App::composeScreen() {
   if (session_.overlay == Overlay::clipped) {
     const std::size_t marked = markClipped(pixels, a.linear, a.look.exposure);
     session_.say(std::to_string(marked) +
-                 " pixels are clipped (red), negative (blue) or not numbers (magenta)");
+                 " pixels are clipped (red), negative (blue) or not a number (magenta)");
   }
   if (shownResult_.overlay) layOver(pixels, *shownResult_.overlay);
   screen_.upload(pixels.data(), pictureA.width, pictureA.height);

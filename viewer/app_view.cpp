@@ -155,14 +155,14 @@ void App::dolly(glm::dvec2 pixel, double factor) {
     tooNear = factor < 1 && distance * factor < nearest;
     return tooNear ? p : dollied(p, factor, point);
   });
-  if (tooNear) session_.say("as near to the surface as it can be seen");
+  if (tooNear) session_.say("already as near to the surface as possible");
 }
 
 void App::setPivot(glm::dvec2 pixel) {
   const auto hit = hitAt(pixel);
   pivot_ = hit ? std::optional(hit->position) : std::nullopt;
-  session_.say(hit ? "drags turn about this point now; double-click the background to end it"
-                   : "drags turn about the middle of the view");
+  session_.say(hit ? "drags now orbit around this point; double-click the background to end this"
+                   : "drags orbit around the middle of the view");
 }
 
 std::optional<glm::dvec2> App::placeOf(const glm::dvec3& world) const {
@@ -199,7 +199,7 @@ std::string App::comparisonText() const {
     const auto exact = reference_->picture();
     if (shownResult_.request.preview || !exact || exact->look != exactLook(a->look) ||
         a->look != comparableLook(a->look))
-      return "the exact reference follows at rest";
+      return "the exact reference is drawn when the view is at rest";
     if (exact->failed) return exact->error;
     const int rows = exact->rows;
     std::snprintf(text, sizeof text,
@@ -210,9 +210,9 @@ std::string App::comparisonText() const {
     if (errors_.edges > 0)
       all += ", " + std::to_string(errors_.edges) + " pixels at edges left out";
     else if (exact->edges.empty())
-      all += ", pixels at edges among them";
+      all += ", including pixels at edges";
     if (errors_.notFinite > 0)
-      all += ", " + std::to_string(errors_.notFinite) + " pixels not finite";
+      all += ", " + std::to_string(errors_.notFinite) + " non-finite pixels";
     if (rows < exact->linear.height)
       all += "; " + std::to_string(100 * rows / exact->linear.height) + " % drawn";
     return all;
@@ -276,7 +276,7 @@ void App::drawOverPicture() {
     std::string text = comparisonText();
     if (!exact) {
       char times[40];
-      std::snprintf(times, sizeof times, ", shown x %.3g", document.amplification);
+      std::snprintf(times, sizeof times, ", multiplied by %.3g", document.amplification);
       text += times;
     }
     write(10 * s, size.y - ImGui::GetTextLineHeight() - 8 * s, text, true);

@@ -126,7 +126,7 @@ bool Dialogs::drawFiles(float width) {
       ImGui::GetIO().DisplaySize.y / ImGui::GetTextLineHeightWithSpacing() - 12, 4.0f, 12.0f);
   if (ImGui::BeginListBox("##files",
                           ImVec2(width, ImGui::GetTextLineHeightWithSpacing() * lines))) {
-    if (listed_.empty()) ImGui::TextDisabled("nothing here that can be opened");
+    if (listed_.empty()) ImGui::TextDisabled("nothing to open in this folder");
     for (const std::string& name : listed_) {
       const fs::path chosen = fs::path(listedFolder_) / name;
       const bool now = text_ == chosen.lexically_normal().string();

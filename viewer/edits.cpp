@@ -76,7 +76,7 @@ void scaleLights(Session& session, double factor) {
     return session.say("light scale " + numberText(*look.lightScale));
   }
   std::vector<Light> lights = shownLights(scene, look);
-  if (lights.empty()) return session.say("there is no light");
+  if (lights.empty()) return session.say("there are no lights");
   for (Light& light : lights) light.intensity = glm::min(light.intensity * factor, 1e6);
   look.light = std::move(lights);
   session.say(factor > 1 ? "brighter lights" : "darker lights");
@@ -90,26 +90,26 @@ void editLights(Session& session, Action command, const glm::dmat3& axes) {
   const std::size_t count = lights.size();
   session.light = std::min(session.light, count > 0 ? count - 1 : 0);
   if (command == Action::switchLight || command == Action::soloLight) {
-    if (count == 0) return session.say("there is no light");
+    if (count == 0) return session.say("there are no lights");
     const bool solo = command == Action::soloLight;
     (solo ? soloLight : switchLight)(lights, session.light, session.lightsOff);
     const bool on = lights[session.light].intensity != glm::dvec3(0.0);
     const std::string became = setLights(look, scene, bounds, std::move(lights));
     return session.say("light " + std::to_string(session.light + 1) +
-                       (solo ? ": alone, or all"
+                       (solo ? ": solo, or all again"
                         : on ? ": on"
                              : ": off") +
                        (became.empty() ? "" : "; " + became));
   }
   if (command != Action::nextLight) session.lightsOff.clear();  // their indices change
   if (command == Action::addLight) {
-    if (count >= maxLights) return session.say("no more lights than these are possible");
+    if (count >= maxLights) return session.say("no light added: the maximum is reached");
     Light sun;
     sun.direction = {1, 1, 1};
     lights.push_back(count == 0 ? sun : anotherLight(lights[session.light], bounds, axes));
     session.light = count;
   } else {
-    if (count == 0) return session.say("there is no light");
+    if (count == 0) return session.say("there are no lights");
     if (command == Action::nextLight) {
       session.light = (session.light + 1) % count;
       return session.say("selected light " + std::to_string(session.light + 1) + " of " +
@@ -119,8 +119,8 @@ void editLights(Session& session, Action command, const glm::dmat3& axes) {
   }
   const std::string became = setLights(look, scene, bounds, std::move(lights));
   session.say(!became.empty()               ? became
-              : command == Action::addLight ? "one light more"
-                                            : "one light less");
+              : command == Action::addLight ? "added a light"
+                                            : "removed a light");
 }
 
 void moveTime(Session& session, double step) {
@@ -158,7 +158,7 @@ void fitToMeasured(Session& session) {
   setParameters(look, materialKey(scene, session.material), nearest);
   const FitError error = errorOf(*session.measured, nearest, form);
   char text[120];
-  std::snprintf(text, sizeof text, "exponent %.4g, %.3g RMSE: %.3g %% of what was measured",
+  std::snprintf(text, sizeof text, "exponent %.4g, RMSE %.3g: %.3g %% of the measured RMS",
                 nearest.exponent, error.rmse, 100 * error.relative);
   session.say(materialLabel(scene, session.material) + ": " + text);
 }

@@ -54,33 +54,32 @@ std::string withoutEffect(const Look& look, const Scene* scene, std::string_view
   const bool own = !look.hdriFile.empty();
   if (isOneOf(name, {"fresnel", "medium-ior", "schlick-exponent", "ior", "transmission"}) &&
       !environment)
-    return "only the program environment reads it: choose that as shading";
+    return "only the program environment uses it: choose that as shading";
   if (name == "schlick-exponent" && !usesSchlick(look))
     return "only Schlick's forms have it: choose one as fresnel";
   if (isOneOf(name, {"environment", "hdri-file", "environment-rotation"}) && !environment &&
       !background)
     return "nothing shows the environment: choose the program environment, or tick environment "
            "background";
-  if (name == "environment" && own)
-    return "the picture of hdri file stands in its place: clear that";
+  if (name == "environment" && own) return "the hdri file replaces it: clear that";
   if (name == "environment-rotation" && !own && look.environment == Environment::white)
     return "the white environment is the same all around";
   if (isOneOf(name, {"environment-background", "background-color"}) && look.noBackground)
     return "the background is transparent: untick no background";
   if (name == "background-color" && look.environmentBackground)
-    return "the environment stands there: untick environment background";
+    return "the environment is shown there: untick environment background";
   if (name == "blinn-factor" && look.shading != Shading::automatic && !usesBlinn(look.shading))
     return "the lobe is Phong's: choose blinn-phong or environment as shading";
   if (name == "light-scale" && !lightsAreTheFiles(scene, look))
     return scene && scene->lights.empty() ? "the model's file has no lights"
                                           : "the lights are not the file's";
   if (name == "specular-antialiasing" && !isPerPixel(look.shading))
-    return "light is computed per face or vertex: choose a program that shades pixels as shading";
+    return "light is computed per face or vertex: choose a per-pixel program as shading";
   if (isOneOf(name, {"highlight", "specular-antialiasing", "normalization"}) && look.noLights)
-    return "there is no light: untick no lights";
+    return "there are no lights: untick no lights";
   if (name == "camera-direction" && look.cameraPosition && look.cameraFocalPoint)
-    return "position and focal point say it";
-  if (name == "camera-zoom-factor" && look.cameraPosition) return "the position says it";
+    return "position and focal point determine it";
+  if (name == "camera-zoom-factor" && look.cameraPosition) return "the position determines it";
   if (name == "animation-time" && scene && scene->animations.empty())
     return "the file has no animation";
   return {};

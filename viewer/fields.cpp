@@ -122,7 +122,7 @@ std::optional<double> typed(ImGuiID id, const Reading& read) {
     typing.begins = 10;  // stays open to be corrected
     return {};
   }
-  if (!now.value) problem = "'" + typing.text + "': " + now.error + "; it stays as it was";
+  if (!now.value) problem = "'" + typing.text + "': " + now.error + "; the old value is kept";
   typing = {};
   return now.value;
 }

@@ -48,8 +48,8 @@ std::string setLights(Look& look, const Scene* scene, const Bounds& bounds,
   if (!takenOver) return {};
   if (changed == 0) return "the file's lights are your own now";
   return "the file's lights are your own now; " + std::to_string(changed) +
-         (changed == 1 ? " falls" : " fall") +
-         " off no more: above 1e6 at one unit, set to the intensity at the model's centre";
+         (changed == 1 ? " no longer falls" : " no longer fall") +
+         " off: above 1e6 at one unit, so set to the intensity at the model's centre";
 }
 
 void setFallOff(Light& light, bool on, const Bounds& bounds) {

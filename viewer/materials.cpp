@@ -140,15 +140,15 @@ void pasteMaterial(Look& look, const std::string& key, const std::string& text) 
   if (!parsed) {
     if (text.find('=') == std::string::npos || text.find('\n') != std::string::npos)
       throw InputError(
-          "this holds no material: copy one here, or text such as "
-          "{\"exponent\": 40} or exponent=40,color=#c04020");
+          "this is not a material: paste one, or text such as {\"exponent\": 40} or "
+          "exponent=40,color=#c04020");
     parseMaterialEdit(changed, key.empty() ? text : key + ":" + text);
   } else {
     const Json& json = *parsed;
     const Json* from = json.is_object() && json.contains("extras") ? &json["extras"] : &json;
     if (from->is_object() && from->contains("glint")) from = &(*from)["glint"];
     if (!from->is_object() || from->empty())
-      throw InputError("this JSON holds no parameters of a material");
+      throw InputError("this JSON has no material parameters");
     for (const auto& [name, value] : from->items()) {
       std::string number;
       if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() &&

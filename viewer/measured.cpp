@@ -161,23 +161,22 @@ MeasuredMaterial::MeasuredMaterial(const std::filesystem::path& path) : path_(pa
   std::int64_t count = 1;
   for (const std::int32_t n : header) {
     if (n < 1 || n > 4096)
-      throw InputError(name + ": no measured material: give a MERL .binary file");
+      throw InputError(name + ": not a measured material: give a MERL .binary file");
     count *= n;
   }
   std::error_code none;
   const auto size = std::filesystem::file_size(path, none);
   if (none || count > mostValues ||
       size != sizeof header + std::uint64_t(count) * 3 * sizeof(double))
-    throw InputError(name + ": holds " + std::to_string(size) +
-                     " bytes where its header tells of " + std::to_string(header[0]) + " x " +
-                     std::to_string(header[1]) + " x " + std::to_string(header[2]) +
-                     " values: copy the file anew");
+    throw InputError(name + ": holds " + std::to_string(size) + " bytes, but its header declares " +
+                     std::to_string(header[0]) + " x " + std::to_string(header[1]) + " x " +
+                     std::to_string(header[2]) + " values: copy the file again");
   bins_ = {header[0], header[1], header[2]};
   std::vector<double> values(std::size_t(count), 0.0);
   for (int c = 0; c < 3; ++c) {
     if (!file.read(reinterpret_cast<char*>(values.data()),
                    std::streamsize(values.size() * sizeof(double))))
-      throw InputError(name + ": ends too early: copy the file anew");
+      throw InputError(name + ": ends too early: copy the file again");
     values_[c].reserve(values.size());
     for (const double v : values)
       values_[c].push_back(v >= 0 && v < 1e30 ? float(v * channelScale[c])
@@ -221,7 +220,7 @@ FitError errorOf(const MeasuredMaterial& m, const ShadingParameters& s, const Fi
 ShadingParameters fitted(const MeasuredMaterial& m, const FitForm& form,
                          const ShadingParameters& from) {
   const std::vector<Pair> pairs = pairsOf(m);
-  if (pairs.empty()) throw InputError(m.path().string() + ": nothing in it was measured");
+  if (pairs.empty()) throw InputError(m.path().string() + ": has no measured values");
   std::vector<double> lambdas;
   for (const Pair& p : pairs) lambdas.push_back(lambdaOf(form, p));
   const auto left = [&](double logExponent) {

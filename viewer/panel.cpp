@@ -75,8 +75,7 @@ void drawShadingTab(PanelContext& context) {
     drawChoice(context);
     if (look.shading != Shading::automatic || look.maxError) continue;
     const std::string key = keyText(infoOf(Action::maxError));
-    ImGui::TextWrapped("auto chooses by the error that is allowed: tick max error (%s)",
-                       key.c_str());
+    ImGui::TextWrapped("auto needs an allowed error: tick max error (%s)", key.c_str());
   }
   ImGui::Separator();
   if (!session.model) return;

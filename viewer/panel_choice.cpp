@@ -51,7 +51,7 @@ void materialChoice(const FormChoice& c) {
   if (c.specular) parts += "\nthe lobe's formula: " + number(c.lobe);
   if (c.dielectric) parts += "\nthe reflectance's formula: " + number(c.reflectance);
   if (c.interpolation > 0)
-    parts += "\nshading by face or vertex in place of pixel: " + number(c.interpolation);
+    parts += "\nshading per face or vertex instead of per pixel: " + number(c.interpolation);
   parts += "\nrounding: " + number(c.rounding);
   if (c.exactCost > 0)
     parts += "\nThe forms cost " + number(c.cost) + ", the exact ones " + number(c.exactCost) + ".";
@@ -85,7 +85,7 @@ void drawChoice(PanelContext& context) {
     else
       ImGui::TextUnformatted(text.c_str());
     widgets::tooltip(
-        "no pixel's shading is farther than this from the exact one, in linear light before "
+        "no pixel's shading differs from the exact one by more than this, in linear light before "
         "exposure: the largest bound of the materials");
     ImGui::SameLine();
   } else {
@@ -97,7 +97,7 @@ void drawChoice(PanelContext& context) {
   std::snprintf(text, sizeof text, "%s%.3g ms%s", picture->asked.maxError ? "   frame " : "", frame,
                 context.preview ? " (while moving)" : "");
   ImGui::TextUnformatted(text);
-  widgets::tooltip("choosing, drawing and encoding of the last picture, without compiling");
+  widgets::tooltip("choosing, drawing and encoding the last picture, without compiling");
   if (!resolved.programReason.empty()) programChoice(resolved);
   if (resolved.choices.empty()) return;
   // A long list scrolls.

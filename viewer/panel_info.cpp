@@ -143,9 +143,9 @@ void drawCompareTab(PanelContext& context) {
   actionButton(context, Action::swapAB, "Exchange A and B", half);
   if (!document.b)
     ImGui::TextWrapped(
-        "Keep the look as B, then go on editing A: the two stand side by side, in turn, or as "
-        "their difference. To compare two programs or forms of one look, keep it and choose "
-        "another here or in the tab Shading.");
+        "Keep the look as B, then go on editing A: the two are shown side by side, in turn, or as "
+        "their difference. To compare two programs or forms with one look, keep it and choose "
+        "another here or on the tab Shading.");
   ImGui::Separator();
   ImGui::TextDisabled("A is compared with");
   ImGui::BeginDisabled(!document.b);
@@ -167,8 +167,8 @@ void drawCompareTab(PanelContext& context) {
       {CompareMode::split, Action::compareSplit},
       {CompareMode::blink, Action::compareBlink},
       {CompareMode::difference, Action::compareDifference}};
-  const char* const names[] = {"A alone", "side by side",
-                               document.exact ? "reference in place of A" : "B in place of A",
+  const char* const names[] = {"only A", "side by side",
+                               document.exact ? "reference instead of A" : "B instead of A",
                                "difference"};
   for (int i = 0; i < 4; ++i) {
     if (ImGui::RadioButton(names[i], document.compare == modes[i].first))
@@ -190,7 +190,7 @@ void drawCompareTab(PanelContext& context) {
     ImGui::TextWrapped("%s", inLines(context.comparison).c_str());
   if (document.exact || !document.b) return;
   ImGui::Separator();
-  ImGui::TextDisabled("B, with A in the tabs Shading to Picture");
+  ImGui::TextDisabled("B's values; A's are on the tabs Shading to Picture");
   for (const Parameter& p : lookParameters()) {
     if (p.name != "shading" && p.name != "highlight" && p.name != "fresnel" &&
         p.name != "max-error")
@@ -235,19 +235,19 @@ void drawInfoTab(PanelContext& context) {
     row("pieces", "%zu", scene.instances.size());
     row("radius", "%.5g", session.model->bounds.radius);
     vectorRow("centre", session.model->bounds.center);
-    row("read in", "%.0f ms", session.model->loadTime);
+    row("load", "%.0f ms", session.model->loadTime);
   }
   if (context.picture && ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
     const DrawnPicture& p = *context.picture;
     row("picture", "%d x %d%s", p.look.resolution.x, p.look.resolution.y,
         context.preview ? " (while moving)" : "");
-    row("samples", "%d a pixel", p.samples);
-    row("all", "%.1f ms", p.milliseconds);
+    row("samples", "%d per pixel", p.samples);
+    row("total", "%.1f ms", p.milliseconds);
     row("compile", "%.1f ms", p.times.compile);
     row("draw", "%.1f ms", p.times.draw);
     row("read back", "%.1f ms", p.times.read);
     row("panel", "%.1f ms", context.uiMilliseconds);
-    if (p.notNumbers > 0) row("not numbers", "%zu pixels", p.notNumbers);
+    if (p.notNumbers > 0) row("not a number", "%zu pixels", p.notNumbers);
   }
   if (context.picture && session.model &&
       ImGui::CollapsingHeader("Shaders and why", ImGuiTreeNodeFlags_DefaultOpen))

@@ -34,15 +34,15 @@ void editPlace(Light& light, const Bounds& bounds) {
   widgets::label("falls off");
   if (ImGui::Checkbox("##falloff", &fallsOff)) setFallOff(light, fallsOff, bounds);
   widgets::tooltip(
-      "the light weakens with the square of the distance; the intensity is that at one world unit. "
-      "On or off, the light at the model's centre stays");
+      "the light falls off with the square of the distance; the intensity is given at one world "
+      "unit. Switching it keeps the light at the model's centre");
   if (!light.fallsOff) return;
   widgets::label("range");
   const double reach = std::max(4 * bounds.radius, 1.0);
   widgets::slider("##range", light.range, {0, reach, false}, 0, 1e30,
-                  light.range > 0 ? "%.4g" : "no end");
+                  light.range > 0 ? "%.4g" : "unlimited");
   if (widgets::resetAsked(true)) light.range = 0;
-  widgets::tooltip("world units from the light to where there is none left\nDouble-click: no end");
+  widgets::tooltip("world units from the light to where its light ends\nDouble-click: unlimited");
 }
 
 void editLight(Light& light, const PanelContext& context) {
@@ -119,7 +119,7 @@ void drawLightsTab(PanelContext& context) {
   session.light = std::min(session.light, lights.empty() ? 0 : lights.size() - 1);
 
   if (look.noLights)
-    ImGui::TextDisabled("no lights: ambient light alone");
+    ImGui::TextDisabled("no lights: only ambient light");
   else if (lightsAreTheFiles(scene, look))
     ImGui::TextDisabled("%d of the model's file; editing makes them your own", int(lights.size()));
   else if (!look.light)
@@ -143,8 +143,8 @@ void drawLightsTab(PanelContext& context) {
       bool on = c != glm::dvec3(0.0);
       if (smallCheckbox(on)) switched = i;
       widgets::tooltip("on or off (" + keyText(infoOf(Action::switchLight)) +
-                       " for the selected one, " + keyText(infoOf(Action::soloLight)) +
-                       " for that one alone)");
+                       " for the selected light, " + keyText(infoOf(Action::soloLight)) +
+                       " for only that light)");
       ImGui::SameLine();
       const std::string text = std::to_string(i + 1) + "  " + typeNames[int(lights[i].type)] +
                                (lights[i].fallsOff ? ", falls off" : "");

@@ -112,20 +112,20 @@ void materialForms(Session& session) {
   MaterialEdit edit = found == look.material.end() ? MaterialEdit{} : found->second;
   const MaterialEdit before = edit;
   bool own = edit.highlight || edit.fresnel;
-  widgets::label("own forms", own);
+  widgets::label("forms of this material", own);
   if (ImGui::Checkbox("##own", &own)) {
     edit.highlight = own ? std::optional(look.highlight) : std::nullopt;
     edit.fresnel = own ? std::optional(look.fresnel) : std::nullopt;
   }
-  widgets::tooltip("this material's lobe and reflectance by other forms than the look's above");
+  widgets::tooltip("other forms of lobe and reflectance for this material than the look's above");
   if (own) {
     HighlightForms form = edit.highlight.value_or(look.highlight);
-    if (widgets::highlightForm("its highlight", edit.highlight.has_value(), form,
+    if (widgets::highlightForm("material's highlight", edit.highlight.has_value(), form,
                                "form of this material's lobe"))
       edit.highlight = form;
-    widgets::label("its fresnel", edit.fresnel.has_value());
+    widgets::label("material's fresnel", edit.fresnel.has_value());
     const Fresnel now = edit.fresnel.value_or(look.fresnel);
-    if (ImGui::BeginCombo("##its fresnel", std::string(fresnelText(now)).c_str())) {
+    if (ImGui::BeginCombo("##material's fresnel", std::string(fresnelText(now)).c_str())) {
       for (std::size_t i = 0; i < fresnelTexts().size(); ++i)
         if (ImGui::Selectable(std::string(fresnelTexts()[i]).c_str(), Fresnel(i) == now))
           edit.fresnel = Fresnel(i);
@@ -192,9 +192,9 @@ void materialButtons(PanelContext& context) {
   widgets::tooltip(
       "a material from the classic published tables (teapots.c, Silicon Graphics), in Phong's "
       "parameters (" +
-      keyText(infoOf(Action::nextPreset)) + " the next, " +
-      keyText(infoOf(Action::previousPreset)) + " the previous); " +
-      keyText(infoOf(Action::keepPreset)) + " keeps the selected one among your own");
+      keyText(infoOf(Action::nextPreset)) + " next, " + keyText(infoOf(Action::previousPreset)) +
+      " previous); " + keyText(infoOf(Action::keepPreset)) +
+      " keeps the selected material as a preset");
   ImGui::SameLine();
   actionRow(context, width,
             {{Action::copyMaterial, "Copy"},

@@ -54,16 +54,16 @@ void errorRow(const std::shared_ptr<const MeasuredMaterial>& material, const Sha
   static Compared last;
   if (!same(last, material, s, form)) {
     if (ImGui::IsAnyMouseDown() && last.material) {
-      ImGui::TextDisabled("the error follows at rest");
+      ImGui::TextDisabled("the error is computed when edits pause");
       return;
     }
     last = {material, s, form, errorOf(*material, s, form)};
   }
-  ImGui::TextWrapped("off by %.3g RMSE (%.3g %% of what was measured), at most %.3g; linear light",
+  ImGui::TextWrapped("RMSE %.3g (%.3g %% of the measurement), max %.3g; linear light",
                      last.error.rmse, 100 * last.error.relative, last.error.largest);
   widgets::tooltip(
-      "the sum of a light of intensity 1 against pi times the measured reflectance times N.L, over "
-      "all pairs of directions within 80 degrees of the normal");
+      "the sum for a light of intensity 1 compared with pi times the measured reflectance times "
+      "N.L, over all pairs of directions within 80 degrees of the normal");
 }
 
 void plotOf(Settings& settings, const MeasuredMaterial& material, const ShadingParameters& s,
@@ -94,7 +94,7 @@ void plotOf(Settings& settings, const MeasuredMaterial& material, const ShadingP
     ImGui::SetTooltip("viewer at %.1f degrees\nmeasured %.4g %.4g %.4g\nmodel %.4g %.4g %.4g", *x,
                       yAt(measured[0], *x), yAt(measured[1], *x), yAt(measured[2], *x),
                       yAt(model[0], *x), yAt(model[1], *x), yAt(model[2], *x));
-  legend(IM_COL32(200, 200, 200, 120), "broad: measured");
+  legend(IM_COL32(200, 200, 200, 120), "thick: measured");
   ImGui::SameLine();
   legend(IM_COL32(230, 230, 230, 255), "thin: the model, by channel");
 }
@@ -109,8 +109,8 @@ void drawMeasured(PanelContext& context, const FitForm& form) {
     return;
   if (!any) {
     ImGui::TextWrapped(
-        "Open a measured reflectance (MERL .binary): it stands here beside the model, and a button "
-        "finds the material that comes nearest.");
+        "Open a measured reflectance (MERL .binary): it is compared here with the model, and a "
+        "button fits the material to it.");
     actionButton(context, Action::open, "Open ...", -1);
     return;
   }

@@ -34,9 +34,8 @@ void drawTextures(PanelContext& context) {
     bool on = !texture.isOff;
     if (ImGui::Checkbox(texture.name.c_str(), &on))
       switchTexture(look, scene, session.material, texture, on);
-    widgets::tooltip(texture.own
-                         ? "off: as if the material had none; on: it is read again"
-                         : "off: the numbers above take its place; on: it gives them again");
+    widgets::tooltip(texture.own ? "off: as if the material had none; on: it is used again"
+                                 : "off: the values above replace it; on: it replaces them again");
     ImGui::TextDisabled("%s", texture.drives.c_str());
     ImGui::EndGroup();
     ImGui::PopID();

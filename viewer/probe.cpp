@@ -176,10 +176,10 @@ void setTerms(Probe& probe, const reference::Stage& stage, const LayerValue& lay
 std::string remarkFor(const reference::Stage& stage, const std::vector<LayerValue>& layers) {
   const reference::Item& item = stage.items[std::size_t(layers.front().item)];
   if (item.mesh->topology != Topology::triangles)
-    return "a point or line: no normal, so that it shows C alone";
+    return "a point or line: no normal, so it shows only C";
   if (layers.front().attributes.edgeDistance < 1.0 / 256)
-    return "an edge passes the pixel's centre so closely that the driver may show what is beside "
-           "it";
+    return "an edge passes so close to the pixel's centre that the driver may show the surface "
+           "next to it";
   if (item.colorTexture || item.emissionTexture)
     return "textured: drivers filter textures in fixed point, to about 1/256";
   return {};

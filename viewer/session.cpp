@@ -74,7 +74,7 @@ void Session::saveModel(const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(p).parent_path();
   };
   if (folder(path) != folder(model->path) && refersToFiles(original, source))
-    throw InputError(source + " refers to other files beside it: save it in the same folder");
+    throw InputError(source + " refers to files next to it: save it in the same folder");
   const std::vector<std::byte> bytes = patchGltf(original, patches, source);
   // The model itself may be replaced, but not the files that it is drawn from.
   if (std::error_code none; std::filesystem::equivalent(path, source, none)) forgetReadFile(source);
@@ -127,7 +127,7 @@ void Session::take(std::shared_ptr<const Model> loaded) {
   }
   const std::string missing = dropMissing(document.a, model->scene);
   if (!missing.empty())
-    log.push_back(model->path.string() + " has no " + missing + ": the look goes on without");
+    log.push_back(model->path.string() + " has no " + missing + ": the look ignores it");
   if (document.b) dropMissing(*document.b, model->scene);
   if (!same) {
     writtenMaterials.clear();

@@ -128,8 +128,9 @@ TypedNumber readTypedNumber(std::string_view text, double min, double max) {
   const auto value = Expression(text).value();
   if (!value || !std::isfinite(*value)) {
     std::string error = value ? "not a finite number" : "not a number";
-    return {{},
-            error + ": type one such as 0.5, 0,5 or 1/3" + (limits.empty() ? "" : ", " + limits)};
+    return {
+        {},
+        error + ": type a number such as 0.5, 0,5 or 1/3" + (limits.empty() ? "" : ", " + limits)};
   }
   if (min < max && !(*value >= min && *value <= max))
     return {{}, shortText(*value) + " is out of range: " + limits};

@@ -166,8 +166,8 @@ bool highlightForm(const std::string& name, bool edited, HighlightForms& forms,
     }
   }
   tooltip(
-      "the power that the form is raised to by squaring: 1, 2, 4, ... 64; larger ones are "
-      "nearer to the exact lobe and cost more");
+      "the power to which the form is raised by squaring: 1, 2, 4, ... 64; larger ones are nearer "
+      "to the exact lobe and cost more");
   return changed;
 }
 

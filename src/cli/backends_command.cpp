@@ -10,8 +10,8 @@
 namespace glint {
 
 Command addBackends(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("backends", "list the GL backends, which of them work here, and why not");
+  CLI::App* command = app.add_subcommand(
+      "backends", "list the GL backends, and for each whether it works here, or why not");
   command->footer(examples({"backends", "backends --json -"}));
   auto json = std::make_shared<std::string>();
   addOption(*command, "--json", *json, "FILE", "write the list as JSON; - is stdout");

@@ -117,7 +117,8 @@ Sweep::Sweep(const std::string& text) : text_(text) {
       key_.erase(0, end + 1);
     }
     const MaterialParameter* const m = materialNumber(key_);
-    if (!m) refuse(text, "there is no number '" + key_ + "': give one of " + knownNames());
+    if (!m)
+      refuse(text, "there is no numeric parameter '" + key_ + "': give one of " + knownNames());
     logarithmic = m->slider.logarithmic;
     ofMaterial_ = true;
   }
@@ -125,7 +126,7 @@ Sweep::Sweep(const std::string& text) : text_(text) {
   double from = 0, to = 0, steps = 0;
   if (parts.size() < 3 || parts.size() > 4 || !readNumber(parts[0], from) ||
       !readNumber(parts[1], to) || !readNumber(parts[2], steps))
-    refuse(text, "give KEY=FROM:TO:STEPS, with :log or :linear behind it if need be");
+    refuse(text, "give KEY=FROM:TO:STEPS, optionally followed by :log or :linear");
   if (steps != std::floor(steps) || steps < 2 || steps > mostSteps)
     refuse(text, "give from 2 to " + std::to_string(mostSteps) + " steps");
   if (parts.size() == 4) {
@@ -134,7 +135,7 @@ Sweep::Sweep(const std::string& text) : text_(text) {
     logarithmic = parts[3] == "log";
   }
   if (logarithmic && !(from > 0 && to > 0))
-    refuse(text, "steps even in the logarithm need numbers above 0: give others, or :linear");
+    refuse(text, "logarithmic steps need numbers above 0: give others, or use :linear");
   for (int i = 0; i < int(steps); ++i) {
     const double share = i / (steps - 1);
     values_.push_back(i == 0                ? from

@@ -65,7 +65,8 @@ void checkKind(const ConvertOptions& options, bool glb) {
   const std::string ending = fs::path(options.out).extension().string();
   if (ending == (glb ? ".glb" : ".gltf")) return;
   throw InputError(options.out + ": " + in + " is a " + (glb ? "GLB" : "JSON") +
-                   " file and stays one: give a name that ends in " + (glb ? ".glb" : ".gltf"));
+                   " file and cannot be converted to the other kind: give a name that ends in " +
+                   (glb ? ".glb" : ".gltf"));
 }
 
 constexpr std::uint64_t mostCopied = std::uint64_t(8) << 30;
@@ -77,7 +78,7 @@ bool forEachPart(const gltf::ByteSource& source, const Use& use) {
   for (std::uint64_t at = 0; at < source.size(); at += part.size()) {
     part.resize(std::size_t(std::min<std::uint64_t>(part.size(), source.size() - at)));
     if (!source.read(part.data(), at, part.size()))
-      throw InputError("convert: a file beside the model cannot be read: check the disk");
+      throw InputError("convert: a file next to the model cannot be read: check the disk");
     if (!use(part)) return false;
   }
   return true;
@@ -109,23 +110,23 @@ void copyReferred(const ConvertOptions& options, const std::string& in,
     const fs::path name = fs::path(gltf::percentDecoded(uri)).lexically_normal();
     if (name.is_absolute() || name.empty() || *name.begin() == "..")
       throw InputError(in + ": refers to " + gltf::printableUri(uri) +
-                       ", outside of its folder: write " + options.out + " beside it");
+                       ", outside its folder: write " + options.out + " next to it");
     std::string error;
     gltf::ByteSource content = gltf::openUri(uri, in, error);
     if (!error.empty())
       throw InputError(in + ": " + gltf::printableUri(uri) + ", which it refers to, " + error +
-                       ": write " + options.out + " beside it");
+                       ": write " + options.out + " next to it");
     const fs::path target = to / name;
     if (fs::weakly_canonical(target) == fs::weakly_canonical(options.out))
       throw InputError(options.out + ": " + in +
                        " refers to a file of this name: " + "give another name");
     const bool there = fs::exists(target);
     if (there && !sameBytes(target, content))
-      throw InputError(target.string() + ": is another file than the one of " + in +
+      throw InputError(target.string() + ": already exists and differs from that of " + in +
                        ": write to another folder");
     if (content.size() > mostCopied)
-      throw InputError(target.string() + ": has more than 8 GiB: write " + options.out +
-                       " beside " + in);
+      throw InputError(target.string() + ": is larger than 8 GiB: write " + options.out +
+                       " next to " + in);
     if (!there) copies.emplace_back(target.string(), std::move(content));
   }
   for (const auto& [target, content] : copies) {

@@ -25,7 +25,7 @@ void takePathsBack(DiffRequest& request) {
     for (const std::string* path : {&request.a, &request.b})
       if (!path->empty())
         throw InputError("--run " + printablePath(request.testRun) + ": leave out " +
-                         printablePath(*path) + ": the tests say what they compared");
+                         printablePath(*path) + ": the test results record what was compared");
     return;
   }
   for (std::string* path : {&request.b, &request.a}) {

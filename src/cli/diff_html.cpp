@@ -58,12 +58,14 @@ std::string magmaText() {
 
 DiffHtml::DiffHtml(const std::string& path, bool beside)
     : file_(path), folder_(beside ? path + ".pictures" : ""), kept_(std::tmpfile(), std::fclose) {
-  if (!kept_) throw InputError("no temporary file: set TMPDIR to a folder with room");
+  if (!kept_)
+    throw InputError("cannot make a temporary file: set TMPDIR to a folder with free space");
 }
 
 void DiffHtml::keep(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), kept_.get()) != text.size())
-    throw InputError("the temporary file of the report: no room: set TMPDIR to a folder with room");
+    throw InputError(
+        "the report's temporary file: no space left: set TMPDIR to a folder with free space");
   written_ += text.size();
 }
 

@@ -126,7 +126,7 @@ void addLayer(const LayerPair& pair, const CompareOptions& given, bool first, bo
         entry.notes.push_back(layerName(pair.a->name) + " differs in" + text);
       else
         result.failures.push_back(std::string("it differs in") + text +
-                                  ": give one of values (--metric max --threshold T)");
+                                  ": give a condition on values (--metric max --threshold T)");
     }
     result.same = result.failures.empty();
   }

@@ -214,7 +214,7 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
                                    {"--ignore-anti-aliasing", given.ignoreAntiAliasing}})
     if (used && !counts)
       throw InputError(std::string(name) +
-                       ": it is of --max-pixels: give that, too (--max-pixels 0)");
+                       ": it modifies --max-pixels: give that, too (--max-pixels 0)");
   for (const std::string& box : given.ignored) options.ignored.push_back(boxOf(box));
   options.tolerance = given.tolerance;
   options.ignoreAntiAliasing = given.ignoreAntiAliasing;

@@ -160,14 +160,14 @@ function drawDetail() {
   for (const text of [p.error, ...(p.failures || [])]) if (text) main.append(element('div', text, 's' + p.status));
   for (const text of p.notes || []) main.append(element('div', text));
   for (const [what, text] of Object.entries(p.notFollowed || {}))
-    main.append(element('div', `not followed: ${what}${text === 'yes' ? '' : ' (' + text + ')'}`));
+    main.append(element('div', `ignored metadata: ${what}${text === 'yes' ? '' : ' (' + text + ')'}`));
   if (report.updateCommand && (p.status === 1 || p.status === 4) && p.b)
     main.append(commandOf('To accept it:', report.updateCommand + (pairs.length > 1 || report.run ? ' ' + quoted(p.name) : '')));
   main.append(columnsOf(p));
   if (p.log) {
     const log = element('details'), pre = element('pre', p.log);
     log.open = p.status !== 0;
-    log.append(element('summary', 'what the program said'), pre);
+    log.append(element('summary', 'output of the program'), pre);
     main.append(log);
   }
   drawStage();
@@ -180,7 +180,7 @@ function columnsOf(p) {
     const list = tableOf('regions', `regions that differ: ${p.regionCount}${more}`, p.regions.map((r, i) =>
       [i + 1, `${r.left}, ${r.top} – ${r.right}, ${r.bottom}`, counted(r.pixels, 'pixel'), r.difference === null ? 'not finite' : format(r.difference)]));
     const rows = list.firstChild.rows;
-    [...rows].forEach((tr, i) => { tr.title = 'show it'; tr.className = i === region ? 'on' : ''; tr.onclick = () => showRegion(i); });
+    [...rows].forEach((tr, i) => { tr.title = 'show this region'; tr.className = i === region ? 'on' : ''; tr.onclick = () => showRegion(i); });
     below.append(list);
   }
   if (p.metrics) {
@@ -199,13 +199,13 @@ function columnsOf(p) {
     const list = tableOf('worst', `worst pixels (${p.values === 'linear' ? 'linear light' : 'sRGB, 0 to 1'})`,
       p.worst.map(w => [`${w.x}, ${w.y}`, show(w.a) + ' → ' + show(w.b), format(w.difference)]));
     [...list.firstChild.rows].forEach((tr, i) => {
-      tr.title = 'show it'; tr.onclick = () => look(p.worst[i].x, p.worst[i].y, Math.max(zoom, 48));
+      tr.title = 'show this pixel'; tr.onclick = () => look(p.worst[i].x, p.worst[i].y, Math.max(zoom, 48));
     });
     below.append(list);
   }
   const texts = [p.textA || {}, p.textB || {}], keys = [...new Set(texts.flatMap(t => Object.keys(t)))].sort();
   if (keys.length) {
-    const list = tableOf('making', 'what the pictures say of their making',
+    const list = tableOf('making', 'how the pictures were made',
       [['', 'A', 'B'], ...keys.map(k => [k, texts[0][k] ?? '', texts[1][k] ?? ''])]);
     keys.forEach((k, i) => { if (p.a && p.b && texts[0][k] !== texts[1][k]) list.firstChild.rows[i + 1].className = 'other'; });
     below.append(list);

@@ -82,8 +82,8 @@ function drawStage() {
 }
 /// Why a picture is missing.
 function absence(mode) {
-  if (!stage.a && !stage.b && !pair.error && pair.same) return 'The pictures are left out to keep the page small.';
-  return mode === 'A' ? 'There is no A to be shown.' : mode === 'B' ? 'There is no B to be shown.' : 'Neither picture can be shown.';
+  if (!stage.a && !stage.b && !pair.error && pair.same) return 'These equal pictures were left out to keep the page small.';
+  return mode === 'A' ? 'A cannot be shown.' : mode === 'B' ? 'B cannot be shown.' : 'Neither picture can be shown.';
 }
 
 /// Shows what is under the mouse: both pictures' values as stored, and the error.

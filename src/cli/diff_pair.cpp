@@ -45,7 +45,7 @@ struct TemporaryPng {
     const int file = error ? -1 : ::mkstemps(name.data(), 4);
     if (file < 0)
       throw InputError("no temporary file can be made in " + temporaryFolderName() +
-                       ": set TMPDIR to a folder that is there and has room");
+                       ": set TMPDIR to an existing folder with free space");
     ::close(file);
     path = name;
   }
@@ -279,7 +279,7 @@ void diffPair(const DiffSettings& settings, DiffEntry& entry, PairPictures* pict
   try {
     if (entry.b.empty()) {
       entry.status = unusable;
-      entry.error = "missing: there is a baseline and no picture";
+      entry.error = "missing: there is a baseline but no picture";
       if (pictures) showAlone(settings, entry.a, true, entry, pictures);
     } else if (entry.a.empty()) {
       entry.status = noBaseline;

@@ -353,7 +353,7 @@ std::string markdownText(const Json& report) {
     for (const char* metric : {"flip", "max", "pixels"}) text += " | " + metricText(pair, metric);
     text += " | " + cell(failureText(pair)) + " |\n";
   }
-  if (told > most) text += "\nand more; the report has all.\n";
+  if (told > most) text += "\nand more; see the report for all of them.\n";
   if (report.contains("updateCommand"))
     text += "\nTo accept them: `" + textOf(report, "updateCommand") + "`\n";
   return text;

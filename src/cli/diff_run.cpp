@@ -103,7 +103,7 @@ struct Summary {
     std::string ignored;
     for (const auto& [what, count] : notFollowed)
       ignored += (ignored.empty() ? "" : ", ") + what + " of " + std::to_string(count);
-    if (!ignored.empty()) text += "; not followed: " + ignored;
+    if (!ignored.empty()) text += "; ignored metadata: " + ignored;
     return text;
   }
 };
@@ -226,7 +226,7 @@ int diffPictures(const DiffRequest& request) {
   std::vector<DiffEntry> entries(1);
   DiffEntry& entry = entries[0];
   if (request.a == "-" && request.b == "-")
-    throw InputError("diff - -: one of the two may come from stdin");
+    throw InputError("diff - -: only one of the two can come from stdin");
   entry.name = request.b == "-" ? "stdin" : fs::path(request.b).filename().string();
   if (request.a == "-" || !isMissing(request.a)) entry.a = request.a;
   if (request.b == "-" || !isMissing(request.b)) entry.b = request.b;
@@ -273,7 +273,7 @@ int diffPictures(const DiffRequest& request) {
   } else if (!writesToStdout(request)) {
     std::string line = diffLine(json);
     if (const std::string text = notFollowedText(json); !text.empty())
-      line += "; not followed: " + text;
+      line += "; ignored metadata: " + text;
     std::cout << line << "\n";
   }
   return entry.status;
@@ -297,7 +297,7 @@ int runDiff(DiffRequest request) {
   if (folderB && (folderA || isMissing(request.a))) return diffFolders(request);
   if (folderA != folderB && !isMissing(request.a) && !isMissing(request.b))
     throw InputError(printablePath(request.a) + " and " + printablePath(request.b) +
-                     ": one is a folder, the other a file: give two of a kind");
+                     ": one is a folder, the other a file: give two folders or two files");
   if (folderA)
     throw InputError(printablePath(request.b) + ": No such file or directory: check the path");
   if (request.pruning) throw InputError("--prune: only for two folders, or with --run");

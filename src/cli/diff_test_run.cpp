@@ -64,9 +64,9 @@ Json pairOf(const std::string& folder, const std::string& file, const TestRecord
                 ? "the program crashed (signal " + std::to_string(number - 128) + ")"
                 : "the program ended with status " + std::to_string(number);
   } else if (stage == "nothing") {
-    error = "the program has not written its picture";
+    error = "the program did not write its picture";
   } else if (pair.empty()) {
-    error = "the comparison has left no result";
+    error = "the comparison left no result";
   }
   if (!error.empty()) pair = Json{{"status", int(unusable)}, {"error", error}};
   pair["name"] = record.name;
@@ -130,7 +130,7 @@ TestRun readTestRun(const std::string& folder) {
     if (file.path().extension() == ".txt") files.push_back(file.path().stem().string());
   if (files.empty())
     throw InputError("--run " + printablePath(folder) +
-                     ": no image tests in it: give the folder image-tests of a build folder");
+                     ": no image tests found: give the folder image-tests of a build folder");
   std::sort(files.begin(), files.end());
   TestRun run;
   run.pairs = Json::array();

@@ -224,7 +224,7 @@ void print(const Json& json) {
               << "\n";
   }
   for (const auto& [list, words] :
-       {std::pair("scenes", "scenes"), std::pair("materialVariants", "variants of materials")}) {
+       {std::pair("scenes", "scenes"), std::pair("materialVariants", "material variants")}) {
     if (json[list].empty()) continue;
     std::cout << words << ":";
     for (std::size_t i = 0; i < json[list].size(); ++i)

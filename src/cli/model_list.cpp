@@ -140,7 +140,7 @@ void ModelList::readEntry(const std::string& line, ModelEntry& entry) const {
   }
   std::string fault;
   const std::optional<Json> json = parseJsonText<Json>(line, fault);
-  if (!json) throw InputError(fault + ": a path that begins with { goes as ./{");
+  if (!json) throw InputError(fault + ": write a path that begins with { as ./{");
   const auto text = [](const std::string& key, const Json& value) {
     if (!value.is_string() || value.get<std::string>().empty())
       throw InputError("\"" + key + "\": give a string that is not empty");
@@ -156,11 +156,11 @@ void ModelList::readEntry(const std::string& line, ModelEntry& entry) const {
     else if (key == "look" && value.is_string())
       entry.lookFile = text(key, value);
     else if (key == "look")
-      throw InputError("\"look\": give an object of a look's keys, or the name of a look file");
+      throw InputError("\"look\": give an object with keys of a look, or the name of a look file");
     else
       throw InputError("unknown key \"" + key + "\": give model, output and look");
   }
-  if (entry.model.empty()) throw InputError("no \"model\": give the path of one");
+  if (entry.model.empty()) throw InputError("no \"model\": give the path of a model");
 }
 
 bool ModelList::readLine(std::string& line) {

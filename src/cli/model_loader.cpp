@@ -107,7 +107,8 @@ LoadedModel ModelLoader::load(const ModelEntry& entry, std::vector<PlannedPictur
     const auto start = Clock::now();
     readOwnLook(model);
     if (options_.list == "-" && isStdin(entry.model))
-      throw InputError("--from-list -: " + entry.model + " in it: stdin is the list: give a file");
+      throw InputError("--from-list -: " + entry.model +
+                       " in it: stdin is already used for the list: give a file");
     const std::string path = modelFile(entry.model);
     std::future<std::string> hash = startTask([path] { return modelHash(path); });
     if (options_.resume) {

@@ -90,7 +90,7 @@ void PicturePlan::checkOutputs() {
   forEachOutput([&](const std::string& output) {
     if (isReadFile(output))
       throw InputError("-o " + options_.output + ": " + printablePath(output) +
-                       " is a file that is read and would be lost: give another name");
+                       " is an input file and would be overwritten: give another name");
   });
 }
 
@@ -133,8 +133,9 @@ std::vector<PlannedPicture> PicturePlan::named(const ModelEntry& entry) const {
 void PicturePlan::take(const ModelEntry& entry, const std::vector<PlannedPicture>& pictures) {
   for (const PlannedPicture& picture : pictures) {
     if (!picture.reference.empty() && isSameFile(picture.output, picture.reference))
-      throw InputError("--reference " + printablePath(picture.reference) +
-                       ": -o writes that file, it would be compared with itself: give another");
+      throw InputError(
+          "--reference " + printablePath(picture.reference) +
+          ": -o writes to that file, so it would be compared with itself: give another file");
     // Raw pictures can be separated in a stream.
     if (picture.output == "-" &&
         pictureOptions(options_, picture.output).format->id == PictureFormat::Id::raw)

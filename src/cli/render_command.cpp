@@ -26,7 +26,7 @@ std::string signalText(int number, const RenderReport& report, std::optional<std
   std::string text = number == SIGINT ? "stopped by an interrupt: " : "stopped by a signal: ";
   text += std::to_string(report.done());
   if (all) text += " of " + std::to_string(*all);
-  return text + " pictures are done; the same command with --resume makes the others";
+  return text + " pictures are done; run the same command with --resume to make the others";
 }
 
 int render(const RenderOptions& options, const LookSource& makeLook) {

@@ -97,7 +97,7 @@ void checkRenderOptions(const RenderOptions& options) {
   const PictureFormat* const named = pictureFormatNamed(options.formatName);
   if (!options.formatName.empty() && (!named || !named->isWritten))
     throw InputError("--output-format: '" + options.formatName +
-                     "' is no format that is written: give png, jpg, webp, exr, pfm or raw");
+                     "' is not an output format: give png, jpg, webp, exr, pfm or raw");
   const PictureFormat& format = *pictureOptions(options, options.output).format;
   if (options.models.empty() && !options.hasList())
     throw InputError("render: no MODEL: give models, or a list of them with --from-list");
@@ -106,9 +106,9 @@ void checkRenderOptions(const RenderOptions& options) {
   if (options.output == "-" && options.hasList())
     throw InputError("-o - and --from-list: the list's report goes to stdout: give -o a file name");
   if (options.output == "-" && !options.reference.empty())
-    throw InputError("-o - and --reference: a picture is compared in its file: give -o a name");
+    throw InputError("-o - and --reference: only files can be compared: give -o a name");
   if (options.output == "-" && options.terms)
-    throw InputError("-o - and --terms: several pictures: give -o a name");
+    throw InputError("-o - and --terms: there are several pictures: give -o a name");
   if (options.output == "-" && format.needsFile)
     throw InputError("-o - and --output-format " + options.formatName +
                      ": this format needs a regular file: give -o a name, or the format raw");
@@ -116,7 +116,7 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError(
         "--output-format raw and --reference: raw pictures are not read: give another format");
   if (options.turntable > 0 && options.frames > 0 && options.turntable != options.frames)
-    throw InputError("--turntable and --frames: give both the same number");
+    throw InputError("--turntable and --frames: give the same number for both");
   if (options.sweeps.size() > 2) throw InputError("--sweep: more than two: give one or two");
   const auto key = [&](std::size_t i) {
     return options.sweeps[i].substr(0, options.sweeps[i].find('='));
@@ -124,10 +124,10 @@ void checkRenderOptions(const RenderOptions& options) {
   if (options.sweeps.size() == 2 && key(0) == key(1))
     throw InputError("--sweep: twice over " + key(0) + ": give one sweep, or two numbers");
   if (options.bitDepth == 16 && format.id != Id::png)
-    throw InputError("--bit-depth: of PNG alone, and " + options.output + " is " +
+    throw InputError("--bit-depth: only for PNG, and " + options.output + " is " +
                      std::string(format.name) + ": leave it out");
   if (options.quality && format.id != Id::jpeg && format.id != Id::webp)
-    throw InputError("--quality: of JPEG and WebP alone, and " + options.output + " is " +
+    throw InputError("--quality: only for JPEG and WebP, and " + options.output + " is " +
                      std::string(format.name) + ": leave it out");
   if (!options.sweeps.empty() && options.terms)
     throw InputError("--sweep and --terms: give one of them");
@@ -135,7 +135,7 @@ void checkRenderOptions(const RenderOptions& options) {
     throw InputError("--reference-threshold: needs --reference FILE");
   if (options.resume && !format.holdsText)
     throw InputError("--resume: " + options.output +
-                     " does not hold what a picture was made from: use .png or .exr");
+                     " cannot record what a picture was made from: use .png or .exr");
 }
 
 }  // namespace glint

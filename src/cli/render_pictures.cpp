@@ -41,8 +41,8 @@ void compareWithReference(const RenderOptions& options, const PlannedPicture& pi
   } catch (const std::exception& error) {
     const bool missing = isMissing(picture.reference);
     fail(result,
-         missing ? printablePath(picture.reference) + ": no such picture to compare with: take " +
-                       printablePath(picture.output) + " if it is as it should be"
+         missing ? printablePath(picture.reference) + ": no such picture to compare with: use " +
+                       printablePath(picture.output) + " if it is correct"
                  : failureOf(error, picture.reference),
          missing ? noBaseline : unusable);
     return;
@@ -175,12 +175,12 @@ class ModelDrawing {
     const PictureFormat& format = *pictureOptions(run_.options, planned.output).format;
     if (run_.options.formatName.empty() && planned.output != "-" &&
         !pictureFormatOf(planned.output))
-      remarks.push_back("its ending is that of no picture format: this is a " +
+      remarks.push_back("its extension is not that of a picture format: written as " +
                         std::string(format.name));
     // Whoever writes PFM wants three numbers per pixel.
     if (look.noBackground && !format.hasAlpha && !format.isFloat)
       remarks.push_back("a " + std::string(format.name) +
-                        " has no transparency: what is transparent is black");
+                        " has no transparency: transparent parts become black");
     return remarks;
   }
 
@@ -268,8 +268,8 @@ class ModelDrawing {
     out.encodeTime += since(start);
     if (nan > 0) {
       const std::string warning = planned.output + ": " + std::to_string(nan) +
-                                  " pixels are not numbers and are shown black: please report "
-                                  "this model";
+                                  " pixels are not numbers and are drawn black: please report this "
+                                  "model";
       result.warnings.push_back(warning);
       result.news.push_back(result.entry["model"].get<std::string>() + ": " + warning);
     }

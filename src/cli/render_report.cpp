@@ -38,11 +38,11 @@ std::string progressText(std::size_t done, std::size_t skipped, std::optional<st
   std::string text = std::to_string(done);
   if (all) text += " of " + std::to_string(*all);
   text += done == 1 && !all ? " picture" : " pictures";
-  if (skipped > 0) text += " (" + std::to_string(skipped) + " were there)";
+  if (skipped > 0) text += " (" + std::to_string(skipped) + " already existed)";
   const double rate = double(done - skipped) / seconds;  // skipped pictures take no time
   if (!(rate > 0) || !std::isfinite(rate)) return text;
   char words[48];
-  std::snprintf(words, sizeof words, ", %.*f a second", rate < 10 ? 2 : 0, rate);
+  std::snprintf(words, sizeof words, ", %.*f per second", rate < 10 ? 2 : 0, rate);
   text += words;
   if (all && *all >= done) text += ", " + timeText(double(*all - done) / rate) + " left";
   return text;

@@ -162,7 +162,7 @@ Command addStability(CLI::App& app) {
        "write stability.html, a page with plots of this driver, into this folder");
   text("--json", options->json, "FILE", "write the report as JSON; - is stdout");
   text("--glsl", options->glsl, "DIR",
-       "use the shader files in this folder in place of the built-in ones");
+       "use the shader files in this folder instead of the built-in ones");
   return [options] { return runStability(*options); };
 }
 

@@ -172,8 +172,8 @@ void refuseOthers(const CLI::App& command, const std::string& mode, const std::s
                                  ? option->get_name()
                                  : "--" + option->get_lnames().front();
     if (name != mode && name != allowed)
-      throw InputError(mode + ": measures the forms alone, whatever is drawn: leave " + name +
-                       " out");
+      throw InputError(mode + ": measures only the forms, independently of model and look: leave " +
+                       name + " out");
   }
 }
 
@@ -181,11 +181,11 @@ void refuseOthers(const CLI::App& command, const std::string& mode, const std::s
 std::string driversHalves() {
   try {
     const MediumpReport driver = mediumpOfDriver();
-    return "The driver here, " + driver.renderer + ", computes `mediump` " +
-           (driver.isHalf ? "in 16 bits: this is what its shaders lose by it.\n"
-                          : "in more than 16 bits: here it loses nothing.\n");
+    return "This driver, " + driver.renderer + ", computes `mediump` " +
+           (driver.isHalf ? "in 16 bits: the table shows the resulting errors.\n"
+                          : "in more than 16 bits: these errors do not occur here.\n");
   } catch (const ContextError& error) {
-    return "No OpenGL ES 3 here that would tell what a driver makes of `mediump`: " +
+    return "No OpenGL ES 3 here to show how a driver computes `mediump`: " +
            std::string(error.what()) + ".\n";
   }
 }
@@ -200,7 +200,8 @@ int runHalfPrecision(const StudyArguments& given, const CLI::App& command) {
 int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
   refuseOthers(command, "--measure-costs", "--rendering-backend");
   if (given.backend == "reference")
-    throw InputError("--rendering-backend reference: costs are those of a driver: give another");
+    throw InputError(
+        "--rendering-backend reference: costs can only be measured on a driver: give another");
   const Backend backend = backendFromName(given.backend);
   OutputFile file(given.costs);
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
@@ -216,14 +217,14 @@ int runMeasureCosts(const StudyArguments& given, const CLI::App& command) {
         [&](std::string_view what, double share) { line.show("glint study", share, what); });
   }
   if (!measured.complete) {
-    std::cerr << "glint: ended before all was measured: no table is written\n";
+    std::cerr << "glint: stopped before everything was measured: no table was written\n";
     return 128 + Interrupt::signal();
   }
   constexpr double muchNoise = 10;
   if (measured.file.noise > muchNoise)
-    printWarning("--measure-costs: the machine does other work, and costs are off by up to " +
+    printWarning("--measure-costs: the machine is busy, and costs are uncertain by up to " +
                  std::to_string(std::lround(measured.file.noise)) +
-                 " hundredths: measure again when it is at rest");
+                 " hundredths: measure again when it is idle");
   commitText(file, costFileText(measured.file));
   if (given.costs != "-") std::cout << costText(measured);
   return done;

@@ -66,11 +66,12 @@ GlbJson ArrayGlb::material(const Arrays& part, const std::string& where) {
   }
   if (look.material.size() > 1 || (look.material.size() == 1 && !look.material.contains("")))
     throw InputError(where + ": material '" + part.material +
-                     "' is for others by name: leave the name out");
+                     "' names another material: leave the name out");
   const MaterialEdit edit = look.material.empty() ? MaterialEdit{} : look.material.at("");
   if (edit.highlight || edit.fresnel)
-    throw InputError(where + ": material '" + part.material +
-                     "': forms belong to a look: give the option \"material\" when it is drawn");
+    throw InputError(
+        where + ": material '" + part.material +
+        "': forms belong to the look: give them with the option \"material\" when drawing");
   const ShadingParameters plain;
   GlbJson extras = GlbJson::object();
   for (const MaterialParameter& each : materialParameters())
@@ -113,13 +114,13 @@ void ArrayGlb::add(const Arrays& part, std::size_t number) {
   if (corners % 3 != 0)
     throw InputError(where + ": " + std::to_string(corners) +
                      (part.indices.empty() ? " positions" : " indices") +
-                     " are no whole number of triangles: give three for each");
+                     " are not a multiple of 3: give three for each triangle");
   for (const std::uint32_t index : part.indices)
     if (index >= count)
       throw InputError(where + ": index " + std::to_string(index) + " and " +
                        std::to_string(count) + " positions: give indices below their number");
   if (!part.texture.empty() && part.texcoords.empty())
-    throw InputError(where + ": a texture without texcoords: give one for each position");
+    throw InputError(where + ": a texture needs texcoords: give one for each position");
   GlbJson attributes = GlbJson::object();
   attribute(attributes, where, "POSITION", part.positions, count, "positions", "VEC3");
   attribute(attributes, where, "NORMAL", part.normals, count, "normals", "VEC3");
@@ -136,7 +137,7 @@ void ArrayGlb::add(const Arrays& part, std::size_t number) {
 std::vector<std::byte> ArrayGlb::bytes() {
   binary_.resize((binary_.size() + 3) / 4 * 4);
   if (binary_.size() > std::size_t(0xffffff00u))
-    throw InputError("arrays: more than 4 GiB: divide them among models");
+    throw InputError("arrays: more than 4 GiB: split them into several models");
   document_["asset"]["version"] = "2.0";
   document_["scene"] = 0;
   document_["scenes"][0]["nodes"] = nodes_;

@@ -44,7 +44,7 @@ StoredImage storedOf(const Picture& picture) {
     throw InputError("a picture of " + std::to_string(picture.width) + " x " +
                      std::to_string(picture.height) + " pixels with " +
                      std::to_string(picture.values.size()) +
-                     " values: give four a pixel, and a pixel at least");
+                     " values: give four per pixel and at least one pixel");
   return {picture.width, picture.height, 4, picture.values};
 }
 

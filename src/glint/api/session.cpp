@@ -35,10 +35,9 @@ void checkFork() {
   const pid_t owner = glOwner;
   if (owner != 0 && owner != ::getpid())
     throw ContextError(
-        "OpenGL was in use when this process was forked, and does not work in it: start processes "
+        "OpenGL was in use when this process was forked, so it does not work here: start processes "
         "before the first session (in Python: multiprocessing's \"spawn\"), or draw with the "
-        "backend "
-        "\"reference\"");
+        "backend \"reference\"");
 }
 
 /// Keeps a context current for its lifetime.
@@ -203,7 +202,7 @@ std::map<std::string, Image> Session::layers(const Model& model, const Options& 
     for (const PictureTerm& term : terms) known += (known.empty() ? "" : ", ") + term.name;
     for (const std::string& name : names)
       if (std::ranges::none_of(terms, [&](const auto& each) { return each.name == name; }))
-        throw InputError("layers: this look has no '" + name + "': there are " + known);
+        throw InputError("layers: this look has no layer '" + name + "': there are " + known);
     std::map<std::string, Image> result;
     for (const PictureTerm& term : terms) {
       if (!names.empty() && std::ranges::find(names, term.name) == names.end()) continue;

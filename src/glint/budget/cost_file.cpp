@@ -41,9 +41,9 @@ class Reader {
         parseJsonText<Json>({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, error);
     if (!parsed) fail("is " + error);
     const Json& json = *parsed;
-    if (!json.is_object() || !json.contains("glint-costs")) fail("is no table of costs");
+    if (!json.is_object() || !json.contains("glint-costs")) fail("is not a cost table");
     if (json["glint-costs"] != version)
-      fail("is a table of version " + printable(json["glint-costs"].dump(), 40) +
+      fail("is a cost table of version " + printable(json["glint-costs"].dump(), 40) +
            ", and this glint reads " + std::to_string(version));
     CostFile file;
     std::size_t known = 0;
@@ -56,7 +56,7 @@ class Reader {
     });
     if (json["highlight"].size() + json["fresnel"].size() + json["fresnel-denser-side"].size() !=
         known)
-      fail("holds the cost of a form that this glint does not know");
+      fail("has the cost of a form that this version does not know");
     if (json.contains("noise")) set(json["noise"], "noise", file.noise);
     const Json gl = json.value("gl", Json::object());
     const auto text = [&](const char* key) {
@@ -70,7 +70,7 @@ class Reader {
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(printablePath(path_) + ": " + what +
-                     ": make one by glint study --measure-costs FILE");
+                     ": make one with glint study --measure-costs FILE");
   }
 
   void set(const Json& json, const std::string& name, double& cost) const {

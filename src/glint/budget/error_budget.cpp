@@ -48,11 +48,11 @@ FormChoice choiceFor(const std::string& name, const SurfaceErrors& errors, const
     choice.reason =
         "no form is within " + number(budget) + ": exact, which is within " + number(choice.bound);
   else if (!needs.specular && !needs.dielectric)
-    choice.reason = "neither highlight nor reflectance: nothing to choose";
+    choice.reason = "no highlight and no reflectance: nothing to choose";
   else if (forms.cost == forms.exactCost)
-    choice.reason = "nothing that costs less than exact is within " + number(budget);
+    choice.reason = "no form cheaper than exact is within " + number(budget);
   else
-    choice.reason = "the least cost within " + number(budget) + ": " +
+    choice.reason = "the cheapest within " + number(budget) + ": " +
                     number(100 * forms.cost / forms.exactCost) + " % of exact";
   return choice;
 }
@@ -216,7 +216,7 @@ ResolvedLook resolveSequence(std::size_t count,
   const bool automatic = resolved.look.shading == Shading::automatic;
   const std::optional<double> budget = errorBudget(resolved.look);
   resolved.look.shading = programOf(resolved.look);
-  if (automatic) resolved.programReason = "phong: no --max-error to keep within";
+  if (automatic) resolved.programReason = "phong: there is no --max-error";
   if (!budget) return resolved;
 
   std::vector<LitScene> litScenes;
@@ -253,7 +253,7 @@ ResolvedLook resolveSequence(std::size_t count,
   resolved.programReason = "phong: neither flat nor gouraud is within " + number(*budget);
   // Shading per face or vertex pays only if there are at most half as many of them as pixels.
   if (double(vertices) > 0.5 * asked.resolution.x * asked.resolution.y) {
-    resolved.programReason = "phong: the model has more vertices than the picture pixels";
+    resolved.programReason = "phong: the model has more vertices than the picture has pixels";
     return resolved;
   }
   for (const Shading program : {Shading::flat, Shading::gouraud}) {
@@ -261,7 +261,7 @@ ResolvedLook resolveSequence(std::size_t count,
     if (!(other.bound <= *budget) || other.choices.empty()) continue;
     other.programReason =
         program == Shading::flat
-            ? "flat: every face has one normal, and the light on it is within " + number(*budget) +
+            ? "flat: every face has one normal, and its light is within " + number(*budget) +
                   " of phong's"
             : "gouraud: between vertices the light is within " + number(*budget) + " of phong's";
     return other;

@@ -159,7 +159,7 @@ Backend backendFromName(std::string_view name, std::string_view more) {
     if (entry.name == name) return entry.backend;
     all += (all.empty() ? "" : ", ") + std::string(entry.name);
   }
-  throw InputError("no rendering backend is called \"" + std::string(name) + "\": there are " +
+  throw InputError("there is no rendering backend \"" + std::string(name) + "\": use one of " +
                    all + std::string(more));
 }
 
@@ -203,7 +203,7 @@ BackendReport probeBackend(Backend backend) {
     report.works = true;
     report.detail =
         context->description() + "; " + gl.vendor + "; " + gl.renderer + "; OpenGL " + gl.version;
-    if (!context->remark().empty()) report.detail += "; passed over: " + context->remark();
+    if (!context->remark().empty()) report.detail += "; skipped: " + context->remark();
   } catch (const ContextError& error) {
     report.detail = error.what();
   }

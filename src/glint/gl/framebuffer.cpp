@@ -87,13 +87,13 @@ void checkSize(int width, int height) {
   const int most = std::min({buffer, viewport[0], viewport[1]});
   if (width < 1 || height < 1 || width > most || height > most)
     throw InputError("--resolution " + std::to_string(width) + "," + std::to_string(height) +
-                     ": this driver draws from 1 to " + std::to_string(most) + " pixels a side");
+                     ": this driver draws from 1 to " + std::to_string(most) + " pixels per side");
 }
 
 void checkSamples(int samples) {
   if (samples < 1)
     throw InputError("--anti-aliasing msaa:" + std::to_string(samples) +
-                     ": the number of samples begins with 1");
+                     ": give at least 1 sample");
   if (samples == 1) return;
   const int most = maxSamples();
   if (samples <= most) return;

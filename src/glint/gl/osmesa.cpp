@@ -109,11 +109,11 @@ std::unique_ptr<Context> openOsmesa(std::span<const char* const> sonames) {
   const OsmesaHandle context = osmesa.createContextAttribs(attributes, nullptr);
   if (!context) {
     const std::string version = versionWithoutAttributes(osmesa);
-    throw ContextError(
-        version.empty()
-            ? "OSMesaCreateContextAttribs gives no context of any OpenGL version: reinstall the "
-              "Debian package libosmesa6 or use another --rendering-backend"
-            : "the driver has no OpenGL 3.3 core context, only " + version);
+    throw ContextError(version.empty()
+                           ? "OSMesaCreateContextAttribs cannot create a context of any OpenGL "
+                             "version: reinstall the Debian package libosmesa6 or use another "
+                             "--rendering-backend"
+                           : "the driver has no OpenGL 3.3 core context, only " + version);
   }
   return std::make_unique<OsmesaContext>(osmesa, context, "osmesa: Mesa's off-screen library");
 }

@@ -90,7 +90,7 @@ class Reader {
     const tinygltf::Node& moved = document_.model.nodes[result.node];
     if (*path == AnimatedPath::weights) {
       result.width = targetsOf(moved);
-      if (result.width == 0) return leaveOut(channel, "moves weights of a node without any");
+      if (result.width == 0) return leaveOut(channel, "moves the weights of a node that has none");
     } else {
       result.width = *path == AnimatedPath::rotation ? rotationWidth : 3;
       if (moved.matrix.size() == 16) {
@@ -137,11 +137,11 @@ class Reader {
     const auto finite = [](double x) { return std::isfinite(x); };
     const bool ascending = std::ranges::is_sorted(keys.times);
     if (!ascending || !std::ranges::all_of(keys.times, finite)) {
-      messages_.warn(sampler.path() + " has times that do not ascend");
+      messages_.warn(sampler.path() + " has times that decrease or are not finite");
       return {};
     }
     if (std::ranges::adjacent_find(keys.times) != keys.times.end()) {
-      messages_.warn(sampler.path() + " has times that repeat: of those the last key counts");
+      messages_.warn(sampler.path() + " has repeated times: the last key of each counts");
     }
     if (!std::ranges::all_of(keys.values, finite)) {
       messages_.warn(sampler.path() + " has values that are not finite");

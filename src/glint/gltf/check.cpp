@@ -32,7 +32,7 @@ void checkAsset(Cursor root, const Messages& messages) {
   }
   const std::string least = asset.member("minVersion").text("2.0");
   if (versionOf(least) != std::pair(2, 0)) {
-    messages.fail("needs a reader of glTF \"" + printable(least, 20) + "\", this one knows 2.0",
+    messages.fail("needs glTF version \"" + printable(least, 20) + "\", only 2.0 is supported",
                   advice);
   }
 }
@@ -120,7 +120,7 @@ void checkSpan(Cursor where, const View& view, std::int64_t offset, std::int64_t
                std::int64_t bytes, std::int64_t stride) {
   if (count == 0) return;
   if (count > maxBytes / 256 || offset + (count - 1) * stride + bytes > view.bytes) {
-    where.fail("runs over the end of its buffer view, which has " + std::to_string(view.bytes) +
+    where.fail("extends past the end of its buffer view, which has " + std::to_string(view.bytes) +
                " bytes");
   }
 }
@@ -149,9 +149,9 @@ void checkAccessors(Cursor root, const std::vector<View>& views) {
   for (const Cursor accessor : root.member("accessors")) {
     const std::int64_t component =
         componentBytes(accessor.required("componentType").integer(0, 0, INT_MAX));
-    if (component == 0) accessor.member("componentType").fail("is not one that glTF 2.0 knows");
+    if (component == 0) accessor.member("componentType").fail("is not defined in glTF 2.0");
     const std::int64_t bytes = elementBytes(accessor.required("type").text(), component);
-    if (bytes == 0) accessor.member("type").fail("is not one that glTF 2.0 knows");
+    if (bytes == 0) accessor.member("type").fail("is not defined in glTF 2.0");
     const std::int64_t lastBytes = elementBytes(accessor.member("type").text(), component, true);
     const std::int64_t count = accessor.required("count").integer(0, 0, UINT32_MAX);
     const std::int64_t offset = accessor.member("byteOffset").integer(0, 0, maxBytes);
@@ -202,7 +202,7 @@ void checkMeshes(Cursor root) {
       const std::int64_t type = list.member("componentType").integer(0, 0, INT_MAX);
       if (list.member("type").text() != "SCALAR" ||
           (type != 5121 && type != 5123 && type != 5125)) {
-        indices.fail("refers to an accessor that does not hold unsigned whole numbers");
+        indices.fail("refers to an accessor that is not of unsigned integers");
       }
     }
   }

@@ -35,7 +35,7 @@ class Decompressor {
     std::vector<unsigned char> bytes;
     const ByteSource& source = document_.buffers[buffer];
     if (offset > source.size() || size > source.size() - offset) {
-      place.fail("runs over the end of buffers[" + std::to_string(buffer) + "], which has " +
+      place.fail("extends past the end of buffers[" + std::to_string(buffer) + "], which has " +
                  std::to_string(source.size()) + " bytes");
     }
     bytes.resize(size);
@@ -67,7 +67,7 @@ class Decompressor {
       stream.mode = from.required("mode").text();
       stream.filter = from.member("filter").text("NONE");
       if (stream.stride > 256 || stream.count * stream.stride > maxGrowth * (packed.size() + 64))
-        from.fail("unfolds to far more than it holds data for");
+        from.fail("expands to far more than its data allow");
       std::vector<unsigned char> plain(stream.count * stream.stride);
       if (const std::string error = decodeMeshopt(stream, packed, plain); !error.empty())
         from.fail(error);

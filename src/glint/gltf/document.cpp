@@ -32,7 +32,7 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
       messages.warn(label + ", the file \"" + printableUri(text) + "\", " + oddity);
     if (!error.empty()) {
       messages.fail(label + ", the file \"" + printableUri(text) + "\", " + error,
-                    error == liesOutside ? "take a model whose files lie beside it"
+                    error == liesOutside ? "use a model whose files are next to it"
                                          : "put it there or export the model as .glb");
     }
   } else if (index == 0 && container.binary) {
@@ -44,7 +44,7 @@ ByteSource openBuffer(Cursor buffer, std::size_t index, const Container& contain
     return source;
   }
   if (source.size() < wanted) {
-    messages.fail(label + " tells " + std::to_string(wanted) + " bytes and has " +
+    messages.fail(label + " declares " + std::to_string(wanted) + " bytes but has " +
                   std::to_string(source.size()));
   }
   return source;
@@ -126,7 +126,7 @@ void readGeometry(Cursor root, Document& document, const Messages& messages) {
     stretch.end = std::max(stretch.first, stretch.end);
     document.geometryBytes += stretch.end - stretch.first;
     if (document.geometryBytes > maxGeometryBytes) {
-      messages.fail("its buffers hold more than 8 GiB", "split the model");
+      messages.fail("its buffers are larger than 8 GiB", "split the model");
     }
     if (!moves && stretch.end - stretch.first > maxHeldBytes) continue;
     stretch.bytes.resize(stretch.end - stretch.first);
@@ -300,7 +300,7 @@ void Budget::keep(std::uint64_t vertices) {
 }
 
 void Budget::exceeded() const {
-  messages_->fail("unfolds to far more vertices than it holds data for", "split the model");
+  messages_->fail("expands to far more vertices than its data allow", "split the model");
 }
 
 }  // namespace glint::gltf

@@ -65,7 +65,7 @@ std::string DracoMesh::readAttribute(std::uint32_t id, int componentType, const 
   if (!attribute) return "names an attribute that the compressed mesh does not have";
   const int components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
   if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4")
-    return "has an accessor that is no vector";
+    return "has an accessor that is not a vector";
   if (attribute->num_components() < components) return "has fewer components than its accessor";
   bool good = false;
   withComponent(componentType, [&](auto type) {

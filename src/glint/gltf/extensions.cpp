@@ -28,9 +28,9 @@ constexpr std::array table = {
     Entry{"KHR_materials_specular", Use::approximated, "its strength; not its colour"},
     Entry{"KHR_materials_transmission", Use::read, "by the program environment"},
     Entry{"KHR_materials_pbrSpecularGlossiness", Use::approximated,
-          "as the notes' parameters, texel by texel"},
+          "converted to the notes' parameters, texel by texel"},
     Entry{"KHR_materials_variants", Use::read, "by --variant"},
-    Entry{"EXT_mesh_gpu_instancing", Use::read, "places; no attributes of its own"},
+    Entry{"EXT_mesh_gpu_instancing", Use::read, "instance transforms; no custom attributes"},
     Entry{"KHR_texture_basisu", Use::approximated, "not read; the other image of a texture is"},
     Entry{"KHR_mesh_quantization", Use::read, ""},
     Entry{"KHR_texture_transform", Use::read, ""},
@@ -112,7 +112,7 @@ FileExtension describeExtension(const std::string& name) {
   FileExtension result{name, Use::ignored, "not supported by this version"};
   const auto found = std::ranges::find(table, name, &Entry::name);
   if (std::ranges::find(unseen, name) != unseen.end())
-    return {name, Use::unseen, "nothing that a picture shows"};
+    return {name, Use::unseen, "no effect on a picture"};
   if (found == table.end()) return result;
   if (!isInBuild(*found)) {
     result.note = std::string("left out of this build (") + found->option + " is off)";
@@ -138,7 +138,7 @@ std::vector<FileExtension> extensionsOf(Cursor root) {
   // A loader must not ignore an unknown required extension, whether or not it has a visible effect.
   for (FileExtension& each : result)
     if (each.use == Use::ignored && !each.required && !shows(root, each.name))
-      each = {each.name, Use::unseen, "no material shows any of it"};
+      each = {each.name, Use::unseen, "no material uses it visibly"};
   return result;
 }
 

@@ -50,8 +50,8 @@ Container readGlb(const RegularFile& file, const std::filesystem::path& path,
   }
   const std::uint64_t length = littleEndian(&header[8]);
   if (length > file.size()) {
-    messages.fail("is cut off, its header tells " + std::to_string(length) + " bytes and " +
-                      std::to_string(file.size()) + " are there",
+    messages.fail("is truncated, its header declares " + std::to_string(length) +
+                      " bytes but it has " + std::to_string(file.size()),
                   cutOff);
   }
 
@@ -65,7 +65,7 @@ Container readGlb(const RegularFile& file, const std::filesystem::path& path,
     const std::uint32_t type = littleEndian(&head[4]);
     if (size > length - offset) {
       messages.fail("GLB chunk " + std::to_string(chunk) + " of " + std::to_string(size) +
-                        " bytes runs over the end of the file",
+                        " bytes extends past the end of the file",
                     cutOff);
     }
     if (chunk == 0 && type != jsonChunk) messages.fail("its first GLB chunk is not JSON");
@@ -187,7 +187,7 @@ RegularFile::RegularFile(const std::filesystem::path& path, const std::filesyste
   struct stat status = {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     error = errno == ENOENT || errno == ENOTDIR ? "does not exist"
-            : errno == EACCES                   ? "may not be read by this user"
+            : errno == EACCES                   ? "cannot be read by this user"
                                                 : "cannot be opened";
   } else if (S_ISDIR(status.st_mode)) {
     error = "is a folder, not a file";
@@ -287,7 +287,7 @@ std::string percentDecoded(std::string_view text) {
 ByteSource openUri(const std::string& uri, const std::filesystem::path& model, std::string& error) {
   if (isDataUri(uri)) return ByteSource(readDataUri(uri, error));
   if (!schemeOf(uri).empty()) {
-    error = "is not a file beside the model";
+    error = "is not a file next to the model";
     return {};
   }
   const std::string name = percentDecoded(uri);

@@ -23,7 +23,7 @@ std::filesystem::path confinementOf(const std::filesystem::path& model);
 /// The folder that must contain the model file itself: the same, but empty for a model from stdin.
 std::filesystem::path confinementOfItself(const std::filesystem::path& model);
 /// The error for a file outside that folder.
-inline constexpr const char* liesOutside = "lies outside of the model's folder (--confine)";
+inline constexpr const char* liesOutside = "is outside the model's folder (--confine)";
 
 /// A file open for reading. Opens only regular files and never blocks: a FIFO, a device or a folder
 /// that a model names must not hang or flood the viewer.

@@ -142,8 +142,9 @@ void readGlossTexture(Cursor from, const SpecularGlossiness& gloss, Material& ma
   const bool together = !diffuse || (diffuse->texcoord == specular->texcoord &&
                                      diffuse->transform == specular->transform);
   if (!together)
-    messages.warn(map.path() +
-                  " and the diffuseTexture lie in different places: metals get no colour from it");
+    messages.warn(
+        map.path() +
+        " and the diffuseTexture use different coordinates: metals get no colour from it");
   const int diffuseImage = diffuse && together ? diffuse->image : -1;
   const Texture numbers = textures.glossTexture(*specular, {false, diffuseImage, gloss});
   if (together) {

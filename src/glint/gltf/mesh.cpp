@@ -96,7 +96,7 @@ std::vector<Vector> Builder::read(const Attributes& attributes, const std::strin
       openAccessor(document_, found->second, label_ + " " + name, budget_, messages_);
   if (view.components < least || view.components > most) {
     fail(name + " must have " + std::to_string(least) +
-         (most > least ? " or " + std::to_string(most) : "") + " components a vertex, not " +
+         (most > least ? " or " + std::to_string(most) : "") + " components per vertex, not " +
          std::to_string(view.components));
   }
   if (view.count < vertexCount_) {
@@ -145,7 +145,7 @@ bool Builder::readElements() {
     if (!allOf(indices, [&](std::uint32_t i) { return i < vertexCount_; })) {
       const auto at = std::ranges::find_if(indices, [&](auto i) { return i >= vertexCount_; });
       fail("index " + std::to_string(at - indices.begin()) + " is " + std::to_string(*at) +
-           " and there are " + std::to_string(vertexCount_) + " vertices");
+           ", but there are only " + std::to_string(vertexCount_) + " vertices");
     }
   } else {
     budget_.read(vertexCount_);
@@ -155,7 +155,7 @@ bool Builder::readElements() {
   Elements elements = listElements(primitive_.mode, std::move(indices));
   if (elements.rest > 0) {
     warn("has " + std::to_string(elements.rest) +
-         " vertices at its end that make no whole line or triangle, left out");
+         " trailing vertices that do not complete a line or triangle, ignored");
   }
   built_.mesh.topology = elements.topology;
   built_.mesh.indices = std::move(elements.indices);
@@ -197,8 +197,7 @@ void Builder::applySkin(const Pose& pose, std::vector<glm::dvec3>& positions,
   }
   if (result.badWeights > 0) {
     warn(std::to_string(result.badWeights) +
-         " vertices have joint weights of sum 0, negative or "
-         "not finite ones, mended");
+         " vertices have joint weights that are negative, not finite or of sum 0, corrected");
   }
   auto& indices = built_.mesh.indices;
   if (result.mirrored && built_.mesh.topology == Topology::triangles) {
@@ -222,7 +221,7 @@ void Builder::dropNonFinite(std::vector<Vector>& positions) {
   const char* const kind = corners == 1 ? "points" : corners == 2 ? "lines" : "triangles";
   warn(std::to_string((indices.size() - kept) / corners) + " of " +
        std::to_string(indices.size() / corners) + " " + kind +
-       " have a position that is not finite, left out");
+       " have a non-finite position and are left out");
   indices.resize(kept);
 
   const VertexList rest = useVertices(indices, positions.size());
@@ -291,7 +290,7 @@ void Builder::readTexcoords(const Pose& pose, const Material& material) {
     const std::string name = "TEXCOORD_" + std::to_string(set);
     auto values = read<glm::vec2>(primitive_.attributes, name, 2, 2);
     if (values.empty()) {
-      warn("has no " + name + ", which its material reads, and is drawn without that texture");
+      warn("has no " + name + ", which its material uses, so it is drawn without that texture");
       continue;
     }
     morph(pose, name, 2, 2, values);
@@ -342,7 +341,7 @@ void Builder::readTangents(const Material& material, bool stale) {
     tangent = glm::vec4(glm::vec3(unit), tangent.w < 0 ? -1.0f : 1.0f);
   }
   if (good) return;
-  if (!mesh.tangents.empty()) warn("has tangents of length 0 or without handedness, made anew");
+  if (!mesh.tangents.empty()) warn("has tangents of length 0 or without handedness, recomputed");
   budget_.keep(mesh.indices.size());
   std::vector<glm::vec2> places = mesh.texcoords[set];
   for (glm::vec2& place : places)

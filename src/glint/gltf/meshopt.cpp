@@ -16,8 +16,8 @@ std::string decodeMeshopt(const MeshoptStream& s, const std::vector<unsigned cha
   if (!vertices && !triangles && s.mode != "INDICES") return "has an unknown mode";
   // The decoder does not check these.
   if (s.stride == 0 || (vertices ? s.stride % 4 != 0 : s.stride != 2 && s.stride != 4))
-    return "has a byteStride that its mode does not allow";
-  if (triangles && s.count % 3 != 0) return "has a count that is no multiple of 3";
+    return "has a byteStride that is invalid for its mode";
+  if (triangles && s.count % 3 != 0) return "has a count that is not a multiple of 3";
   if (s.count == 0) return {};
   const int result = vertices    ? meshopt_decodeVertexBuffer(plain.data(), s.count, s.stride,
                                                               packed.data(), packed.size())

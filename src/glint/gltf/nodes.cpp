@@ -111,7 +111,7 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
     const Cursor lens = camera.required("perspective");
     result.viewAngle = lens.required("yfov").number(0);
     if (!(result.viewAngle > 0 && result.viewAngle < std::numbers::pi)) {
-      return reject("has a yfov not between 0 and pi");
+      return reject("has a yfov outside 0 to pi");
     }
     result.aspect = lens.member("aspectRatio").number(0);
     near = lens.member("znear").number(0);
@@ -199,7 +199,8 @@ NodeGraph readNodes(const Document& document, int scene, UpAxis up, Messages& me
     const auto node = static_cast<std::size_t>(open.back());
     open.pop_back();
     if (!usable(graph.world[node])) {
-      messages.fail(labelOf(document, node) + " has a transform that is not finite or beyond 1e30");
+      messages.fail(labelOf(document, node) +
+                    " has a transform that is not finite or exceeds 1e30");
     }
     for (const int child : nodes[node].children) {
       const auto index = static_cast<std::size_t>(child);
@@ -243,7 +244,7 @@ std::vector<glm::dmat4> placesOf(const Document& document, std::size_t node, Bud
     const AccessorView view = openAccessor(document, attribute->second, label, budget, messages);
     if (view.components != components || (count && *count != view.count)) {
       messages.fail(label + " must have " + std::to_string(components) +
-                    " components an instance, as many instances as the others");
+                    " components per instance, and as many instances as the others");
     }
     count = view.count;
     budget.read(view.count * static_cast<std::size_t>(components));
@@ -267,7 +268,7 @@ std::vector<glm::dmat4> placesOf(const Document& document, std::size_t node, Bud
     for (int k = 0; k < 3; ++k) places[i][k] = glm::dvec4(linear[k], 0);
     if (!usable(places[i])) {
       messages.fail(labelOf(document, node) + ", instance " + std::to_string(i) +
-                    " has a transform that is not finite or beyond 1e30");
+                    " has a transform that is not finite or exceeds 1e30");
     }
   }
   return places;
@@ -294,7 +295,7 @@ std::vector<glm::dmat4> jointMatrices(const Document& document, std::size_t inde
     matrices[i] = matrices[i] * inverseBind;
     if (!usable(matrices[i])) {
       messages.fail(label + ", joint " + std::to_string(i) +
-                    " has a matrix that is not finite or beyond 1e30");
+                    " has a matrix that is not finite or exceeds 1e30");
     }
   }
   return matrices;
@@ -314,7 +315,7 @@ std::vector<std::pair<std::size_t, FileLight>> readLights(Document& document,
     light.position = glm::dvec3(world[3]);
     light.direction = -direction(glm::dvec3(world[2]));
     if (light.type != FileLight::Type::point && glm::length(light.direction) < 0.5) {
-      messages.warn(labelOf(document, node) + " scales its light to nothing, left out");
+      messages.warn(labelOf(document, node) + " has scale 0, so its light is left out");
       continue;
     }
     lights.emplace_back(node, std::move(light));
@@ -336,7 +337,7 @@ std::vector<FileCamera> readCameras(Document& document, const NodeGraph& graph,
     const glm::dvec3 upward = direction(glm::dvec3(world[1]));
     const glm::dvec3 up = direction(upward - glm::dot(upward, back) * back);
     if (glm::length(back) < 0.5 || glm::length(up) < 0.5) {
-      messages.warn(labelOf(document, node) + " scales its camera to nothing, left out");
+      messages.warn(labelOf(document, node) + " has scale 0, so its camera is left out");
       continue;
     }
     camera.world = glm::dmat4(glm::dvec4(glm::cross(up, back), 0), glm::dvec4(up, 0),

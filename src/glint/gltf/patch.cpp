@@ -177,8 +177,8 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
   std::map<std::size_t, const MaterialPatch*> byIndex;
   for (const MaterialPatch& patch : patches) {
     if (patch.index > count)
-      throw InputError(printablePath(name) + ": has changed and has no material " +
-                       std::to_string(patch.index) + " any more: load it again");
+      throw InputError(printablePath(name) + ": has changed and no longer has the material " +
+                       std::to_string(patch.index) + " : load it again");
     byIndex[patch.index] = &patch;
   }
   if (byIndex.contains(count)) makeDefaultExplicit(text, count);

@@ -40,8 +40,9 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
     const std::string name = glint::printable(names[i], 80);
     known += (i ? ", " : "") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
   }
-  throw InputError(option + ": " + model + " has no " + kind + " '" + glint::printable(text, 80) +
-                   "': " + (known.empty() ? "it has none: leave the option out" : "use " + known));
+  throw InputError(
+      option + ": " + model + " has no " + kind + " '" + glint::printable(text, 80) +
+      "': " + (known.empty() ? "the file has none: leave the option out" : "use " + known));
 }
 
 }  // namespace
@@ -241,7 +242,7 @@ void SceneFile::State::place(std::size_t index, const NodeGraph& graph, Scene& s
   for (const Part& part : shape(key, std::move(pose), graph, scene, budget)) {
     if (!part.drawn) continue;
     if (scene.instances.size() + places.size() > maxInstances) {
-      messages.fail("draws more than 4194304 pieces", "split the model");
+      messages.fail("has more than 4194304 draws", "split the model");
     }
     // A skinned mesh is positioned by its joints, whatever its node's transform.
     if (part.skinned) {
@@ -278,12 +279,12 @@ void SceneFile::State::placeLights(const NodeGraph& graph, Scene& scene) {
   for (std::size_t i = 0; hasSurface && i < scene.lights.size(); ++i) {
     if (meter.shares[i] > 0 || scene.lights[i].intensity == glm::dvec3(0)) continue;
     messages.warn("the light " + named("nodes", nodes[i], document.model.nodes[nodes[i]].name) +
-                  " reaches no surface from its front and lights nothing");
+                  " reaches no surface from its front, so it lights nothing");
   }
   lightsOn.emplace(nodes.begin(), nodes.end());
   if (nodes.size() <= maxLights) return;
-  messages.warn("has " + std::to_string(nodes.size()) + " lights: the " +
-                std::to_string(maxLights) + " that light it most are used");
+  messages.warn("has " + std::to_string(nodes.size()) + " lights: only the " +
+                std::to_string(maxLights) + " that contribute most are used");
   std::vector<std::size_t> order(nodes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return meter.shares[i]; });

@@ -94,12 +94,12 @@ std::optional<Texture> TextureReader::read(Cursor info, TextureUse use) {
     if (image < 0) return std::nullopt;
   }
   if (texcoord > maxTexcoord) {
-    messages_.warn(info.path() + " reads texture coordinates " + std::to_string(texcoord) +
-                   ", beyond " + std::to_string(maxTexcoord) + ", and is left out");
+    messages_.warn(info.path() + " uses texture coordinates " + std::to_string(texcoord) +
+                   ", which are beyond " + std::to_string(maxTexcoord) + ", and is left out");
     return std::nullopt;
   }
   if (image < 0) {
-    messages_.warn(texture.path() + " has no image that is read and is left out");
+    messages_.warn(texture.path() + " has no readable image and is left out");
     return std::nullopt;
   }
   Texture result;
@@ -158,7 +158,7 @@ int TextureReader::imageSlot(std::size_t index, TextureUse use) {
     if (const int twin = equalImage(loaded.bytes, use); twin >= 0)
       return slotsBySource_[source] = slot = twin;
     if (formatOf(loaded.bytes) == std::string_view("JPEG") && lacksEnd(loaded.bytes))
-      messages_.warn("the image " + loaded.name + " is a JPEG without its end");
+      messages_.warn("the image " + loaded.name + " is a truncated JPEG");
     slot = static_cast<int>(images_.size());
     loaded.isData = use != TextureUse::colors;
     loaded.isNormalMap = use == TextureUse::normals;
@@ -214,7 +214,7 @@ std::vector<std::byte> TextureReader::load(Cursor image, std::string& name, std:
       messages_.warn("the image " + printableUri(text) + " " + oddity);
     const ByteSource source = openUri(text, document_.path, error);
     if (error == liesOutside)
-      messages_.fail("the image " + name + " " + error, "take a model whose files lie beside it");
+      messages_.fail("the image " + name + " " + error, "use a model whose files are next to it");
     if (error.empty()) take(source, 0, source.size());
   } else {
     error = "has neither a bufferView nor a uri";

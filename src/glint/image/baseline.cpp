@@ -68,7 +68,7 @@ BaselineResult compareWithBaseline(const Image& picture, const std::string& base
     result.status = BaselineStatus::updated;
     result.message = std::string(there ? "replaced" : "made") + " the baseline " +
                      printablePath(baseline) +
-                     ": look at it, and run the test again without GLINT_UPDATE_BASELINES";
+                     ": check it, and run the test again without GLINT_UPDATE_BASELINES";
     return result;
   }
   if (!there) result.message = "no baseline " + printablePath(baseline) + "\n";

@@ -212,7 +212,7 @@ void judge(const CompareOptions& options, Comparison& result) {
     const double allowed = limit.isShare ? limit.most * all : limit.most;
     if (over <= allowed) continue;
     std::string failure = pixels(std::size_t(over), "is", "are") + " over the tolerance of " +
-                          number(options.tolerance) + ", allowed are " + number(allowed);
+                          number(options.tolerance) + ", the limit is " + number(allowed);
     if (options.window > 0) failure += " in a window of " + std::to_string(options.window);
     result.failures.push_back(failure);
   }
@@ -221,7 +221,7 @@ void judge(const CompareOptions& options, Comparison& result) {
   };
   refuse(result.nanA, "of the baseline is not a number", "of the baseline are not numbers");
   refuse(result.nanB, "is not a number", "are not numbers");
-  refuse(result.infinityDiffering, "is infinite in one of the two",
+  refuse(result.infinityDiffering, "is infinite in only one of the two",
          "are infinite in one of the two");
   if (result.pixels == 0) result.failures.push_back("no pixel is left to compare");
   result.same = result.failures.empty();

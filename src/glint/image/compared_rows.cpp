@@ -27,14 +27,14 @@ ComparedRows::ComparedRows(const StoredImage& a, const StoredImage& b,
     : a_(a), b_(b), options_(options), space_(options.values), background_(options.background) {
   if (a.width != b.width || a.height != b.height) throw Error(sizesText(a, b));
   if (options.mask && (options.mask->width != a.width || options.mask->height != a.height)) {
-    throw InputError("the mask has " + sizeOf(*options.mask) + " pixels, the pictures " +
+    throw InputError("the mask has " + sizeOf(*options.mask) + " pixels, but the pictures have " +
                      sizeOf(a) + ": give a mask of their size");
   }
   if (space_ == ValueSpace::asStored) {
     if (a.isEncoded() != b.isEncoded()) {
       throw InputError(
-          "one is sRGB, the other linear light: say which values to compare (--values encoded or "
-          "--values linear)");
+          "one is sRGB, the other linear light: choose which values to compare (--values encoded "
+          "or --values linear)");
     }
     space_ = a.isEncoded() ? ValueSpace::encoded : ValueSpace::linear;
   }

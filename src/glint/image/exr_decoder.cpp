@@ -83,8 +83,9 @@ class ExrReader {
     }
     if (chosen.empty()) refuse(layers, wanted == "all" ? "" : wanted);
     if (values > maxValues)
-      throw InputError(printablePath(name_) + ": " + std::to_string(chosen.size()) +
-                       " layers of that size are too many at once: name one (--layer)");
+      throw InputError(
+          printablePath(name_) + ": " + std::to_string(chosen.size()) +
+          " layers of that size are too many to compare at once: choose one (--layer)");
     // The main picture first, then part by part, decoding each part once.
     std::stable_partition(chosen.begin(), chosen.end(), [&](auto* one) { return one == main; });
     for (std::size_t i = 0; i < chosen.size();) {
@@ -129,7 +130,7 @@ class ExrReader {
     const std::string what = wanted.empty() ? "no main picture in the EXR"
                                             : "no layer '" + printablePath(wanted) + "' in the EXR";
     throw InputError(printablePath(name_) + ": " + what + ": " +
-                     (names.empty() ? "it has no colours under a name either"
+                     (names.empty() ? "it has no named colour layers, either"
                                     : "name one of its layers: " + names));
   }
 
@@ -211,7 +212,7 @@ class ExrReader {
         const Imf::Channel* const kind = header.channels().findChannel(name);
         if (kind->xSampling != 1 || kind->ySampling != 1) {
           throw InputError(printablePath(name_) + ": the channel " + printablePath(name) +
-                           " has fewer samples than pixels: save it with all");
+                           " is subsampled: save it at full resolution");
         }
         names.push_back(name);
       }
@@ -282,7 +283,7 @@ class ExrReader {
     }
   }
 
-  [[noreturn]] void cut() const { throw damaged(name_, "the EXR is cut short"); }
+  [[noreturn]] void cut() const { throw damaged(name_, "the EXR is truncated"); }
 
   std::span<const std::byte> bytes_;
   const std::string& name_;
@@ -311,7 +312,7 @@ namespace {
 /// Runs `read` and converts the library's errors to ours.
 template <class Read>
 auto guarded(std::span<const std::byte> bytes, const std::string& name, Read read) {
-  if (!attributesFit(bytes)) throw damaged(name, "the EXR is cut short");
+  if (!attributesFit(bytes)) throw damaged(name, "the EXR is truncated");
   static std::once_flag once;
   std::call_once(once, [] {
     Imf::Header::setMaxImageSize(maxSide, maxSide);

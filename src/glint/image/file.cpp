@@ -55,7 +55,7 @@ std::string writeAdvice(int error) {
     case EBADF:
       return "it is closed: open it or write elsewhere";
     case EPIPE:
-      return "the reader of the output went away";
+      return "the reader of the output has closed it";
     case ESPIPE:
       return "this format needs a regular file";
     case EISDIR:
@@ -130,7 +130,7 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
   }
   if (noted == Noted::yes) noteReadFile(file.number, path);
   const auto checkLength = [&](std::uint64_t length) {
-    if (length > maxFileBytes) throw refuse("more than 4 GiB: give a smaller file");
+    if (length > maxFileBytes) throw refuse("larger than 4 GiB: give a smaller file");
   };
   checkLength(static_cast<std::uint64_t>(status.st_size));
   try {
@@ -152,9 +152,9 @@ std::vector<std::byte> readFile(const std::string& path, Noted noted) {
     bytes.resize(done);
     return bytes;
   } catch (const std::bad_alloc&) {
-    throw refuse("too large for the memory: give a smaller file");
+    throw refuse("not enough memory: give a smaller file");
   } catch (const std::length_error&) {
-    throw refuse("too large for the memory: give a smaller file");
+    throw refuse("not enough memory: give a smaller file");
   }
 }
 
@@ -279,7 +279,7 @@ void OutputFile::link() {
 void OutputFile::refuseReadFile() const {
   if (isReadFile(path_))
     throw InputError(printablePath(path_) +
-                     ": is a file that is read and would be lost: give another name");
+                     ": is an input file and would be overwritten: give another name");
 }
 
 void OutputFile::fail(int error) const {

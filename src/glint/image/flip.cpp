@@ -267,8 +267,7 @@ void exposuresOf(const PixelRows& reference, const FlipOptions& options, FlipRes
       std::max(result.startExposure, stops(*middle, result.startExposure + 16)));
   if (!(result.stopExposure >= result.startExposure))
     throw InputError("HDR-FLIP from exposure " + std::to_string(result.startExposure) + " to " +
-                     std::to_string(result.stopExposure) +
-                     ": give a start that is not above the stop");
+                     std::to_string(result.stopExposure) + ": give a start not above the stop");
   result.exposures =
       options.exposures > 0
           ? options.exposures

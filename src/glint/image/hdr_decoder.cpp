@@ -141,7 +141,7 @@ class HdrReader {
   [[noreturn]] void fail(const char* what) const {
     throw damaged(name_, std::string("the HDR's ") + what);
   }
-  [[noreturn]] void cut() const { throw damaged(name_, "the HDR is cut short"); }
+  [[noreturn]] void cut() const { throw damaged(name_, "the HDR is truncated"); }
 
   std::span<const unsigned char> bytes_;
   const std::string& name_;

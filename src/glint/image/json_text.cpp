@@ -41,8 +41,8 @@ std::string jsonRefusal(std::string_view text) {
   const Brackets brackets = bracketsOf(text);
   if (brackets.tooDeep) return "JSON nested more than " + std::to_string(maxJsonNesting) + " deep";
   if (brackets.count > jsonBracketsFree && brackets.count * jsonBytesForBrackets > text.size())
-    return "JSON of " + std::to_string(brackets.count) + " arrays and objects in " +
-           std::to_string(text.size()) + " bytes, which are empty for the most part";
+    return "JSON of " + std::to_string(brackets.count) +
+           " arrays and objects, most of them empty, in " + std::to_string(text.size()) + " bytes";
   return {};
 }
 

@@ -78,7 +78,7 @@ StoredImage decodePfm(std::span<const std::byte> bytes, const std::string& name)
   checkSides(name, header.width, header.height);
   const std::size_t rowBytes = std::size_t(4) * header.channels * header.width;
   if (bytes.size() - header.size < rowBytes * header.height) {
-    throw damaged(name, "the PFM is cut short");
+    throw damaged(name, "the PFM is truncated");
   }
   checkSize(name, header.width, header.height);
   StoredImage image;

@@ -49,8 +49,8 @@ void checkPictureName(const std::string& path, const PictureOptions& options) {
   const PictureFormat* format = formatOf(path, options);
   if (format && format->isWritten) return;
   throw InputError(name + ": " +
-                   (format ? std::string(format->name) + " is not written"
-                           : "the ending is that of no known format") +
+                   (format ? std::string(format->name) + " cannot be written"
+                           : "the extension is not that of a known format") +
                    ": use " + writtenEndings());
 }
 
@@ -58,7 +58,7 @@ void detail::checkFormatSides(const std::string& path, int width, int height, in
                               const char* formatName) {
   if (width <= most && height <= most) return;
   throw InputError(printablePath(path) + ": " + formatName + " has at most " +
-                   std::to_string(most) + " pixels a side: use " +
+                   std::to_string(most) + " pixels per side: use " +
                    std::string(pictureFormat(Id::png).endings[0]));
 }
 

@@ -183,7 +183,7 @@ PngReader::PngReader(std::span<const std::byte> bytes, const std::string& name)
   // memory is spent on it.
   const std::uint64_t bits = samplesOf(header.color_type) * header.bit_depth * header.width;
   if ((bits + 7) / 8 * header.height > bytes.size() * 1032)
-    throw damaged(name, "the PNG is cut short");
+    throw damaged(name, "the PNG is truncated");
   width_ = static_cast<int>(header.width);
   height_ = static_cast<int>(header.height);
   bitDepth_ = header.bit_depth;

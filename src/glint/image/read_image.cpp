@@ -89,7 +89,7 @@ void detail::checkSides(const std::string& name, std::uint64_t width, std::uint6
                            std::to_string(height) + " pixels are too many: ";
   if (standingLimit && sides) throw InputError(what + standingLimit->advice());
   throw InputError(what + "at most " + std::to_string(sides ? maxArea : std::uint64_t(maxSide)) +
-                   (sides ? " in all" : " a side"));
+                   (sides ? " in total" : " per side"));
 }
 
 void detail::checkSize(const std::string& name, std::uint64_t width, std::uint64_t height) {

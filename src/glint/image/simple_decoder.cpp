@@ -61,8 +61,9 @@ class PnmReader {
 
   StoredImage read(std::size_t heldBytes) {
     if (at(bytes_, 1) != '5' && at(bytes_, 1) != '6') {
-      throw InputError(printablePath(name_) +
-                       ": a PNM of this kind is not read: save it as binary PPM (P6) or PGM (P5)");
+      throw InputError(
+          printablePath(name_) +
+          ": this kind of PNM is not supported: save it as binary PPM (P6) or PGM (P5)");
     }
     const int samples = at(bytes_, 1) == '6' ? 3 : 1;
     const std::uint32_t width = number(), height = number(), largest = number();
@@ -72,7 +73,7 @@ class PnmReader {
     const int size = largest > 255 ? 2 : 1;
     const std::uint64_t values = std::uint64_t(width) * height * samples;
     if (at_ > bytes_.size() || bytes_.size() - at_ < values * size)
-      throw damaged(name_, "the PPM is cut short");
+      throw damaged(name_, "the PPM is truncated");
     StoredImage image{int(width), int(height), 3, {}};
     if (size == 2) {
       checkSize(name_, width, height);
@@ -178,7 +179,7 @@ StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& na
   const char* const format = isBmp(bytes) ? "BMP" : "TGA";
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   if (bytes.size() > INT_MAX)
-    throw InputError(printablePath(name) + ": too large a file: convert it to PNG");
+    throw InputError(printablePath(name) + ": the file is too large: convert it to PNG");
   const int size = int(bytes.size());
   int width = 0, height = 0, channels = 0;
   const auto check = [&](bool good) {
@@ -190,7 +191,7 @@ StoredImage decodeSimple(std::span<const std::byte> bytes, const std::string& na
   checkSides(name, std::uint64_t(width), std::uint64_t(height));
   // The library fills missing data with black.
   if (bytes.size() < leastBytes(bytes, std::uint64_t(width), std::uint64_t(height)))
-    throw damaged(name, std::string("the ") + format + " is cut short");
+    throw damaged(name, std::string("the ") + format + " is truncated");
   StoredImage image{width, height, channels == 2 || channels == 4 ? 4 : 3, {}};
   const std::unique_ptr<stbi_uc, void (*)(void*)> read(
       stbi_load_from_memory(data, size, &width, &height, &channels, image.channels),

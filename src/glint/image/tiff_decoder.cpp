@@ -110,9 +110,10 @@ class TiffReader {
     } else if (bits <= 8) {
       readAsRgba();
     } else {
-      throw InputError(printablePath(name_) + ": a TIFF of " + std::to_string(bits) +
-                       " bits in this layout is not read: save it as 8 or 16 bits or 32-bit float, "
-                       "RGB or grey, not in planes");
+      throw InputError(
+          printablePath(name_) + ": a TIFF of " + std::to_string(bits) +
+          " bits in this layout is not supported: save it as 8 or 16 bits or 32-bit float, RGB or "
+          "grey, not planar");
     }
     if (const int way = field(TIFFTAG_ORIENTATION, 1); way != 1)
       image_.unfollowed["EXIF orientation"] = std::to_string(way);
@@ -233,7 +234,7 @@ class TiffReader {
 
   [[noreturn]] void fail() const {
     throw damaged(name_, "the TIFF is damaged (" +
-                             (memory_.complaint.empty() ? std::string("cut short")
+                             (memory_.complaint.empty() ? std::string("truncated")
                                                         : printablePath(memory_.complaint)) +
                              ")");
   }
@@ -254,8 +255,7 @@ StoredImage decodeTiff(std::span<const std::byte> bytes, const std::string& name
 #else
 StoredImage decodeTiff(std::span<const std::byte>, const std::string& name,
                        std::vector<std::string>&, std::size_t) {
-  throw InputError(printablePath(name) +
-                   ": TIFF, which this build does not read: convert it to PNG or EXR");
+  throw InputError(printablePath(name) + ": this build cannot read TIFF: convert it to PNG or EXR");
 }
 #endif
 

@@ -19,7 +19,7 @@ TextureHeader webpHeader(std::span<const std::byte> bytes, const std::string& na
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
                       &features) != VP8_STATUS_OK)
-    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+    throw InputError(printablePath(name) + ": the WebP is damaged: save or copy it again");
   // For lossless files (format 2) the library holds a second copy of the picture, for lossy ones
   // its alpha.
   const std::uint64_t pixels = std::uint64_t(features.width) * features.height;
@@ -37,12 +37,12 @@ ByteImage decodeWebp(std::span<const std::byte> bytes, const std::string& name) 
   ByteImage image;
   // The format allows at most 16383 pixels a side.
   if (!WebPGetInfo(data, bytes.size(), &image.width, &image.height))
-    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+    throw InputError(printablePath(name) + ": the WebP is damaged: save or copy it again");
   checkSides(name, std::uint64_t(image.width), std::uint64_t(image.height));
   image.values.resize(std::size_t(4) * image.width * image.height);
   if (!WebPDecodeRGBAInto(data, bytes.size(), image.values.data(), image.values.size(),
                           4 * image.width))
-    throw InputError(printablePath(name) + ": damaged WebP: make or copy it again");
+    throw InputError(printablePath(name) + ": the WebP is damaged: save or copy it again");
   return image;
 #else
   throw InputError(printablePath(name) +

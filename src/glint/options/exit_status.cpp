@@ -67,7 +67,7 @@ std::string failureOf(const std::exception& error, const std::string& what) {
     return (file->path1().empty() ? place : printablePath(file->path1().string()) + ": ") +
            file->code().message() + ": check the path";
   if (dynamic_cast<const std::system_error*>(&error))
-    return place + "this system refuses more threads or files (" + error.what() +
+    return place + "the system refused another thread or file (" + error.what() +
            "): raise its limits (ulimit -u, ulimit -n)";
   return place + "internal error: " + error.what() + ": please report this";
 }

@@ -24,7 +24,7 @@ std::string optionText(const Json& value) {
   if (value.is_array()) {
     std::string text;
     for (const Json& each : value) {
-      if (!each.is_number()) throw InputError("a list that is not of numbers");
+      if (!each.is_number()) throw InputError("a list with a value that is not a number");
       text += (text.empty() ? "" : ",") + optionText(each);
     }
     return text;
@@ -114,8 +114,8 @@ std::string lookTextIn(const std::string& path) {
   const auto found = texts.find("glint-look");
   if (found == texts.end())
     throw InputError(path +
-                     ": a picture that does not say how it was made: give a look file, or a "
-                     "PNG or EXR that glint has written");
+                     ": a picture without a stored look: give a look file, or a PNG or EXR that "
+                     "glint has written");
   return found->second;
 }
 

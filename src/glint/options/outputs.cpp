@@ -43,18 +43,18 @@ void checkOutputs(const std::vector<OutputOption>& outputs,
     for (const OutputOption* other = outputs.data(); other != &output; ++other) {
       if (other->path.empty()) continue;
       if (output.path == "-" && other->path == "-")
-        throw InputError(what + other->option + " goes to stdout already: give one of them a file");
+        throw InputError(what + other->option + " already goes to stdout: give one of them a file");
       // Devices, above all /dev/null, may be given twice.
       std::error_code ignored;
       if (!isMissing(output.path) && !fs::is_regular_file(output.path, ignored)) continue;
       if (output.path != "-" && isSameFile(output.path, other->path))
-        throw InputError(what + other->option + " writes that file already: give another");
+        throw InputError(what + other->option + " already writes to that file: give another");
     }
     if (output.path == "-") continue;
     bool isInput = isReadFile(output.path);
     for (const std::string& input : inputs)
       isInput = isInput || (!input.empty() && isSameFile(output.path, input));
-    if (isInput) throw InputError(what + "would overwrite what is read: give another file");
+    if (isInput) throw InputError(what + "would overwrite an input file: give another file");
   }
 }
 

@@ -134,14 +134,15 @@ inline Parameter vector(const std::string& name, double limit,
 
 inline Parameter direction(const std::string& name, std::optional<glm::dvec3> Look::*member,
                            const std::string& help) {
-  return numbers<glm::dvec3>(ParameterKind::direction, name, "x,y,z", help, -1e6, 1e6, member,
-                             [=](const std::string& text) {
-                               const glm::dvec3 v = parseVector(text, -1e6, 1e6, "--" + name);
-                               if (v == glm::dvec3(0.0))
-                                 throw InputError("--" + name + ": '" + text +
-                                                  "' has no direction: give another than 0,0,0");
-                               return v;
-                             });
+  return numbers<glm::dvec3>(
+      ParameterKind::direction, name, "x,y,z", help, -1e6, 1e6, member,
+      [=](const std::string& text) {
+        const glm::dvec3 v = parseVector(text, -1e6, 1e6, "--" + name);
+        if (v == glm::dvec3(0.0))
+          throw InputError("--" + name + ": '" + text +
+                           "' has no direction: give a vector other than 0,0,0");
+        return v;
+      });
 }
 
 inline Parameter color(const std::string& name, glm::dvec3 Look::*member, const std::string& help) {

@@ -347,8 +347,7 @@ std::span<const Parameter> lookParameters() {
 void setParameter(Look& look, std::string_view name, const std::string& text) {
   for (const Parameter& p : lookParameters())
     if (p.name == name) return p.read(look, text);
-  throw InputError("no option of a look is called '" + std::string(name) +
-                   "': see glint render --help");
+  throw InputError("a look has no option '" + std::string(name) + "': see glint render --help");
 }
 
 std::vector<std::string> Parameter::choices() const {

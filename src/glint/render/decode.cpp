@@ -212,8 +212,8 @@ void tellOfEnvironment(Scene& scene, const Look& look) {
   if (image && image->corrected > 0)
     scene.warnings.push_back("--hdri-file: " + image->name + ": " +
                              std::to_string(image->corrected) +
-                             " texels are negative, infinite or not numbers: NaN and negative "
-                             "values count as 0, values above 1e30 as 1e30");
+                             " texels are negative, infinite or NaN: NaN and negative values count "
+                             "as 0, values above 1e30 as 1e30");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_
   for (const DecodeJob& job : jobs) full += std::uint64_t(4) * job.header.width * job.header.height;
   if (full > 3 * limit)
     refuse(*std::ranges::max_element(jobs, {}, &DecodeJob::kept),
-           "the model's textures are " + mebibytes(full) + " in full,", 3 * limit);
+           "the model's textures have " + mebibytes(full) + " at full size,", 3 * limit);
   while (sumOf(jobs) > limit) {
     const auto largest = std::ranges::max_element(jobs, {}, [&](const DecodeJob& job) {
       return std::max(job.width(), job.height()) > useful ? job.kept() : 0;
@@ -75,13 +75,13 @@ std::vector<std::string> planDecoding(std::vector<DecodeJob>& jobs, std::uint64_
     if (job.atWork() > 3 * limit)
       refuse(job, "decoding it takes " + mebibytes(job.atWork()) + ",", 3 * limit);
     if (job.halvings == 0) continue;
-    warnings.push_back(
-        "the image " + job.name + " of " + sizeText(job.header.width, job.header.height) +
-        " is shown with " + sizeText(job.width(), job.height()) +
-        (tooLong[i]
-             ? ", since textures have at most " + std::to_string(maxTextureSide) + " pixels a side"
-             : ", since all textures would take more than " + mebibytes(limit) +
-                   " (--decode-limit)"));
+    warnings.push_back("the image " + job.name + " of " +
+                       sizeText(job.header.width, job.header.height) + " is reduced to " +
+                       sizeText(job.width(), job.height()) +
+                       (tooLong[i] ? ", since textures have at most " +
+                                         std::to_string(maxTextureSide) + " pixels per side"
+                                   : ", since all textures would take more than " +
+                                         mebibytes(limit) + " (--decode-limit)"));
   }
   return warnings;
 }

@@ -11,7 +11,7 @@ void EnvironmentTexture::upload(const std::shared_ptr<const EnvironmentImage>& i
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (whole.width > limit || whole.height > limit)
     throw InputError("--hdri-file: " + image->name + ": " + std::to_string(whole.width) + "x" +
-                     std::to_string(whole.height) + " pixels are more than this driver's " +
+                     std::to_string(whole.height) + " pixels exceed this driver's limit of " +
                      std::to_string(limit) + ": make the picture smaller");
   texture_ = TextureHandle::make();
   glBindTexture(GL_TEXTURE_2D, texture_.id());

@@ -27,7 +27,7 @@ std::string formReason(const Variant& v, const Material& material, const Look& l
   const std::string by = material.highlight ? "the material's highlight is " : "--highlight is ";
   const std::string text = by + highlightText(asked);
   if (v.dimmer.empty() && !asked.dimmer.empty() && asked.brightest.form == v.highlight.form)
-    return text + ", and no light is left for another form";
+    return text + ", and no lights remain for another form";
   if (asked.brightest.form == v.highlight.form) return text;
   if (material.textured & textured::exponent) return text + ", but a texture varies the exponent";
   if (v.specularAntialiasing) return text + ", but --specular-antialiasing varies the exponent";
@@ -50,14 +50,14 @@ std::string noSuchLight(In in) { return in.lights() > 0 ? "no such light" : in.n
 
 std::string noNormalTexture(In in) {
   return !in.material.normalTexture        ? "the material has none"
-         : !isPerPixel(in.variant.program) ? "the program has one normal a face or vertex"
+         : !isPerPixel(in.variant.program) ? "the program has one normal per face or vertex"
          : in.mesh.tangents.empty()        ? "the mesh has no coordinates for it"
-                                           : "nothing reads the normal";
+                                           : "nothing uses the normal";
 }
 
 template <std::optional<Texture> ParameterTextures::*texture>
 std::string noParameterTexture(In in) {
-  return in.material.parameterTextures.*texture ? "nothing reads what it would give"
+  return in.material.parameterTextures.*texture ? "nothing uses what it provides"
                                                 : "the material has none";
 }
 
@@ -117,8 +117,8 @@ constexpr Feature table[] = {
     {.flag = &Variant::lightFalloff,
      .define = "LIGHT_FALLOFF",
      .name = "light-falloff",
-     .yes = [](In) -> std::string { return "some light weakens with distance"; },
-     .no = [](In) -> std::string { return "no light weakens with distance"; },
+     .yes = [](In) -> std::string { return "some light falls off with distance"; },
+     .no = [](In) -> std::string { return "no light falls off with distance"; },
      .told = [](const Variant& v) { return v.pointLights + v.spotLights > 0; }},
     {.flag = &Variant::diffuse,
      .define = "DIFFUSE",
@@ -141,7 +141,7 @@ constexpr Feature table[] = {
      .define = "SPECULAR_ANTIALIASING",
      .name = "specular-antialiasing",
      .yes = [](In) -> std::string { return "--specular-antialiasing"; },
-     .no = [](In) -> std::string { return "it is not asked for"; },
+     .no = [](In) -> std::string { return "not requested"; },
      .told = [](const Variant& v) { return v.specularAntialiasing; },
      .form = [](const Variant& v) -> std::string { return v.toksvig ? "toksvig" : "kaplanyan"; },
      .formReason = [](In) -> std::string { return "--specular-antialiasing"; }},
@@ -176,7 +176,7 @@ constexpr Feature table[] = {
      .define = "VANISHING_NORMAL",
      .name = "vanishing-normals",
      .yes = [](In) -> std::string {
-       return "some triangle's normals may cancel: the face's stands in";
+       return "some triangle's normals may cancel: the face's normal replaces them";
      },
      .no = [](In) -> std::string { return "no triangle's normals can cancel"; },
      .told = ofPixels},
@@ -274,10 +274,8 @@ constexpr Feature table[] = {
     {.count = &Variant::parameterPlaceCount,
      .define = "PARAMETER_PLACES",
      .name = "parameter-places",
-     .yes = [](In) -> std::string {
-       return "textures of parameters have coordinates of their own";
-     },
-     .no = [](In) -> std::string { return "none has coordinates of its own"; },
+     .yes = [](In) -> std::string { return "parameter textures have their own coordinates"; },
+     .no = [](In) -> std::string { return "none has its own coordinates"; },
      .told = [](const Variant& v) { return v.textured != 0; }},
     {.flag = &Variant::normalized,
      .define = "NORMALIZED",
@@ -310,12 +308,12 @@ constexpr Feature table[] = {
      .yes = [](In in) -> std::string {
        return in.material.shading.ior < in.look.mediumIor
                   ? "ior is below that of the medium"
-                  : "back faces show, and within ior is above that of the medium";
+                  : "back faces show, and seen from inside, ior is above that of the medium";
      },
      .no = [](In in) -> std::string {
        return in.material.shading.ior == in.look.mediumIor
                   ? "ior is that of the medium"
-                  : "front faces alone show, whose ior is above that of the medium";
+                  : "only front faces show, and ior is above that of the medium";
      },
      .told = [](const Variant& v) { return ofEnvironment(v) && (v.dielectric || v.refraction); }},
     {.flag = &Variant::metal,

@@ -18,7 +18,7 @@ GlslSources::GlslSources(const std::filesystem::path& folder) {
   }
   if (replaced_.empty())
     throw InputError("--glsl " + folder.string() +
-                     ": none of glint's shader files is in it: copy those of glsl/ and edit them");
+                     ": it has none of glint's shader files: copy those in glsl/ and edit them");
 }
 
 const std::string& GlslSources::text(const std::string& name) const {

@@ -32,7 +32,7 @@ void addMaterial(std::vector<LeftOut>& all, const Material& material, const Use&
     all.push_back({material.name, std::move(what), std::move(reason), shows});
   };
   for (const std::string& property : material.unusedProperties)
-    add(property, "no program has anything like it", true);
+    add(property, "no program supports it", true);
   if (!use.lit) {
     if (material.normalTexture || material.emissionTexture)
       add("the textures of its light", "it is unlit", false);
@@ -49,8 +49,8 @@ void addMaterial(std::vector<LeftOut>& all, const Material& material, const Use&
         perFace);
   const bool transmits = material.shading.transmission > 0;
   if (transmits && program != Shading::environment)
-    add("transmission", "only --shading environment shows what is behind a surface", true);
-  const char* const nothing = "the parameters that it would give are given, or nothing reads them";
+    add("transmission", "only --shading environment shows transmission", true);
+  const char* const nothing = "its parameters are set, or nothing uses them";
   if (t.metallicRoughness && !use.metallicRoughness)
     add("the metallic-roughness texture", nothing, false);
   if (t.occlusion && !use.occlusion) add("the occlusion texture", nothing, false);

@@ -218,7 +218,7 @@ Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
   if (look.cameraIntrinsics) {
     if (camera.orthographic)
       throw InputError(
-          "--camera-intrinsics: a parallel projection has none: leave the option out, or " +
+          "--camera-intrinsics: not for a parallel projection: leave the option out, or " +
           std::string(look.cameraOrthographic ? "--camera-orthographic" : "--camera-index"));
     const glm::dvec4& lens = *look.cameraIntrinsics;
     const glm::dvec2 size(look.resolution);

@@ -21,7 +21,7 @@ Light parseSteadyLight(const std::string& text) {
   const std::size_t at = parts[0].find('@');
   light.type = Light::Type(parseChoice(parts[0].substr(0, at), lightNames, what));
   if (at != std::string::npos && light.type != Light::Type::camera)
-    refuse(what, text, "a light whose direction stands behind @: that is camera@x,y,z alone");
+    refuse(what, text, "a light: only camera takes a direction after @ (camera@x,y,z)");
   // The number of fields before the colour, including the type's name.
   const std::size_t fields = std::array<std::size_t, 4>{2, 2, 4, 1}[std::size_t(light.type)];
   if (parts.size() != fields && parts.size() != fields + 1)
@@ -48,7 +48,7 @@ Light parseSteadyLight(const std::string& text) {
       refuse(what, parts[3], "inner,outer with 0 <= inner < outer <= 90 degrees");
   }
   if (light.type != Light::Type::point && light.direction == glm::dvec3(0.0))
-    throw InputError(what + ": '" + text + "' has no direction: give another than 0,0,0");
+    throw InputError(what + ": '" + text + "' has no direction: give a vector other than 0,0,0");
   return light;
 }
 
@@ -62,8 +62,8 @@ Light parseLight(const std::string& text) {
   const std::string rest = last.substr(word.size());
   Light light = parseSteadyLight(text.substr(0, colon));
   if (light.type != Light::Type::point && light.type != Light::Type::spot)
-    throw InputError("--light: '" + text + "': only points and spots fall off: leave '" + last +
-                     "' out");
+    throw InputError("--light: '" + text + "': only point and spot lights have fall-off: leave '" +
+                     last + "' out");
   if (!rest.empty() && rest[0] != ',') refuse("--light", last, "falloff or falloff,RANGE");
   light.fallsOff = true;
   if (!rest.empty()) light.range = parseNumber(rest.substr(1), 0, 1e30, "--light");

@@ -168,8 +168,8 @@ HighlightForm parseHighlight(const std::string& name, const std::string& what,
 
 HighlightForms parseHighlights(const std::string& text, const std::string& what) {
   constexpr const char* list =
-      "forms for so many lights each, the brightest first, and at the end one for all others, such "
-      "as exact/2,lyon:8 (at most four forms)";
+      "a list of forms, each with a number of lights, brightest first, and a last one for all "
+      "others, such as exact/2,lyon:8 (at most four forms)";
   const auto parts = split(text, ',');
   if (parts.size() > HighlightForms::mostDimmer + 1) refuse(what, text, list);
   HighlightForms forms;

@@ -31,7 +31,7 @@ std::size_t endOfQuotation(const std::string& text) {
       return i + 1;
   }
   throw InputError("material '" + printablePath(text) +
-                   "': the quotation mark before the name has no other behind it: add it");
+                   "': the quotation mark before the name is not closed: add one after it");
 }
 
 std::string withoutLeadingZeros(const std::string& digits) {
@@ -50,9 +50,10 @@ Parts partsOf(const std::string& text) {
     const std::string rest = text.substr(end);
     if (!rest.empty() && (rest[0] != '#' || !isDigits(rest.substr(1))))
       throw InputError("material '" + printablePath(text) +
-                       "': behind a name in quotation marks stands nothing or #N");
+                       "': a name in quotation marks can only be followed by #N");
     if (parts.name.empty())
-      throw InputError("material '" + printablePath(text) + "': no name between the marks");
+      throw InputError("material '" + printablePath(text) +
+                       "': no name between the quotation marks");
     parts.isQuoted = true;
     if (!rest.empty()) parts.number = withoutLeadingZeros(rest.substr(1));
     return parts;

@@ -59,7 +59,7 @@ std::span<const MaterialParameter> materialParameters() {
        textured::metalness},
       {"ior", "n: index of refraction", 1e-3, 1e3, &P::ior, &E::ior, "n", {0.5, 4, false}},
       {"transmission",
-       "t: share of the light that passes through; read by the program environment",
+       "t: share of the light that is transmitted; used by the program environment",
        0,
        1,
        &P::transmission,

@@ -18,8 +18,7 @@ Document::Document() {
   std::string name = (base / "glint-stability-XXXXXX").string();
   if (error || !mkdtemp(name.data()))
     throw InputError(
-        "no temporary folder can be made: set TMPDIR to a folder that is there and can be "
-        "written");
+        "cannot make a temporary folder: set TMPDIR to an existing folder that can be written");
   folder_ = name;
 }
 

@@ -142,7 +142,7 @@ void l6(Bench& bench, Record& record) {
 }
 
 const Case limitTable[] = {
-    {"L1", "more pixels a side than a target of the driver has",
+    {"L1", "more pixels per side than a target of the driver has",
      "a target is refused by name, a "
      "picture drawn in tiles",
      "exact", "GL_INVALID_VALUE, or a wrong picture", "", l1},

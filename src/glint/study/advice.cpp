@@ -33,13 +33,13 @@ std::string formsText(const StudyHead& head, const StudyResult& r) {
   const std::optional<std::size_t> exact = exactOf(r, model);
   if (!exact) return {};
   if (!r.noFront.empty())
-    return " Which form is enough cannot be told, since times are too uncertain.";
+    return " Which form is enough cannot be determined, because times are too uncertain.";
   std::string text, before;
   for (const AdvisedForm& form : advisedForms(head, r)) {
     const VariantResult& v = r.variants[form.variant];
     const std::string within = formatted("%d code%s", form.codes, form.codes > 1 ? "s" : "");
     if (v.variant.name == before) {
-      text += ", and so for " + within;
+      text += ", as well as for " + within;
       continue;
     }
     text += text.empty() ? " To stay within " : "; within ";
@@ -62,7 +62,7 @@ std::string partsText(const StudyResult& r) {
   if (r.parts.empty()) return {};
   std::vector<FramePart> parts = r.parts;
   std::ranges::stable_sort(parts, std::greater(), [](const FramePart& p) { return p.share.value; });
-  std::string text = " Of a frame in the exact form";
+  std::string text = " In a frame of the exact form,";
   for (std::size_t i = 0; i < parts.size(); ++i)
     text +=
         (i == 0                 ? " "
@@ -78,7 +78,7 @@ std::string partsText(const StudyResult& r) {
     if (part.name == "highlights")
       text += formatted(" Another form of the highlight can save less than %.0f %%",
                         100 * part.share.high) +
-              " of it; most goes to " + parts[0].name + ".";
+              " of it; most is taken by " + parts[0].name + ".";
   return text;
 }
 

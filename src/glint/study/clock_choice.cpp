@@ -29,7 +29,7 @@ std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameCl
                        "machine is at rest.",
                        clockWords(other), 100 * own, std::string(clockName(other)).c_str());
   }
-  return why + "Measure when the machine is at rest, or give larger --repetitions.";
+  return why + "Measure when the machine is idle, or with more --repetitions.";
 }
 
 }  // namespace glint

@@ -242,7 +242,7 @@ CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
   std::iota(builds.begin(), builds.end(), std::size_t(0));
   result.exactNanoseconds = unitOf(lobes, builds) * 1e6 / evaluations;
   if (!(result.exactNanoseconds > 0))
-    throw Error("a highlight takes no time that could be measured here: leave --cost-table out");
+    throw Error("a highlight takes no measurable time here: leave --cost-table out");
   const double pixels = double(reflectanceSize.x) * reflectanceSize.y;
   double noise = 0, reflectanceNoise = 0;
   result.lobes = measuredCosts(lobes, lobes, 1, noise);
@@ -265,8 +265,7 @@ CostMeasurement measureCosts(const CostMeasuring& how, const Stop& stop,
 std::string costText(const CostMeasurement& m) {
   std::string text = formatted(
       "%s; %d builds of each program; noise %.1f\nthe exact lobe takes %.2f ns for one light at "
-      "one "
-      "pixel, which is 100\n",
+      "one pixel, which counts as 100\n",
       m.file.gl.renderer.c_str(), m.builds, m.file.noise, m.exactNanoseconds);
   for (const auto& [title, costs] :
        {std::pair("lobe", &m.lobes), {"reflectance", &m.reflectances}}) {

@@ -43,21 +43,19 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
   const char* threads = std::getenv("LP_NUM_THREADS");
   std::vector<std::string> all{
       formatted(
-          "Variants, floors and controls take turns, in another order each round: %d rounds after "
-          "%d that are not counted. They are shared by %d builds of all programs, since where a "
-          "driver puts one may change how fast it is.",
+          "Variants, floors and controls alternate, in a different order each round: %d rounds "
+          "after %d that are not counted. They are shared by %d builds of all programs, since "
+          "where a driver puts one may change how fast it is.",
           head.rounds, head.warmUp, head.builds),
       "wall: from the first GL call of a frame until glFinish returns, nothing read back.",
-      "cpu: what all threads of the process ran meanwhile, in user and system mode (getrusage).",
-      software
-          ? "query: GL_TIME_ELAPSED. llvmpipe counts in its rasteriser's threads, anew in each "
-            "tile: a small part of a frame, which is why nothing here is judged by it."
-          : "query: GL_TIME_ELAPSED, the time of the GPU alone.",
+      "cpu: the time used meanwhile by all threads of the process, user and system (getrusage).",
+      software ? "query: GL_TIME_ELAPSED. llvmpipe counts in its rasteriser's threads, separately "
+                 "for each tile: only a small part of a frame, so nothing here is judged by it."
+               : "query: GL_TIME_ELAPSED, the time of the GPU alone.",
       formatted("Times are compared, and fronts made, by %s.", clockWords(r.clock)),
-      formatted(
-          "empty: the target is cleared and no more; constant: the same surface in one colour. ns "
-          "per pixel: median above the empty frame, for each of the %zu covered pixels.",
-          r.mask.covered),
+      formatted("empty: the target is only cleared; constant: the same surface in one colour. ns "
+                "per pixel: median above the empty frame, for each of the %zu covered pixels.",
+                r.mask.covered),
       formatted("Two times differ only if the 95 %% bootstrap interval of the ratio of their lower "
                 "quartiles is farther from 1 than the spread, %.1f %%: the most by which a variant "
                 "differs from itself, built and measured twice (A/A). With a spread above %g %% "
@@ -65,25 +63,26 @@ std::vector<std::string> studyMethod(const StudyHead& head, const StudyResult& r
                 100 * r.spread(), 100 * r.spreadLimit),
       formatted(
           "Errors: linear light before exposure, over %zu pixels, against double precision in the "
-          "exact form. Left out of %zu covered: %zu at edges, %zu covered by one alone, %zu that "
-          "show another or a blended surface.",
+          "exact form. Excluded from %zu covered: %zu at edges, %zu covered in only one picture, "
+          "%zu that show another or a blended surface.",
           r.mask.pixels.size(), r.mask.covered, r.mask.edge, r.mask.onlyOne, r.mask.other),
       // NOLINTNEXTLINE(bugprone-suspicious-missing-comma)
       "flat, gouraud and phong are compared with phong per pixel, blinn-phong and environment with "
       "themselves, blinn-phong with phong too.",
       "whole: against the exact form supersampled in double, where a surface covers all of a pixel "
       "and of the whole picture: form, interpolation, driver and aliasing together.",
-      "shading: form and rounding, from what the driver interpolated; interpolation: what that "
-      "differs from the exact (of flat and gouraud: light interpolated in place of normals)."};
+      "shading: form and rounding, given the driver's interpolated values; interpolation: how "
+      "those differ from the exact ones (for flat and gouraud: light interpolated instead of "
+      "normals)."};
   if (head.longFrame > 0)
     all.push_back(formatted(
-        "Half the usual width and height, since a frame of exact phong takes more than %g ms "
+        "Half the usual width and height, because a frame of exact phong takes more than %g ms "
         "there.",
         head.longFrame));
   if (r.mask.sampledColors)
     all.emplace_back(
-        "The driver's own samples of the textures count as given: their filtering is "
-        "no error of shading.");
+        "The driver's own texture samples are taken as given: their filtering is not an error of "
+        "shading.");
   all.push_back(
       formatted("Rasteriser's threads: %s; processors: %u; Mesa's cache of shaders is off.",
                 threads ? threads : "the driver's choice", std::thread::hardware_concurrency()));

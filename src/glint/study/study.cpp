@@ -64,8 +64,8 @@ class Study {
     if (result_.mask.pixels.empty())
       throw InputError(
           scene_.scene.name +
-          ": no pixel shows a lit surface away from its edges: give a nearer camera or "
-          "a larger --resolution");
+          ": no pixel shows a lit surface away from edges: move the camera closer or use a larger "
+          "--resolution");
     const DrawList list = makeDrawList(scene_.scene, scene_.bounds, options_.look);
     result_.draws = drawCalls(list.items).size();
     std::set<double> exponents;
@@ -83,8 +83,8 @@ class Study {
       result_.variants.emplace_back().variant = std::move(v);
     if (result_.variants.empty())
       throw InputError(
-          "no variant is left to study: give no --shading, --highlight or --fresnel, "
-          "or ones that this model's materials use");
+          "no variant is left to study: leave out --shading, --highlight or --fresnel, or give "
+          "ones that this model's materials use");
   }
 
   const Radiances& truth(Shading program, bool atInputs = false) {
