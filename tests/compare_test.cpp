@@ -124,7 +124,7 @@ TEST(Compare, WhatIsNotFiniteFailsUnlessEqualityIsAsked) {
   b = a;
   b.values[1] = -infinity;
   EXPECT_THAT(compare(a, b, options).failures,
-              ElementsAre("1 pixel is infinite in one of the two"));
+              ElementsAre("1 pixel is infinite in only one of the two"));
 }
 
 TEST(Compare, ValueSpaces) {

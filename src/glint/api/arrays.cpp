@@ -66,7 +66,7 @@ GlbJson ArrayGlb::material(const Arrays& part, const std::string& where) {
   }
   if (look.material.size() > 1 || (look.material.size() == 1 && !look.material.contains("")))
     throw InputError(where + ": material '" + part.material +
-                     "' names another material: leave the name out");
+                     "' names a material: leave the name out");
   const MaterialEdit edit = look.material.empty() ? MaterialEdit{} : look.material.at("");
   if (edit.highlight || edit.fresnel)
     throw InputError(

@@ -222,7 +222,7 @@ void judge(const CompareOptions& options, Comparison& result) {
   refuse(result.nanA, "of the baseline is not a number", "of the baseline are not numbers");
   refuse(result.nanB, "is not a number", "are not numbers");
   refuse(result.infinityDiffering, "is infinite in only one of the two",
-         "are infinite in one of the two");
+         "are infinite in only one of the two");
   if (result.pixels == 0) result.failures.push_back("no pixel is left to compare");
   result.same = result.failures.empty();
 }
