@@ -75,9 +75,8 @@ TEST_F(CostTableCommand, IsWhatTheChoiceGoesBy) {
 TEST_F(CostTableCommand, RefusesWhatIsNoTable) {
   Json newer = tableFor("pow");
   newer["glint-costs"] = 2;
-  const std::pair<std::string, const char*> wrong[] = {{"no JSON", "is not valid JSON"},
-                                                       {"{}", "is not a cost table"},
-                                                       {newer.dump(), "version 2"}};
+  const std::pair<std::string, const char*> wrong[] = {
+      {"no JSON", "is not valid JSON"}, {"{}", "is not a cost table"}, {newer.dump(), "version 2"}};
   for (const auto& [text, words] : wrong)
     for (const char* command : {"info", "render", "study"}) {
       Arguments arguments{command, teapot, "--cost-table", written(text)};

@@ -268,7 +268,8 @@ TEST(GltfAnimation, KeysThatDoNotAscendOrAreNotFiniteAreLeftOut) {
     animate(sample, "translation", "", times, "VEC3", {5, 0, 0, 5, 0, 0});
     const glint::Scene scene = at(sample, 0.5);
     EXPECT_EQ(scene.instances.at(0).world[3].x, 0);
-    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("times that decrease or are not finite")));
+    EXPECT_THAT(scene.warnings,
+                testing::Contains(HasSubstr("times that decrease or are not finite")));
   }
   Sample sample;
   sample.triangle();

@@ -281,7 +281,8 @@ TEST(GltfGeometry, NonFinitePositionsDropTheirTriangles) {
        {"indices", sample.accessor<std::uint8_t>("SCALAR", {3, 1, 2, 0, 1, 2, 1, 4, 5, 5, 2, 0})}});
   const glint::Scene scene = sample.load();
   const glint::Mesh& mesh = scene.meshes.at(0);
-  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("2 of 4 triangles have a non-finite position")));
+  EXPECT_THAT(scene.warnings,
+              ElementsAre(HasSubstr("2 of 4 triangles have a non-finite position")));
   EXPECT_THAT(mesh.indices, ElementsAre(0, 1, 2, 3, 2, 0));
   EXPECT_EQ(mesh.positions.at(3), glm::vec3(0, 0, 1));
   EXPECT_EQ(mesh.colors.at(3), glm::vec4(1));

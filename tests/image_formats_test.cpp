@@ -225,7 +225,8 @@ TEST(Hdr, DamageIsNamed) {
   const auto message = [](const Bytes& bytes) {
     return messageOf([&] { glint::decodeImage(bytes, "a.hdr"); });
   };
-  EXPECT_THAT(message(hdr("-Y 2 +X 1", "\x80\x80\x80\x81")), HasSubstr("a.hdr: the HDR is truncated"));
+  EXPECT_THAT(message(hdr("-Y 2 +X 1", "\x80\x80\x80\x81")),
+              HasSubstr("a.hdr: the HDR is truncated"));
   EXPECT_THAT(message(hdr("-Y 1 +X 2", std::string("\1\1\1\1") + "\1\1\1\1")), HasSubstr("runs"));
   EXPECT_THAT(message(hdr("-Y 16000 +X 16000", "\x80\x80\x80\x81")), HasSubstr("too many"));
   EXPECT_THAT(message(hdr("-Y 0 +X 1", "")), HasSubstr("size is damaged"));

@@ -346,7 +346,8 @@ TEST(Confine, RefusesWhatLiesOutsideOfTheModelsFolder) {
   // The model itself may also be a link that leads out.
   fs::rename(inner / "m.gltf", folder / "m.gltf");
   fs::create_symlink("../m.gltf", inner / "m.gltf");
-  expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}), "is outside the model's folder");
+  expectRefusal(runGlint({"info", (inner / "m.gltf").string(), "--confine"}),
+                "is outside the model's folder");
 }
 
 TEST(Converting, TakesATimeThatGrowsWithTheFile) {
