@@ -11,7 +11,7 @@ namespace glint {
 
 Command addBackends(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "backends", "list the GL backends, and for each whether it works here, or why not");
+      "backends", "list the GL backends: which work here, and why the others do not");
   command->footer(examples({"backends", "backends --json -"}));
   auto json = std::make_shared<std::string>();
   addOption(*command, "--json", *json, "FILE", "write the list as JSON; - is stdout");
