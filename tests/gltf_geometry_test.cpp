@@ -74,8 +74,8 @@ void expectIndicesWork() {
   primitive["indices"] = sample.accessor<Index>("SCALAR", {2, 0, 1});
   EXPECT_EQ(sample.load().meshes.at(0).positions.at(0), glm::vec3(0, 1, 0));
   primitive["indices"] = sample.accessor<Index>("SCALAR", {2, 0, 3});
-  EXPECT_THAT(sample.error(), HasSubstr("meshes[0] \"Part\", primitives[0], index 2 is 3 and there "
-                                        "are 3 vertices"));
+  EXPECT_THAT(sample.error(), HasSubstr("meshes[0] \"Part\", primitives[0], index 2 is 3, but "
+                                        "there are only 3 vertices"));
   primitive["indices"] =
       sample.accessor<Index>("SCALAR", {0, 1, std::numeric_limits<Index>::max()});
   EXPECT_THAT(sample.error(), HasSubstr("there are 3 vertices"));

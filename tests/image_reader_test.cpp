@@ -176,7 +176,7 @@ TEST(Texture, GiantsAreRefusedAtOnce) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string row(100, '\0');
   EXPECT_THAT(messageOf([&] { glint::decodeTexture(makePng(1048577, 1, 8, 6, row), "a"); }),
-              HasSubstr("1048577 x 1 pixels are too many: at most 1048576 a side"));
+              HasSubstr("1048577 x 1 pixels are too many: at most 1048576 per side"));
   EXPECT_THAT(
       messageOf([&] { glint::decodeTexture(makePng(0x7fffffff, 0x7fffffff, 8, 6, row), "a"); }),
       HasSubstr("PNG is damaged (arithmetic overflow)"));
