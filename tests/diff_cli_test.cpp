@@ -83,7 +83,7 @@ TEST(DiffStatus, Table) {
        "rmse 0.0"},
       {"a.png b.png --metric flip", 1, "differs"},
       {"a.png b.png --max-pixels 2", 1, "3 pixels are over the tolerance of 0.1"},
-      {"a.png b.png --max-pixels 0.7%", 1, "allowed are 2.688"},
+      {"a.png b.png --max-pixels 0.7%", 1, "the limit is 2.688"},
       {"a.png b.png --ignore 0,0-23,15", 1, "no pixel is left to compare"},
       {"a.png wide.png", 1, "the sizes differ: 24 x 16 and 25 x 16 pixels"},
       {"nan.pfm nan.pfm --metric max --threshold 1", 1, "is not a number"},
@@ -128,9 +128,9 @@ TEST(DiffStatus, Table) {
       {"a.png b.png --scale -1", 2, "--scale"},
       {"a.png b.png --jobs 0", 2, "--jobs"},
       {"a.png b.png --difference heat", 2, "flip, absolute or side-by-side"},
-      {"a.png b.png -o a.png", 2, "would overwrite what is read"},
-      {"a.png b.png -o x.gif", 2, "x.gif: the ending is that of no known format"},
-      {"a.png b.png --json - --junit -", 2, "goes to stdout already"},
+      {"a.png b.png -o a.png", 2, "would overwrite an input file"},
+      {"a.png b.png -o x.gif", 2, "x.gif: the extension is not that of a known format"},
+      {"a.png b.png --json - --junit -", 2, "already goes to stdout"},
       {"a.png b.png --json /proc/none/a.json", 2, "/proc/none"},
       // No baseline.
       {"missing.png a.png", 4, "missing.png: no baseline: look at a.png and accept it"},
@@ -281,7 +281,8 @@ TEST(DiffUpdate, NeverSilent) {
   EXPECT_EQ(pictures.diff("z y").status, 0);
   // Neither an unreadable file nor one of another format becomes a baseline.
   EXPECT_EQ(pictures.diff("new/t.png text.png --update").status, 2);
-  EXPECT_THAT(pictures.diff("new/t.png a.exr --update").err, HasSubstr("is not of the format of"));
+  EXPECT_THAT(pictures.diff("new/t.png a.exr --update").err,
+              HasSubstr("has a different format from"));
   EXPECT_FALSE(std::filesystem::exists(pictures / "new/t.png"));
 }
 

@@ -126,11 +126,11 @@ TEST(DiffConditions, AllMustHold) {
   // A percentage refers to the window: two of four.
   EXPECT_EQ(files.diff("a.png b.png --window 2 --max-pixels 50%").status, 0);
   EXPECT_THAT(files.diff("a.png b.png --window 2 --max-pixels 49%").out,
-              HasSubstr("2 pixels are over the tolerance of 0.1, allowed are 1.96"));
+              HasSubstr("2 pixels are over the tolerance of 0.1, the limit is 1.96"));
   // Options that need a count are not silently ignored.
   for (const std::string option : {"--window 2", "--shift 1", "--ignore-anti-aliasing"}) {
     EXPECT_THAT(files.diff("a.png b.png " + option).err,
-                HasSubstr(split(option)[0] + ": it is of --max-pixels"));
+                HasSubstr(split(option)[0] + ": it modifies --max-pixels"));
     EXPECT_EQ(files.diff("a.png b.png " + option + " --metric pixels --threshold 4").status, 0);
   }
 }
@@ -311,7 +311,7 @@ TEST(DiffInput, FromStdin) {
   // All baselines are tried.
   write(files / "a_1.png", b);
   EXPECT_THAT(piped("b.png", "a.png -").out, HasSubstr("compared with a_1.png"));
-  EXPECT_THAT(piped("b.png", "- -").err, HasSubstr("one of the two may come from stdin"));
+  EXPECT_THAT(piped("b.png", "- -").err, HasSubstr("only one of the two can come from stdin"));
   EXPECT_EQ(piped("b.png", "a.png - --update").status, 2);
   EXPECT_EQ(piped("b.png", "- a.png --update").status, 2);
   EXPECT_THAT(piped("/dev/null", "a.png -").err, HasSubstr("stdin: "));

@@ -78,7 +78,7 @@ TEST(Usage, BadValuesOfOptions) {
     // Two messages name the value instead.
     const std::string name = option == "--bit-depth 12" ? "bits per channel"
                              : option.starts_with("--rendering-backend")
-                                 ? "no rendering backend is called"
+                                 ? "there is no rendering backend"
                                  : option.substr(0, option.find_first_of(" ="));
     expectRefusal(render(folder / "a.png", option), name);
     if (!option.starts_with("--bit-depth") && !option.starts_with("--rendering-backend"))
@@ -91,7 +91,7 @@ TEST(Usage, OptionsThatExcludeEachOther) {
   Folder folder("exclude");
   const std::string png = folder / "a.png";
   for (const char* name : {"a.exr", "a.pfm"})
-    expectRefusal(render(folder / name, "--bit-depth 16"), "--bit-depth: of PNG alone");
+    expectRefusal(render(folder / name, "--bit-depth 16"), "--bit-depth: only for PNG");
   const std::pair<const char*, const char*> cases[] = {
       {"--no-lights --light camera", "--light and --no-lights"},
       {"--camera-intrinsics 9,9,5,5 --camera-view-angle 30",
@@ -122,7 +122,7 @@ TEST(Usage, ModelsThatCannotBeRead) {
 
 TEST(Usage, OutputsThatCannotBeWritten) {
   Folder folder("outputs");
-  expectRefusal(draw(folder / "a.bmp"), "a.bmp: BMP is not written: use .png");
+  expectRefusal(draw(folder / "a.bmp"), "a.bmp: BMP cannot be written: use .png");
   expectRefusal(draw("/proc/none/a.png"), "/proc/none");
   expectRefusal(draw("/proc/a.png"), "/proc/a.png");
   std::filesystem::create_directory(folder / "folder.png");
@@ -165,12 +165,12 @@ TEST(Usage, OneOutputDoesNotDestroyAnother) {
   Folder folder("outputs_of_one_name");
   const std::string picture = folder / "a.png", list = folder / "list";
   std::ofstream(list) << sphere << "\n";
-  expectRefusal(draw("-", "--save-look -"), "--save-look -: -o goes to stdout already");
+  expectRefusal(draw("-", "--save-look -"), "--save-look -: -o already goes to stdout");
   expectRefusal(draw(picture, "--json - --save-look -"), "--json goes to stdout");
   expectRefusal(runGlint(quick({"render", "--from-list", list, "-o", picture, "--save-look", "-"})),
                 "--from-list goes to stdout");
-  expectRefusal(draw(picture, "--json " + folder / "./a.png"), "-o writes that file already");
-  expectRefusal(draw(picture, "--save-look " + picture), "-o writes that file already");
+  expectRefusal(draw(picture, "--json " + folder / "./a.png"), "-o already writes to that file");
+  expectRefusal(draw(picture, "--save-look " + picture), "-o already writes to that file");
   expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json goes to");
   expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite an input file");
   expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json goes to stdout");

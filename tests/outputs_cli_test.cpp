@@ -70,9 +70,9 @@ TEST(Formats, JpegAndWebpAreThePicture) {
   EXPECT_EQ(readImage(folder / "b.webp").values, png.values);
   EXPECT_EQ(render(folder / "b.jpg", "--quality 5").status, 0);
   EXPECT_LT(contents(folder / "b.jpg").size(), contents(folder / "a.jpg").size());
-  expectRefusal(render(folder / "c.png", "--quality 50"), "--quality: of JPEG and WebP alone");
+  expectRefusal(render(folder / "c.png", "--quality 50"), "--quality: only for JPEG and WebP");
   expectRefusal(render(folder / "c.jpg", "--quality 0"), "--quality");
-  expectRefusal(render(folder / "c.jpg", "--bit-depth 16"), "--bit-depth: of PNG alone");
+  expectRefusal(render(folder / "c.jpg", "--bit-depth 16"), "--bit-depth: only for PNG");
   expectRefusal(render(folder / "c.jpg", "--resume"), "--resume");
   expectRefusal(render(folder / "c.png", "--output-format gif"), "png, jpg, webp");
   EXPECT_FALSE(std::filesystem::exists(folder / "c.png"));
@@ -84,7 +84,7 @@ TEST(Formats, WithoutTransparencyAreOverBlack) {
     const Ran ran = render(folder / name, "--no-background");
     if (name == "a.jpg") {
       EXPECT_EQ(ran.status, 0) << ran.err;
-      EXPECT_THAT(ran.err, HasSubstr("has no transparency: what is transparent is black"));
+      EXPECT_THAT(ran.err, HasSubstr("has no transparency: transparent parts become black"));
     } else {
       expectDone(ran);
     }

@@ -234,7 +234,7 @@ TEST(Render, ThePictureHoldsItsLook) {
   }
   const std::string foreign = GLINT_SOURCE_DIR "/docs/programs.png";
   expectRefusal(runGlint({"render", torus, "-o", folder / "c.png", "--look", foreign}),
-                "does not say how it was made");
+                "a picture without a stored look");
 }
 
 TEST(Render, ExrHoldsTheLinearValues) {

@@ -113,7 +113,7 @@ TEST(DamagedExr, AsksForNoMoreThanItHas) {
   bytes.replace(at, 4, littleEndian(0x7fffffff));
   writeText(folder / "a.exr", bytes);
   const Ran ran = lit(folder / "a.exr", folder / "a.png");
-  expectRefusal(ran, "the EXR is cut short");
+  expectRefusal(ran, "the EXR is truncated");
   EXPECT_LT(ran.peakKib, fewKib);
   const Ran compared = runGlint({"diff", folder / "a.exr", folder / "a.exr"});
   EXPECT_EQ(compared.status, 2);

@@ -110,13 +110,13 @@ TEST(Sweep, IsASheetOfThePicturesThatItsStepsGive) {
 TEST(Sweep, WrongOnesAreRefused) {
   Folder folder("wrong_sweeps");
   const std::pair<const char*, const char*> cases[] = {
-      {"shine=1:2:3", "there is no number"}, {"exponent", "KEY=FROM:TO:STEPS"},
-      {"exponent=1:2", "KEY=FROM:TO:STEPS"}, {"exponent=1:2:1", "steps"},
-      {"exponent=1:2:2.5", "steps"},         {"exponent=1:2:9999", "steps"},
-      {"exponent=0:2:3", ":linear"},         {"exponent=1:2:3:even", "neither"},
-      {"exponent=1:1e9:3", "exponent"},      {"metalness=0:2:3", "metalness"},
-      {"exponent=a:2:3", "KEY=FROM:TO"},     {"shading=0:1:2", "there is no number"},
-      {"ior=1:nan:3", "KEY=FROM:TO"},        {"Nobody:ior=1:2:3", "Nobody"}};
+      {"shine=1:2:3", "no numeric parameter"}, {"exponent", "KEY=FROM:TO:STEPS"},
+      {"exponent=1:2", "KEY=FROM:TO:STEPS"},   {"exponent=1:2:1", "steps"},
+      {"exponent=1:2:2.5", "steps"},           {"exponent=1:2:9999", "steps"},
+      {"exponent=0:2:3", ":linear"},           {"exponent=1:2:3:even", "neither"},
+      {"exponent=1:1e9:3", "exponent"},        {"metalness=0:2:3", "metalness"},
+      {"exponent=a:2:3", "KEY=FROM:TO"},       {"shading=0:1:2", "no numeric parameter"},
+      {"ior=1:nan:3", "KEY=FROM:TO"},          {"Nobody:ior=1:2:3", "Nobody"}};
   for (const auto& [sweep, expected] : cases) {
     SCOPED_TRACE(sweep);
     expectRefusal(runGlint(tiny({"render", sphere, "-o", folder / "a.png", "--sweep", sweep})),

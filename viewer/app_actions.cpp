@@ -119,7 +119,7 @@ void App::execute(Action command) {
          a.options_.settings.panel = true;
          a.ringWanted_ = 2;
          a.session_.say(
-             "in the panel: arrows go on, Space changes, Enter types, Backspace resets, "
+             "in the panel: arrows move on, Space changes, Enter starts typing, Backspace resets, "
              "Escape leaves");
        }},
       {Action::allMaterials,
@@ -245,7 +245,7 @@ void App::execute(Action command) {
        [](App& a) {
          if (!a.probe_) return a.session_.say("point at a pixel, with the tab Info open");
          a.window_.setClipboard(probeText(a.session_.model->scene, *a.probe_));
-         a.session_.say("copied the values of the pixel");
+         a.session_.say("copied the pixel's values");
        }},
       {Action::wireframe, [](App& a) { toggle(a.session_, Overlay::wireframe); }},
       {Action::normals, [](App& a) { toggle(a.session_, Overlay::normals); }},

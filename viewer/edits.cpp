@@ -185,7 +185,7 @@ void defaultLights(Session& session) {
   session.document.a.light.reset();
   session.lightsOff.clear();
   session.document.a.noLights = false;
-  session.say("the lights that stand without any of your own");
+  session.say("the lights are the file's, or the default one");
 }
 
 void moveExposure(Session& session, double step) {

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
                  "a glTF 2.0 model, .gltf or .glb; models can also be dropped on the window");
   glint::addOption(
       app, "--glsl", glsl, "DIR",
-      "use the shader files in this folder in place of the built-in ones; changes to them are "
+      "use the shader files in this folder instead of the built-in ones; changes to them are "
       "shown at once");
   glint::addNumber(app, "--scale", options.scale, "FACTOR", 0.5, 4.0,
                    "size of text and widgets, 0.5 to 4 [default: the screen's]");

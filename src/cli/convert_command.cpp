@@ -154,7 +154,8 @@ int convert(const ConvertOptions& options, const std::string& in) {
   checkKind(options, isGlb(bytes));
   const auto patches = patchesFor(scene, look);
   if (look.material.empty())
-    printWarning("convert: no --material is given and the look has none: the same file is written");
+    printWarning(
+        "convert: neither --material nor the look edits a material: the file is copied unchanged");
   else if (patches.empty())
     printWarning("convert: " + nameOf(options.in) +
                  ": has no material that --material or the look edits: the same file is written");

@@ -43,8 +43,8 @@ void update(const std::set<std::string>& meant, DiffEntry& entry, const std::str
   if (meant.count(entry.name) == 0) return;
   if (entry.status == done || !entry.readableB) return;
   if (pictureFormatOf(target) != pictureFormatOf(entry.b))
-    throw InputError("--update: " + printablePath(entry.b) + " is not of the format of " +
-                     printablePath(target) + ": give one that is");
+    throw InputError("--update: " + printablePath(entry.b) + " has a different format from " +
+                     printablePath(target) + ": give one in that format");
   const bool made = isMissing(target);
   forgetReadFile(target);
   OutputFile file(target);

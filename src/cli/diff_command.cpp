@@ -88,7 +88,7 @@ Command addDiff(CLI::App& app) {
   command->add_flag("--pictures-beside", request.picturesBeside,
                     "with --html: put the pictures into a folder next to it, FILE.pictures");
   addNumber(*command, "--jobs", request.jobs, "N", 1, 256,
-            "number of pairs compared at the same time [default: the number of processors]");
+            "number of pairs to compare at the same time [default: the number of processors]");
   text("--conditions", request.conditions, "FILE",
        "file with the conditions of some pairs of folders, in lines PATTERN OPTION... "
        "[default: glint-diff.txt in A]");

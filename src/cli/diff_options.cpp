@@ -117,7 +117,7 @@ void addComparisonOptions(CLI::App& command, ComparisonArguments& given) {
        "version of pixelmatch whose distance is used: 7 is in YIQ, 8 is HyAB in OKLab "
        "[default: 7]");
   addNumber(command, "--shift", given.shift, "N", 0, 16,
-            "do not count pixels that the other picture has up to N pixels away");
+            "do not count pixels that occur in the other picture within N pixels");
   addNumber(command, "--window", given.window, "N", 1, 1 << 20,
             "count in the worst window of N x N pixels instead of in the whole picture");
   command.add_flag("--ignore-anti-aliasing", given.ignoreAntiAliasing,

@@ -33,7 +33,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->take_last();
   addOption(command, "--json", options.json, "FILE", "write a report of the run; - is stdout");
   addOption(command, "--glsl", options.glsl, "DIR",
-            "use the shader files in this folder in place of the built-in ones");
+            "use the shader files in this folder instead of the built-in ones");
   addNumber(command, "--turntable", options.turntable, "N", 1, 100000,
             "draw N pictures (1 to 100000) while the camera goes once around the model, to the "
             "right");
@@ -41,9 +41,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
             "draw N pictures (1 to 100000) spread evenly over the animation; the last is one "
             "step before its end, so that the sequence can loop");
   addList(command, "--sweep", options.sweeps, "KEY=FROM:TO:STEPS",
-          "draw a labelled contact sheet over a number of the look or of a material "
+          "draw a labelled contact sheet over a numeric parameter of the look or of a material "
           "([NAME:]exponent, exposure, camera-azimuth-angle, ...); given twice, the second runs "
-          "downwards; STEPS:log or STEPS:linear chooses the spacing");
+          "down; STEPS:log or STEPS:linear chooses the spacing");
   command.add_flag(
       "--terms", options.terms,
       "also write the terms whose sum is the picture (ambient, diffuse and specular of each "

@@ -52,7 +52,7 @@ DracoMesh::DracoMesh(const std::vector<unsigned char>& packed, std::uint64_t max
   decoded_->mesh = std::move(result).value();
   const std::uint64_t most = maxGrowth * (packed.size() + 64);
   if (decoded_->mesh->num_points() > most || decoded_->mesh->num_faces() > most)
-    error_ = "unfolds to far more than it holds data for";
+    error_ = "expands to far more than its data allow";
 }
 
 DracoMesh::~DracoMesh() = default;
@@ -71,7 +71,7 @@ std::string DracoMesh::readAttribute(std::uint32_t id, int componentType, const 
   withComponent(componentType, [&](auto type) {
     good = convert<decltype(type)>(*attribute, points(), components, bytes);
   });
-  return good ? "" : "holds values that its accessor cannot";
+  return good ? "" : "has values that its accessor cannot represent";
 }
 
 std::vector<unsigned char> DracoMesh::indices() const {

@@ -231,7 +231,7 @@ std::vector<Parameter> makeTable() {
            choice("environment", environmentTexts(), &Look::environment,
                   "what the program environment reflects and refracts"),
            text("hdri-file", "FILE", &Look::hdriFile,
-                "an equirectangular picture in place of --environment, with -Z at its "
+                "an equirectangular picture instead of --environment, with -Z at its "
                 "centre: Radiance .hdr, OpenEXR, PNG, JPEG or PFM"),
            slider(number("environment-rotation", "DEGREES", -1e6, 1e6, &Look::environmentRotation,
                          "turn the environment about +Y"),
@@ -299,7 +299,7 @@ std::vector<Parameter> makeTable() {
   section("Model",
           {text("scene", "NAME|N", &Look::scene, "scene of the file [default: the file's own]"),
            text("variant", "NAME|N", &Look::variant,
-                "variant of the materials (KHR_materials_variants) [default: none]"),
+                "material variant (KHR_materials_variants) [default: none]"),
            choice("up", std::span<const std::string_view>(upAxes), &Look::up,
                   "axis of the model that points up; its cameras and lights turn with it")});
   section(

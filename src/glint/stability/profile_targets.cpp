@@ -89,7 +89,7 @@ void measureTargets(std::vector<Quality>& all) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block);
   all.push_back({"limits", "target, texture, uniform block",
-                 std::to_string(size) + ", " + std::to_string(texture) + " pixels a side, " +
+                 std::to_string(size) + ", " + std::to_string(texture) + " pixels per side, " +
                      std::to_string(block) + " bytes",
                  "1024, 1024, 16384", "as required",
                  "cases L1 to L6: drawn in parts, smaller, or refused by name"});

@@ -26,7 +26,7 @@ std::string whyNoFront(const std::array<ClockNoise, frameClocks>& noise, FrameCl
     if (other != clock && own > 0 && own <= spreadLimit)
       return why + formatted(
                        "By %s it is %.1f %%: give --clock %s, or measure when the "
-                       "machine is at rest.",
+                       "machine is idle.",
                        clockWords(other), 100 * own, std::string(clockName(other)).c_str());
   }
   return why + "Measure when the machine is idle, or with more --repetitions.";

@@ -109,7 +109,7 @@ std::optional<StudySeries> iorSeries(const SeriesTools& tools) {
 
 std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
   SeriesDrawer drawer(tools, {"lights", "Programs over the number of lights", "lights",
-                              "directional lights from the front, together as bright as one; "
+                              "directional lights from the front with the total intensity of one; "
                               "exact forms against exact phong, blinn-phong against itself"});
   std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
   if (tools.quick) counts = {1, 8, 64};
@@ -133,7 +133,7 @@ std::optional<StudySeries> lightSeries(const SeriesTools& tools) {
 
 std::optional<StudySeries> resolutionSeries(const SeriesTools& tools) {
   StudySeries whole{"resolution", "Programs over the resolution", "pixels of the picture",
-                    "time alone; exact forms; the aspect of the picture stays"};
+                    "time only; exact forms; constant aspect ratio"};
   whole.hasErrors = false;
   // Relative to the study's own picture; other series draw it at half the width.
   std::vector<double> scales{0.125, 0.25, 0.5, 1, 2};

@@ -112,7 +112,7 @@ std::optional<StudySeries> incidenceSeries(const SeriesTools& tools) {
 
 std::optional<StudySeries> finenessSeries(const SeriesTools& tools) {
   StudySeries series{
-      "fineness", "Programs over the fineness of the mesh", "edge / radius h",
+      "fineness", "Programs over the mesh resolution", "edge / radius h",
       "diffuse 0.8, highlight 0.5 at α = 40 unless named, on spheres seen without perspective; "
       "against the true sphere per pixel, where N·L > 0.2 and N·V > 0.3"};
   series.hasOrders = true;
