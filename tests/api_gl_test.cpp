@@ -143,7 +143,7 @@ TEST(Api, LayersAreNamed) {
     const auto all = session.layers(model, frontal, {});
     EXPECT_NEAR(at(all.at("ambient"), 16, 16).r, 0.5f, 1e-6);
     EXPECT_THAT([&] { (void)session.layers(model, frontal, {"shadow"}); },
-                ThrowsMessage<glint::InputError>(HasSubstr("no 'shadow': there are ambient, ")));
+                ThrowsMessage<glint::InputError>(HasSubstr("no layer 'shadow': there are ambient, ")));
   }
 }
 

@@ -166,14 +166,14 @@ TEST(Usage, OneOutputDoesNotDestroyAnother) {
   const std::string picture = folder / "a.png", list = folder / "list";
   std::ofstream(list) << sphere << "\n";
   expectRefusal(draw("-", "--save-look -"), "--save-look -: -o already goes to stdout");
-  expectRefusal(draw(picture, "--json - --save-look -"), "--json goes to stdout");
+  expectRefusal(draw(picture, "--json - --save-look -"), "--json already goes to stdout");
   expectRefusal(runGlint(quick({"render", "--from-list", list, "-o", picture, "--save-look", "-"})),
-                "--from-list goes to stdout");
+                "--from-list already goes to stdout");
   expectRefusal(draw(picture, "--json " + folder / "./a.png"), "-o already writes to that file");
   expectRefusal(draw(picture, "--save-look " + picture), "-o already writes to that file");
-  expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json goes to");
+  expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json already goes to");
   expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite an input file");
-  expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json goes to stdout");
+  expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json already goes to stdout");
   EXPECT_THAT(folder.names(), ElementsAre("list"));
   EXPECT_EQ(draw(picture, "--json /dev/null --save-look /dev/null").status, 0);
 }

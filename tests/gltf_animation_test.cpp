@@ -232,7 +232,7 @@ TEST(GltfAnimation, ChannelsThatCannotBePlayedAreLeftOut) {
        },
        "has a matrix"},
       {"weights of nothing", [](Json& a, Json&) { a["channels"][0]["target"]["path"] = "weights"; },
-       "without any"},
+       "a node that has none"},
       {"too few values",
        [](Json& a, Json& d) { d["accessors"][a["samplers"][0]["output"].get<int>()]["count"] = 1; },
        "3 numbers for 2 keys of 3"},

@@ -80,7 +80,7 @@ TEST(GltfCheck, BytesAreChecked) {
   expectRefused("/accessors/0/count", -1, "accessors[0].count must be");
   expectRefused("/accessors/0/byteOffset", 4, "extends past the end");
   expectRefused("/accessors/0/byteOffset", 18446744073709551615ull, "byteOffset must be");
-  expectRefused("/accessors/0/type", "VEC5", "accessors[0].type is not one");
+  expectRefused("/accessors/0/type", "VEC5", "accessors[0].type is not defined in glTF 2.0");
   expectRefused("/accessors/0/componentType", 5124, "componentType is not defined in glTF 2.0");
   expectRefused("/accessors/0/componentType", 5130, "componentType is not defined in glTF 2.0");
   expectRefused("/bufferViews/0/byteLength", 1000, "bufferViews[0] ends at byte 1000");

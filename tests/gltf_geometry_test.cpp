@@ -78,7 +78,7 @@ void expectIndicesWork() {
                                         "there are only 3 vertices"));
   primitive["indices"] =
       sample.accessor<Index>("SCALAR", {0, 1, std::numeric_limits<Index>::max()});
-  EXPECT_THAT(sample.error(), HasSubstr("there are 3 vertices"));
+  EXPECT_THAT(sample.error(), HasSubstr("there are only 3 vertices"));
 }
 
 TEST(GltfGeometry, IndexTypes) {

@@ -210,7 +210,7 @@ TEST(Decoding, WhatIsLongerThanTexturesAreIsScaledDown) {
   const Ran ran = draw(sample.writeGlb(), sample.folder() / "a.png");
   EXPECT_EQ(ran.status, 0);
   ASSERT_EQ(ran.errorLines().size(), 1u) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("20000 x 4 pixels is shown with 10000 x 2 pixels"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("20000 x 4 pixels is reduced to 10000 x 2 pixels"),
                              HasSubstr("16384")));
   // The colour is still the texture's and not that of a material without one.
   Sample small;
@@ -233,7 +233,7 @@ TEST(Decoding, KeepsToALimitForTheSum) {
   const Ran tight = draw(model, out, {"--decode-limit", "17"});
   EXPECT_EQ(tight.status, 0);
   ASSERT_EQ(tight.errorLines().size(), 3u) << tight.err;
-  EXPECT_THAT(tight.err, HasSubstr("2048 x 2048 pixels is shown with 1024 x 1024 pixels"));
+  EXPECT_THAT(tight.err, HasSubstr("2048 x 2048 pixels is reduced to 1024 x 1024 pixels"));
   expectRefusal(draw(model, sample.folder() / "b.png", {"--decode-limit", "15.9"}),
                 "make it smaller or raise --decode-limit");
   EXPECT_FALSE(fs::exists(sample.folder() / "b.png"));

@@ -141,7 +141,7 @@ def test_marks_what_a_budget_chooses(browser):
         browser.open(folder + "/study.html")
         assert browser.evaluate("document.querySelectorAll('.budget').length") == 1
         assert browser.evaluate("$('budget').hidden") is False
-        name = browser.evaluate("data.variants.find(isChosen).name")
+        name = browser.evaluate("report.variants.find(isChosen).name")
         assert name.startswith("max-error 0.01: phong "), name
         browser.evaluate(_event(name, "mousemove"))
         assert "proven bound" in browser.evaluate("$('tip').textContent")

@@ -129,7 +129,7 @@ def test_compares():
     (dict(shine=3), "shine"),
     (dict(resolution=(0, 5)), "0,5"),
     (dict(material={"Nothing": {"exponent": 4}}), "Nothing"),
-    (dict(layers=["shadow"]), "no 'shadow': there are ambient"),
+    (dict(layers=["shadow"]), "no layer 'shadow': there are ambient"),
     (dict(exposure=object()), "object"),
 ])
 def test_refuses_in_one_line(given, said):

@@ -31,8 +31,9 @@ std::string readAdvice(int error) {
     case EACCES:
     case EPERM:
       return "check its permissions";
-    case ENAMETOOLONG:
     case ELOOP:
+      return "check where its links lead";
+    case ENAMETOOLONG:
       return "give a shorter path";
     default:
       return "check the disk and the file";

@@ -131,13 +131,13 @@ void a14(Bench&, Record& record) {
       [&] {
         load({0, 1, 3});
       },
-      "there are 3 vertices");
+      "there are only 3 vertices");
   record.refused(
       "index -1, which is 2^32 - 1",
       [&] {
         load({0, 1, 0xffffffffu});
       },
-      "there are 3 vertices");
+      "there are only 3 vertices");
   const Scene scene = load({0, 1, 2, 0});
   record.near("4 indices: triangles drawn", double(scene.meshes.at(0).indices.size()), 3, 0);
   record.that("a warning tells of the rest", !scene.warnings.empty());
