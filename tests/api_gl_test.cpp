@@ -142,8 +142,9 @@ TEST(Api, LayersAreNamed) {
     EXPECT_EQ(at(layers.at("id"), 0, 0).x, -1.0f);
     const auto all = session.layers(model, frontal, {});
     EXPECT_NEAR(at(all.at("ambient"), 16, 16).r, 0.5f, 1e-6);
-    EXPECT_THAT([&] { (void)session.layers(model, frontal, {"shadow"}); },
-                ThrowsMessage<glint::InputError>(HasSubstr("no layer 'shadow': there are ambient, ")));
+    EXPECT_THAT(
+        [&] { (void)session.layers(model, frontal, {"shadow"}); },
+        ThrowsMessage<glint::InputError>(HasSubstr("no layer 'shadow': there are ambient, ")));
   }
 }
 

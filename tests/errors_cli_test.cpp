@@ -171,9 +171,11 @@ TEST(Usage, OneOutputDoesNotDestroyAnother) {
                 "--from-list already goes to stdout");
   expectRefusal(draw(picture, "--json " + folder / "./a.png"), "-o already writes to that file");
   expectRefusal(draw(picture, "--save-look " + picture), "-o already writes to that file");
-  expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}), "--json already goes to");
+  expectRefusal(runGlint({"info", sphere, "--json", "-", "--save-look", "-"}),
+                "--json already goes to");
   expectRefusal(runGlint({"info", list, "--json", list}), "would overwrite an input file");
-  expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}), "--json already goes to stdout");
+  expectRefusal(runGlint({"study", "--json", "-", "--markdown", "-"}),
+                "--json already goes to stdout");
   EXPECT_THAT(folder.names(), ElementsAre("list"));
   EXPECT_EQ(draw(picture, "--json /dev/null --save-look /dev/null").status, 0);
 }

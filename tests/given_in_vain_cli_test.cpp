@@ -95,7 +95,7 @@ TEST(LinkLoops, AreCalledSo) {
   std::filesystem::create_symlink("loop", folder / "loop");
   expectRefusal(
       runGlint(quick({"render", sphere, "-o", folder / "a.png", "--reference", folder / "loop"})),
-      "loop: Too many levels of symbolic links: check the path");
+      "loop: Too many levels of symbolic links: check where its links lead");
 }
 
 }  // namespace glint::test::given_in_vain_cli_test

@@ -127,7 +127,7 @@ TEST(LargeGltf, OfAFileCutShortIsRefused) {
   std::filesystem::resize_file(folder + "/large.bin", bytes.size() - 5);
   EXPECT_NE(glint::test::messageOf([&] {
               glint::loadGltf(folder + "/still.gltf");
-            }).find("buffers[0] tells"),
+            }).find("buffers[0] declares"),
             std::string::npos);
 }
 
