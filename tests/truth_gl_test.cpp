@@ -280,7 +280,7 @@ struct Deviation {
 
 // Compared with the reference at the driver's own sample positions, for every pixel. A pixel
 // covered by a single triangle is within the bound without anti-aliasing,
-// 1e-5 + 4e-6 sqrt(exponent) (reference_gl_test.cpp). Where edges cross it, the driver rounds
+// 1e-5 + 4e-6 sqrt(exponent) (comparison.h). Where edges cross it, the driver rounds
 // vertices to 1/256 of a pixel, by up to 1/512 along either axis, and so moves every edge: a sample
 // that close to an edge may fall on its other side. Pictures by the reference with all samples
 // moved to a corner of that square show the effect; the sum over the four corners accounts for

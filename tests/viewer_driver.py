@@ -320,7 +320,7 @@ def run(tests):
                  BEND=os.path.join(models, "bend.glb"),
                  LIGHTS=os.path.join(models, "lights.glb"))
     known = [name for name in tests if name.startswith("test_")]
-    if any(shutil.which(tool) is None for tool in ("Xvfb", "xdotool", "import", "convert")):
+    if any(shutil.which(tool) is None for tool in ("Xvfb", "xdotool", "import")):
         print("skipped: needs Xvfb, xdotool and ImageMagick")
         return 77
     failed = 0
