@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "files.h"
 #include "glint/image/error.h"
 #include "glint/scene/camera.h"
+#include "looks.h"
 #include "scenes.h"
 
 namespace glint::test::camera_test {
@@ -381,6 +383,47 @@ TEST(Camera, PowersOfTwoChangeNothingButTheUnit) {
     EXPECT_EQ(scaled.far, camera.far * s);
     EXPECT_EQ(glint::projection(scaled, {0, 0}, {1, 1}, true),
               glint::projection(camera, {0, 0}, {1, 1}, true));
+  }
+}
+
+// A look can hold the camera of any file, and reads it again: of a turntable, and of the window
+// when the model moves.
+TEST(DefiniteLook, CanBeSavedForAnyCameraOfAFile) {
+  const Bounds bounds{{0.3, -0.2, 0.5}, 1.7};
+  Scene scene;
+  const auto add = [&](double ahead) -> glint::FileCamera& {
+    scene.cameras.emplace_back().world =
+        glint::test::translation(bounds.center + glm::dvec3(0, 0, ahead));
+    return scene.cameras.back();
+  };
+  for (const double angle : {1e-12, 1e-8, 1e-3, 3.14, std::nextafter(std::numbers::pi, 0.0)})
+    add(5).viewAngle = angle;
+  for (const double ahead : {-1.0, 0.0, 1e-300, 1e-14, 1e-5, 1.0, 1e9})
+    for (const bool orthographic : {false, true}) add(ahead).orthographic = orthographic;
+  for (const double halfHeight : {1e-12, 1e12}) {
+    glint::FileCamera& camera = add(3);
+    camera.orthographic = true;
+    camera.halfHeight = halfHeight;
+  }
+  add(5).far = 0.25;  // in front of the model
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    SCOPED_TRACE(i);
+    Look look;
+    look.cameraIndex = int(i);
+    const Camera before = cameraFor(scene, bounds, look);
+    const Look turned = glint::turnedLook(look, scene, bounds, 0);
+    ASSERT_FALSE(turned.cameraIndex);
+    ASSERT_EQ(test::lookOf(glint::saveLook(turned)), turned);
+    const Camera after = cameraFor(scene, bounds, turned);
+    expectNear(after.eye, before.eye, 1e9 * tight);
+    // The eye, rounded by 4e-16 near the model, and the focal point are at least 1.7e-3 apart.
+    for (int k = 0; k < 3; ++k) expectNear(after.axes[k], before.axes[k], 1e-12);
+    EXPECT_EQ(after.orthographic, before.orthographic);
+    const double angle = 2 * std::atan(before.halfHeight) / degrees;
+    if (after.orthographic || (angle > glint::smallestViewAngle && angle < 179.999))
+      EXPECT_NEAR(after.halfHeight / before.halfHeight, 1, 1e-9);
+    EXPECT_NEAR(after.near / before.near, 1, 1e-9);
+    EXPECT_NEAR(after.far / before.far, 1, 1e-9);
   }
 }
 

@@ -67,6 +67,77 @@ TEST(Convert, WhatIsWrittenIsWhatTheEditDraws) {
   }
 }
 
+/// Roughness, metallic and a share of the reflectance, in all of its channels.
+constexpr const char* texels =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAG0lEQVR42mP4H3Di//+eqGkM/0/IRf3P+yUHAGQm"
+    "ClZ1fPDOAAAAAElFTkSuQmCC";
+
+/// Gives the material a texture that `use` puts into it; x and y are the texture coordinates.
+void addTexture(Json& json, void (*use)(Json& material)) {
+  Json positions = json["bufferViews"][0];
+  positions["byteStride"] = 12;
+  json["bufferViews"].push_back(positions);
+  json["accessors"].push_back({{"bufferView", 3},
+                               {"componentType", 5126},
+                               {"count", json["accessors"][0]["count"]},
+                               {"type", "VEC2"}});
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 3;
+  json["images"] = {{{"uri", texels}}};
+  json["textures"] = {{{"source", 0}}};
+  use(json["materials"][0]);
+}
+
+// A texture leaves the specular strength to the conversion, which reads the numbers that are
+// written for other viewers; --normalization shows the share that the strength was converted from.
+TEST(Convert, WhatIsConvertedForEachPixelStays) {
+  Folder folder("convert_textures");
+  const auto sphere = glint::test::sphere(12, 8);
+  const auto model = [&](const std::string& name, void (*change)(nlohmann::json&)) {
+    return glint::test::writeGltf(name, sphere, change, folder.path());
+  };
+  const std::string inputs[] = {
+      model("plain",
+            [](Json& json) {
+              json["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 0.3},
+                                                              {"roughnessFactor", 0.4}};
+            }),
+      model("metallic",
+            [](Json& json) {
+              addTexture(json, [](Json& material) {
+                material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+              });
+            }),
+      model("specular", [](Json& json) {
+        addTexture(json, [](Json& material) {
+          material["pbrMetallicRoughness"] = {{"metallicFactor", 0.3}, {"roughnessFactor", 0.4}};
+          material["extensions"]["KHR_materials_specular"]["specularTexture"] = {{"index", 0}};
+        });
+        json["extensionsUsed"] = {"KHR_materials_specular"};
+      })};
+  const std::string out = folder / "out.gltf";
+  for (const std::string& in : inputs)
+    for (const char* edited : {"ior=2.4", "exponent=50,metalness=0.7", "ambient=0.5"}) {
+      expectDone(runGlint({"convert", in, out, "--material", edited}));
+      EXPECT_NE(drawn(folder, out), drawn(folder, in)) << in << " " << edited;
+      for (const char* normalization : {"none", "simple"})
+        EXPECT_EQ(drawn(folder, out, {"--normalization", normalization}),
+                  drawn(folder, in, {"--normalization", normalization, "--material", edited}))
+            << in << " " << edited << " " << normalization;
+    }
+}
+
+// The look's normalization is not the file's.
+TEST(Convert, ALooksNormalizationIsNotWritten) {
+  Folder folder("convert_normalization");
+  const std::string in = shipped + "torus.glb";
+  std::ofstream(folder / "a.json")
+      << R"({"glint-look": 1, "normalization": "simple", "material": {"": {"ambient": 0.5}}})";
+  expectDone(runGlint({"convert", in, folder / "a.glb", "--look", folder / "a.json"}));
+  expectDone(runGlint({"convert", in, folder / "b.glb", "--material", "ambient=0.5"}));
+  EXPECT_EQ(contents(folder / "a.glb"), contents(folder / "b.glb"));
+}
+
 TEST(Convert, EverythingElseStays) {
   Folder folder("convert_keeps");
   const std::string in = peculiar(folder);

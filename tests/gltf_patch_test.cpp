@@ -7,7 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "glint/image/error.h"
+#include "glint/image/file.h"
+#include "glint/scene/material_parameters.h"
 #include "glint/shading/pbr_conversion.h"
+#include "gltf_sample.h"
 
 namespace glint {
 namespace gltf_patch_test {
@@ -64,6 +67,66 @@ TEST(PatchGltf, LeavesEverythingElseAsItStands) {
   ASSERT_NE(begin, std::string::npos);
   rest.erase(begin, rest.find('}', begin) + 1 - begin);
   EXPECT_EQ(rest, oddFile);
+}
+
+/// A material with textures: 1 metallic-roughness or specular-glossiness, 2 specular, 4 occlusion.
+Sample::Json materialWith(unsigned textures, bool isGloss) {
+  const Sample::Json texture{{"index", 0}};
+  Sample::Json m{{"pbrMetallicRoughness", {{"metallicFactor", 0.3}, {"roughnessFactor", 0.4}}}};
+  if (textures & 1) m["pbrMetallicRoughness"]["metallicRoughnessTexture"] = texture;
+  if (textures & 2) m["extensions"]["KHR_materials_specular"]["specularTexture"] = texture;
+  if (textures & 4) m["occlusionTexture"] = texture;
+  if (isGloss) {
+    Sample::Json& gloss = m["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+    gloss = {{"specularFactor", {0.5, 0.3, 0.2}}, {"glossinessFactor", 0.6}};
+    if (textures & 1) gloss["specularGlossinessTexture"] = texture;
+  }
+  return m;
+}
+
+// Whatever textures give, and whichever numbers are edited, the file has the material that the
+// edits show, with and without a normalization.
+TEST(PatchGltf, TheFileHasTheEditedMaterial) {
+  const std::vector<MaterialParameter> parameters(materialParameters().begin(),
+                                                  materialParameters().end());
+  Sample sample;
+  const std::size_t kinds = 16;
+  for (unsigned kind = 0; kind < kinds; ++kind)
+    sample.add("materials", materialWith(kind % 8, kind >= 8));
+  sample.json["materials"][0]["extras"]["glint"]["exponent"] = 30;
+  sample.json["materials"][8]["extras"]["glint"]["specular"] = 0.3;
+  sample.json["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
+  sample.json["textures"] = {{{"source", 0}}};
+  const auto path = sample.writeGltf();
+  const Scene before = loadGltf(path);
+  for (unsigned edits = 1; edits < 1u << parameters.size(); ++edits) {
+    Look edited, none;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      if (edits >> k & 1) edited.material[""].*parameters[k].edit = 0.2 + 0.1 * double(k);
+    std::vector<MaterialPatch> patches;
+    for (std::size_t i = 0; i < kinds; ++i)
+      patches.push_back(patchOf(i, withEdits(before.materials[i], edited)));
+    const auto bytes = patchGltf(readFile(path.string()), patches, "a");
+    const Scene after = loadGltf(sample.writeText(textOf(bytes), "copy.gltf"));
+    for (std::size_t i = 0; i < kinds; ++i)
+      for (const Normalization normalization : {Normalization::none, Normalization::simple}) {
+        SCOPED_TRACE(testing::Message() << "material " << i << ", edits " << edits);
+        edited.normalization = none.normalization = normalization;
+        const Material as = editedMaterial(before.materials[i], edited);
+        const Material is = editedMaterial(after.materials[i], none);
+        for (const MaterialParameter& p : parameters)
+          ASSERT_EQ(is.shading.*p.value, as.shading.*p.value) << p.name;
+        ASSERT_EQ(is.shading.color, as.shading.color);
+        ASSERT_EQ(is.textured, as.textured);
+        const unsigned converted =
+            textured::diffuse | textured::specular | textured::exponent | textured::metalness;
+        if (!(as.textured & converted)) continue;
+        ASSERT_EQ(is.parameterTextures.metallic, as.parameterTextures.metallic);
+        ASSERT_EQ(is.parameterTextures.roughness, as.parameterTextures.roughness);
+        if (as.textured & textured::specular)
+          ASSERT_EQ(is.parameterTextures.reflectance, as.parameterTextures.reflectance);
+      }
+  }
 }
 
 TEST(PatchGltf, ASecondPatchReplacesTheFirst) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "glint/scene/camera.h"
 #include "gltf_sample.h"
 
 namespace gltf_pose_test {
@@ -216,19 +217,73 @@ TEST(GltfCamera, PerspectiveAndOrthographic) {
   sample.show({{"camera", 0}, {"rotation", {0, half, 0, half}}, {"scale", {-3, 2, 5}}});
   const auto cameras = sample.load().cameras;
   ASSERT_EQ(cameras.size(), 2u);
-  EXPECT_EQ(cameras[0].name, "eye");
-  EXPECT_FALSE(cameras[0].orthographic);
-  EXPECT_EQ(cameras[0].viewAngle, 0.5);
-  EXPECT_EQ(cameras[0].near, 0.1);
-  EXPECT_EQ(cameras[0].far, 0);
-  EXPECT_EQ(glm::dvec3(cameras[0].world[3]), glm::dvec3(1, 2, 3));
-  EXPECT_EQ(cameras[1].name, "plan");
-  EXPECT_TRUE(cameras[1].orthographic);
-  EXPECT_EQ(cameras[1].halfHeight, 3);
-  EXPECT_EQ(cameras[1].far, 10);
+  EXPECT_EQ(cameras[1].name, "eye");
+  EXPECT_FALSE(cameras[1].orthographic);
+  EXPECT_EQ(cameras[1].viewAngle, 0.5);
+  EXPECT_EQ(cameras[1].near, 0.1);
+  EXPECT_EQ(cameras[1].far, 0);
+  EXPECT_EQ(glm::dvec3(cameras[1].world[3]), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(cameras[0].name, "plan");
+  EXPECT_TRUE(cameras[0].orthographic);
+  EXPECT_EQ(cameras[0].halfHeight, 3);
+  EXPECT_EQ(cameras[0].far, 10);
   // A quarter turn about +Y; scale, including mirroring, is ignored.
-  expectNear(glm::dvec3(cameras[1].world[2]), {1, 0, 0}, 4e-16);
-  expectNear(glm::dvec3(cameras[1].world[0]), {0, 0, -1}, 4e-16);
+  expectNear(glm::dvec3(cameras[0].world[2]), {1, 0, 0}, 4e-16);
+  expectNear(glm::dvec3(cameras[0].world[0]), {0, 0, -1}, 4e-16);
+}
+
+// The number of a camera is its index in the file, whatever nodes there are. The first node of the
+// scene that uses it places it; the further ones follow after the last camera.
+TEST(GltfCamera, CamerasKeepTheirNumbersOfTheFile) {
+  Sample sample;
+  sample.triangle();
+  for (const double yfov : {0.5, 0.6, 0.7, 4.0, 0.9})
+    sample.add("cameras", {{"type", "perspective"},
+                           {"name", "c" + std::to_string(sample.json["cameras"].size())},
+                           {"perspective", {{"yfov", yfov}, {"znear", 0.1}}}});
+  sample.add("nodes", {{"camera", 2}});  // of no scene
+  for (const int camera : {4, 3, 1, 0, 4, 1})
+    sample.show({{"camera", camera}, {"translation", {sample.json["nodes"].size(), 0, 0}}});
+  sample.json["nodes"].back()["name"] = "again";
+  sample.show({{"camera", 0}, {"scale", {0, 0, 0}}});
+  const glint::Scene scene = sample.load();
+  const auto& cameras = scene.cameras;
+  ASSERT_EQ(cameras.size(), 8u);
+  const double unusable = 0;
+  const struct {
+    const char* name;
+    double viewAngle, x;
+  } expected[] = {{"c0", 0.5, 5}, {"c1", 0.6, 4},      {"c2", unusable, 0}, {"c3", unusable, 0},
+                  {"c4", 0.9, 2}, {"c0", unusable, 0}, {"again", 0.6, 7},   {"c4", 0.9, 6}};
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(cameras[i].name, expected[i].name);
+    EXPECT_EQ(cameras[i].unusable.empty(), expected[i].viewAngle != unusable);
+    if (!cameras[i].unusable.empty()) continue;
+    EXPECT_EQ(cameras[i].viewAngle, expected[i].viewAngle);
+    EXPECT_EQ(cameras[i].world[3].x, expected[i].x);
+  }
+  EXPECT_THAT(glint::usableCameras(scene), testing::ElementsAre(0, 1, 4, 6, 7));
+  EXPECT_EQ(scene.warnings.size(), 2u);
+  const auto refusal = [&](int index) {
+    glint::Look look;
+    look.cameraIndex = index;
+    try {
+      glint::cameraFor(scene, glint::boundsOf(scene), look);
+    } catch (const glint::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string advice = ": give 0, 1, 4, 6 or 7";
+  EXPECT_EQ(refusal(2),
+            "--camera-index 2: sample: cameras[2] \"c2\" is used by no node of the scene" + advice);
+  EXPECT_EQ(refusal(3),
+            "--camera-index 3: sample: cameras[3] \"c3\" has a yfov not between 0 and pi" + advice);
+  EXPECT_EQ(refusal(5),
+            "--camera-index 5: sample: cameras[5] \"c0\" is at a node of scale 0" + advice);
+  EXPECT_EQ(refusal(8), "--camera-index 8: sample has 8 cameras" + advice);
+  EXPECT_EQ(refusal(7), "");
 }
 
 TEST(GltfCamera, UnusableCamerasAreLeftOut) {
@@ -239,7 +294,8 @@ TEST(GltfCamera, UnusableCamerasAreLeftOut) {
                             {{"type", "orthographic"}, {"orthographic", {{"ymag", 0}}}}};
   for (int i = 0; i < 3; ++i) sample.show({{"camera", i}});
   const glint::Scene scene = sample.load();
-  EXPECT_THAT(scene.cameras, IsEmpty());
+  EXPECT_EQ(scene.cameras.size(), 3u);
+  EXPECT_THAT(glint::usableCameras(scene), IsEmpty());
   EXPECT_EQ(scene.warnings.size(), 3u);
   sample.json["cameras"][0]["perspective"] = 5;
   EXPECT_THAT(sample.error(), HasSubstr("cameras[0].perspective must be an object"));

@@ -5,6 +5,7 @@
 #include "edits.h"
 #include "glint/image/error.h"
 #include "glint/options/parameters.h"
+#include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
 #include "materials.h"
 #include "own_presets.h"
@@ -32,13 +33,13 @@ void amplify(Session& session, double factor) {
 }
 
 void nextCamera(Session& session) {
-  if (!session.model || session.model->scene.cameras.empty())
-    return session.say("the file has no camera");
+  const std::vector<int> cameras =
+      session.model ? usableCameras(session.model->scene) : std::vector<int>();
+  if (cameras.empty()) return session.say("the file has no camera");
   Look& look = session.document.a;
-  const int count = int(session.model->scene.cameras.size());
-  const int next = look.cameraIndex ? *look.cameraIndex + 1 : 0;
+  const auto next = std::ranges::upper_bound(cameras, look.cameraIndex.value_or(-1));
   resetCamera(look);
-  if (next < count) look.cameraIndex = next;
+  if (next != cameras.end()) look.cameraIndex = *next;
 }
 
 }  // namespace

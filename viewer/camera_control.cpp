@@ -48,13 +48,13 @@ Pose poseOf(const Scene& scene, const Bounds& bounds, const Look& look) {
   const Camera camera = cameraFor(scene, bounds, look);
   const glm::dvec3 back = camera.axes[2];
   Pose pose;
-  double distance =
-      glm::dot(camera.eye - (look.cameraFocalPoint ? *look.cameraFocalPoint : bounds.center), back);
+  double distance = look.cameraFocalPoint ? glm::dot(camera.eye - *look.cameraFocalPoint, back)
+                                          : distanceAhead(camera, bounds);
   if (!(distance > 0)) distance = bounds.radius > 0 ? bounds.radius : 1;
   pose.focalPoint = camera.eye - back * distance;
   pose.orthographic = camera.orthographic;
   if (!camera.orthographic) {
-    pose.viewAngle = 2 * std::atan(camera.halfHeight) / radians;
+    pose.viewAngle = viewAngleOf(camera.halfHeight);
   } else {
     // The half height of a parallel projection is the distance times the tangent; the eye may be
     // anywhere along the viewing direction.

@@ -8,6 +8,7 @@
 #include "glint/image/error.h"
 #include "glint/image/json_text.h"
 #include "glint/image/printable.h"
+#include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/material_key.h"
 
@@ -93,7 +94,7 @@ std::string dropMissing(Look& look, const Scene& scene) {
     if (!there) add("material '" + each.first + "'");
     return !there;
   });
-  if (look.cameraIndex.value_or(-1) >= int(scene.cameras.size())) {
+  if (look.cameraIndex && !std::ranges::binary_search(usableCameras(scene), *look.cameraIndex)) {
     add("camera " + std::to_string(*look.cameraIndex));
     look.cameraIndex.reset();
   }

@@ -9,6 +9,7 @@
 #include "camera_control.h"
 #include "edits.h"
 #include "glint/image/error.h"
+#include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
 #include "imgui_versions.h"
 #include "materials.h"
@@ -135,16 +136,18 @@ void drawCameraTab(PanelContext& context) {
     }
     drawParameter(session, p, shown);
   }
-  if (session.model && !session.model->scene.cameras.empty()) {
-    ImGui::Separator();
-    ImGui::TextDisabled("Cameras of the file");
-    for (std::size_t i = 0; i < session.model->scene.cameras.size(); ++i) {
-      const std::string& name = session.model->scene.cameras[i].name;
-      const std::string text = std::to_string(i) + "  " + (name.empty() ? "camera" : name);
-      if (ImGui::Selectable(text.c_str(), session.document.a.cameraIndex == int(i))) {
-        resetCamera(session.document.a);
-        session.document.a.cameraIndex = int(i);
-      }
+  if (!session.model) return;
+  const Scene& scene = session.model->scene;
+  const std::vector<int> cameras = usableCameras(scene);
+  if (cameras.empty()) return;
+  ImGui::Separator();
+  ImGui::TextDisabled("Cameras of the file");
+  for (const int i : cameras) {
+    const std::string& name = scene.cameras[std::size_t(i)].name;
+    const std::string text = std::to_string(i) + "  " + (name.empty() ? "camera" : name);
+    if (ImGui::Selectable(text.c_str(), session.document.a.cameraIndex == i)) {
+      resetCamera(session.document.a);
+      session.document.a.cameraIndex = i;
     }
   }
 }

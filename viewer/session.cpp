@@ -67,7 +67,7 @@ void Session::saveModel(const std::filesystem::path& path) {
     if (isEdited(materials[std::size_t(index)], document.a)) edited.insert(std::size_t(index));
   std::vector<MaterialPatch> patches;
   for (const std::size_t i : edited)
-    patches.push_back(patchOf(i, editedMaterial(materials[i], document.a)));
+    patches.push_back(patchOf(i, withEdits(materials[i], document.a)));
   const std::string source = model->path.string();
   const std::vector<std::byte> original = readFile(source, Noted::no);
   const auto folder = [](const std::filesystem::path& p) {

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "effects.h"
+#include "glint/scene/camera.h"
 #include "glint/scene/look_text.h"
 #include "glint/scene/scene.h"
 
@@ -188,7 +189,7 @@ std::vector<std::string> textChoices(const Parameter& p, const Look& look, const
   if (p.name == "scene" && scene->scenes.size() > 1) numbered(scene->scenes);
   if (p.name == "variant") texts = scene->variants;
   if (p.name == "camera-index")
-    for (std::size_t i = 0; i < scene->cameras.size(); ++i) texts.push_back(std::to_string(i));
+    for (const int i : usableCameras(*scene)) texts.push_back(std::to_string(i));
   return texts;
 }
 

@@ -54,7 +54,7 @@ std::vector<MaterialPatch> patchesFor(const Scene& scene, const Look& look) {
         last && std::any_of(scene.meshes.begin(), scene.meshes.end(),
                             [&](const Mesh& m) { return std::size_t(m.material) == i; });
     if (byName || (all && (!last || shown)))
-      patches.push_back(patchOf(i, editedMaterial(material, look)));
+      patches.push_back(patchOf(i, withEdits(material, look)));
   }
   return patches;
 }

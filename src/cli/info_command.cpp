@@ -45,8 +45,10 @@ Json imageJson(const EncodedImage& image, bool read) {
   return json;
 }
 
-Json cameraJson(const FileCamera& c) {
+Json cameraJson(const FileCamera& c, std::size_t index) {
+  if (!c.unusable.empty()) return {{"name", c.name}, {"index", index}, {"unusable", c.unusable}};
   Json json{{"name", c.name},
+            {"index", index},
             {"type", c.orthographic ? "orthographic" : "perspective"},
             {"position", vectorJson(glm::dvec3(c.world[3]))},
             {"direction", vectorJson(-glm::dvec3(c.world[2]))}};
@@ -128,7 +130,8 @@ Json infoJson(const Scene& scene, const Look& look) {
   for (std::size_t i = 0; i < scene.images.size(); ++i)
     json["images"].push_back(imageJson(scene.images[i], read.contains(int(i))));
   json["cameras"] = Json::array();
-  for (const FileCamera& c : scene.cameras) json["cameras"].push_back(cameraJson(c));
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    json["cameras"].push_back(cameraJson(scene.cameras[i], i));
   json["objects"] = Json::array();
   for (const FileObject& o : scene.objects)
     json["objects"].push_back({{"node", o.node}, {"mesh", o.mesh}});

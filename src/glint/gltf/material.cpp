@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 #include "glint/scene/material_key.h"
@@ -45,6 +46,7 @@ void readExtras(const Json& material, const std::string& label, Material& edited
       messages.warn(place + "." + name + " is out of range, " + Json(to).dump() + " is used");
     }
   };
+  std::optional<double> share;
   for (auto it = glint->begin(); it != glint->end(); ++it) {
     const std::string name = printable(it.key(), 40);
     if (it.key() == "color") {
@@ -55,6 +57,12 @@ void readExtras(const Json& material, const std::string& label, Material& edited
       for (std::size_t k = 0; k < 3; ++k) {
         take("color", (*it)[k], shading.color[static_cast<int>(k)], 0, largestFactor);
       }
+      continue;
+    }
+    if (it.key() == shareKey) {
+      double value = 0;
+      take(name, *it, value, 0, 1);
+      if (it->is_number()) share = value;
       continue;
     }
     const auto switches = switchedTextures();
@@ -79,6 +87,7 @@ void readExtras(const Json& material, const std::string& label, Material& edited
         edited.highlightShare.reset();
     }
   }
+  if (share) edited.highlightShare = share;
 }
 
 /// A colour from the file: `count` numbers clamped to [0, 1e6], or `fallback`.

@@ -98,13 +98,15 @@ glm::dmat4 upright(UpAxis up) {
   return m;
 }
 
-/// Fills the camera from the file's object; false, with a warning, if it is not usable.
-bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
+/// Reads the camera from the file's object; `unusable`, with a warning, if it cannot be shown.
+FileCamera readCamera(Cursor camera, Messages& messages) {
+  FileCamera result;
   result.name = camera.name();
   const std::string type = camera.required("type").text();
   const auto reject = [&](const std::string& what) {
     messages.warn(camera.path() + " " + what + " and is left out");
-    return false;
+    result.unusable = what;
+    return result;
   };
   double near = 0, far = 0;
   if (type == "perspective") {
@@ -131,7 +133,23 @@ bool readCamera(Cursor camera, FileCamera& result, Messages& messages) {
   if (!(result.aspect > 0 && result.aspect < 1e6)) result.aspect = 0;
   result.near = near > 0 ? near : 0;
   result.far = far > result.near ? far : 0;
-  return true;
+  return result;
+}
+
+/// Places the camera where its node is.
+void placeCamera(FileCamera& camera, const Document& document, const NodeGraph& graph,
+                 std::size_t node, Messages& messages) {
+  const glm::dmat4& world = graph.world[node];
+  const glm::dvec3 back = direction(glm::dvec3(world[2]));
+  const glm::dvec3 upward = direction(glm::dvec3(world[1]));
+  const glm::dvec3 up = direction(upward - glm::dot(upward, back) * back);
+  if (glm::length(back) < 0.5 || glm::length(up) < 0.5) {
+    messages.warn(labelOf(document, node) + " has scale 0, so its camera is left out");
+    camera.unusable = "is at a node of scale 0";
+    return;
+  }
+  camera.world = glm::dmat4(glm::dvec4(glm::cross(up, back), 0), glm::dvec4(up, 0),
+                            glm::dvec4(back, 0), world[3]);
 }
 
 /// Fills the light from the file's object; false, with a warning, if it is not usable.
@@ -326,25 +344,32 @@ std::vector<std::pair<std::size_t, FileLight>> readLights(Document& document,
 std::vector<FileCamera> readCameras(Document& document, const NodeGraph& graph,
                                     Messages& messages) {
   const Cursor list = Cursor(document.json, messages).member("cameras");
-  std::vector<FileCamera> cameras;
+  std::vector<std::vector<std::size_t>> users(list.size());
   for (const std::size_t node : graph.visible) {
     const int index = document.model.nodes[node].camera;
-    if (index < 0) continue;
-    FileCamera camera;
-    if (!readCamera(list.item(static_cast<std::size_t>(index)), camera, messages)) continue;
-    const glm::dmat4& world = graph.world[node];
-    const glm::dvec3 back = direction(glm::dvec3(world[2]));
-    const glm::dvec3 upward = direction(glm::dvec3(world[1]));
-    const glm::dvec3 up = direction(upward - glm::dot(upward, back) * back);
-    if (glm::length(back) < 0.5 || glm::length(up) < 0.5) {
-      messages.warn(labelOf(document, node) + " has scale 0, so its camera is left out");
+    if (index >= 0) users[static_cast<std::size_t>(index)].push_back(node);
+  }
+  // A camera that cannot be shown keeps its place, so that the others keep their numbers.
+  std::vector<FileCamera> cameras(users.size()), further;
+  for (std::size_t i = 0; i < users.size(); ++i) {
+    if (users[i].empty()) {
+      cameras[i].name = list.item(i).name();
+      cameras[i].unusable = "is used by no node of the scene";
       continue;
     }
-    camera.world = glm::dmat4(glm::dvec4(glm::cross(up, back), 0), glm::dvec4(up, 0),
-                              glm::dvec4(back, 0), world[3]);
-    if (camera.name.empty()) camera.name = document.model.nodes[node].name;
-    cameras.push_back(std::move(camera));
+    const FileCamera camera = readCamera(list.item(i), messages);
+    cameras[i] = camera;
+    if (!camera.unusable.empty()) continue;
+    for (const std::size_t node : users[i]) {
+      const bool first = node == users[i].front();
+      const std::string& nodeName = document.model.nodes[node].name;
+      FileCamera& placed = first ? cameras[i] : further.emplace_back(camera);
+      // Further ones have the same camera's name: the node's tells them apart.
+      if (placed.name.empty() || (!first && !nodeName.empty())) placed.name = nodeName;
+      placeCamera(placed, document, graph, node, messages);
+    }
   }
+  cameras.insert(cameras.end(), further.begin(), further.end());
   return cameras;
 }
 

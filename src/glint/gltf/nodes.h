@@ -37,7 +37,7 @@ std::vector<std::pair<std::size_t, FileLight>> readLights(Document& document,
                                                           const NodeGraph& graph,
                                                           Messages& messages);
 
-/// The cameras of the nodes that the scene shows, in node order. Their world matrices are reduced
+/// The file's cameras as Scene::cameras has them. Their world matrices are reduced
 /// to rotation and translation: a node's scale and shear do not change a camera.
 std::vector<FileCamera> readCameras(Document& document, const NodeGraph& graph, Messages& messages);
 

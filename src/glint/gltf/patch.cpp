@@ -95,6 +95,9 @@ std::string glintText(const MaterialPatch& patch) {
   for (const MaterialParameter& p : materialParameters())
     if ((p.textured & patch.textured) == 0)
       text += "\"" + std::string(p.name) + "\": " + numberText(patch.values.*p.value) + ", ";
+  // A texture that gives m_s gives the share, too.
+  if (patch.highlightShare && !(patch.textured & textured::specular))
+    text += "\"" + std::string(shareKey) + "\": " + numberText(*patch.highlightShare) + ", ";
   for (const SwitchedTexture& t : switchedTextures())
     if (patch.switchedOff & t.bit) text += "\"" + std::string(t.name) + "\": false, ";
   const glm::dvec3& c = patch.values.color;
@@ -107,7 +110,8 @@ double numberOr(const std::optional<Json>& value, double fallback) {
 }
 
 /// Edits one material's text, an object. Returns true if it set KHR_materials_ior.
-bool setNearestPbr(JsonText& text, const ShadingParameters& values) {
+bool setNearestPbr(JsonText& text, const MaterialPatch& patch) {
+  const ShadingParameters& values = patch.values;
   const std::string pbr = "pbrMetallicRoughness";
   const Path base{pbr, "baseColorFactor"};
   const Json old = text.value(base).value_or(Json::array({1.0, 1.0, 1.0, 1.0}));
@@ -118,6 +122,8 @@ bool setNearestPbr(JsonText& text, const ShadingParameters& values) {
   if (color != glm::dvec3(component(0), component(1), component(2)))
     text.set(base, "[" + numberText(color.r) + ", " + numberText(color.g) + ", " +
                        numberText(color.b) + ", " + numberText(component(3)) + "]");
+  // The m_s of a texture's texels is computed with these, in this program as well.
+  if (patch.textured & textured::specular) return false;
   if (!text.find({pbr, "metallicRoughnessTexture"})) {
     const Path metallic{pbr, "metallicFactor"};
     if (numberOr(text.value(metallic), 1) != values.metalness)
@@ -189,7 +195,7 @@ std::vector<std::byte> patchGltf(std::span<const std::byte> bytes,
     for (const auto& [index, patch] : byIndex) {
       JsonText material(text.text(materials.at(index)));
       material.set({"extras", "glint"}, glintText(*patch));
-      usesIor = setNearestPbr(material, patch->values) || usesIor;
+      usesIor = setNearestPbr(material, *patch) || usesIor;
       edits.emplace_back(materials[index], material.text());
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,17 +16,18 @@ struct MaterialPatch {
   ShadingParameters values;
   unsigned textured = 0;     ///< bits of namespace textured: left to the material's textures
   unsigned switchedOff = 0;  ///< bits of namespace switchedOff
+  std::optional<double> highlightShare = {};  ///< as in Material
 };
 
-/// The patch for an edited material.
+/// The patch for an edited material (withEdits()).
 inline MaterialPatch patchOf(std::size_t index, const Material& edited) {
-  return {index, edited.shading, edited.textured, edited.switchedOff};
+  return {index, edited.shading, edited.textured, edited.switchedOff, edited.highlightShare};
 }
 
 /// The file's bytes with the numbers in the materials' `extras.glint` and, next to them, the
 /// nearest values for other viewers: base colour, index of refraction and, unless a texture varies
 /// them, metallic and roughness. Those are only changed if the values in the file mean something
-/// else.
+/// else. The last three stay if m_s is left to textures, since it is computed from them.
 ///
 /// The text is edited in place: everything else - unknown extensions, the notation of numbers, key
 /// order, white space, other chunks of a GLB - is preserved. For the default material a material is

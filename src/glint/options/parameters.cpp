@@ -245,8 +245,8 @@ std::vector<Parameter> makeTable() {
        vector("camera-focal-point", 1e30, &Look::cameraFocalPoint,
               "the point that the camera looks at [default: the model's centre]"),
        direction("camera-view-up", &Look::cameraViewUp, "up direction [default: 0,1,0]"),
-       then(slider(number("camera-view-angle", "DEGREES", 1e-5, 179.9, &Look::cameraViewAngle,
-                          "vertical angle of view [default: 30]"),
+       then(slider(number("camera-view-angle", "DEGREES", smallestViewAngle, largestViewAngle,
+                          &Look::cameraViewAngle, "vertical angle of view [default: 30]"),
                    1, 120, false, 30),
             dropIntrinsics),
        intrinsics(),
@@ -266,15 +266,16 @@ std::vector<Parameter> makeTable() {
                  "parallel projection; half the picture's height is the distance to the focal "
                  "point times tan(view angle / 2)"),
             dropIntrinsicsIfParallel),
-       resetting(custom(
-                     "camera-index", "N", "use camera N of the file, counted from 0",
-                     [](Look& look, const std::string& text) {
-                       look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
-                     },
-                     [](const Look& look) {
-                       return look.cameraIndex ? Json(*look.cameraIndex) : Json();
-                     }),
-                 &Look::cameraIndex),
+       resetting(
+           custom(
+               "camera-index", "N", "use the camera that has index N in the file, counted from 0",
+               [](Look& look, const std::string& text) {
+                 look.cameraIndex = int(parseInteger(text, 0, 1 << 30, "--camera-index"));
+               },
+               [](const Look& look) {
+                 return look.cameraIndex ? Json(*look.cameraIndex) : Json();
+               }),
+           &Look::cameraIndex),
        resetting(
            custom(
                "clipping-range", "NEAR,FAR",

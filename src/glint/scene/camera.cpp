@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "glint/image/error.h"
+#include "glint/image/printable.h"
 #include "glint/image/task.h"
 #include "glint/shading/angles.h"
 
@@ -115,6 +116,34 @@ double smallerHalf(const Look& look, double angle, double aspect) {
   return std::atan(inside > 0 ? inside : std::min(halves.x, halves.y));
 }
 
+// The camera with this index. Throws InputError if the file has none that can be shown.
+const FileCamera& fileCamera(const Scene& scene, std::size_t index) {
+  const auto& cameras = scene.cameras;
+  const bool known = index < cameras.size();
+  if (known && cameras[index].unusable.empty()) return cameras[index];
+  std::string what = scene.name + " has ";
+  if (known) {
+    const std::string& name = cameras[index].name;
+    what = scene.name + ": cameras[" + std::to_string(index) + "] " +
+           (name.empty() ? "" : '"' + printable(name, 60) + "\" ") + cameras[index].unusable;
+  } else {
+    what += cameras.empty() ? "no camera" : std::to_string(cameras.size()) + " cameras";
+  }
+  constexpr std::size_t most = 20;
+  const std::vector<int> usable = usableCameras(scene);
+  std::string advice = "leave the option out";
+  if (!usable.empty() && usable.size() == cameras.size()) {
+    advice = "give 0 to " + std::to_string(cameras.size() - 1);
+  } else if (!usable.empty()) {
+    advice = "give " + std::to_string(usable[0]);
+    for (std::size_t i = 1; i < std::min(usable.size(), most); ++i)
+      advice += (i + 1 == usable.size() ? " or " : ", ") + std::to_string(usable[i]);
+    if (usable.size() > most)
+      advice += " or one of " + std::to_string(usable.size() - most) + " more";
+  }
+  throw InputError("--camera-index " + std::to_string(index) + ": " + what + ": " + advice);
+}
+
 View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double aspect) {
   View view{{}, bounds.center, {0, 1, 0}, 30 * radians, look.cameraOrthographic, 0};
   const double radius = bounds.radius > 0 ? bounds.radius : 1;
@@ -122,14 +151,7 @@ View viewFor(const Scene& scene, const Look& look, const Bounds& bounds, double 
                        -std::cos(30 * radians) * std::cos(20 * radians)};
   bool placed = false;
   if (look.cameraIndex) {
-    const std::size_t index = std::size_t(*look.cameraIndex);
-    if (index >= scene.cameras.size())
-      throw InputError("--camera-index " + std::to_string(index) + ": " + scene.name + " has " +
-                       (scene.cameras.empty()
-                            ? "no camera: leave the option out"
-                            : std::to_string(scene.cameras.size()) + " cameras: give 0 to " +
-                                  std::to_string(scene.cameras.size() - 1)));
-    const FileCamera& camera = scene.cameras[index];
+    const FileCamera& camera = fileCamera(scene, std::size_t(*look.cameraIndex));
     view.position = glm::dvec3(camera.world[3]);
     direction = unitOr(-glm::dvec3(camera.world[2]), {0, 0, -1});
     view.up = unitOr(glm::dvec3(camera.world[1]), {0, 1, 0});
@@ -183,6 +205,23 @@ Bounds boundsOf(const Scene& scene) {
   const Farthest farthest = overVertices(scene, unseen, Farthest{bounds.center, scale});
   bounds.radius = scale * std::sqrt(farthest.square);
   return bounds;
+}
+
+std::vector<int> usableCameras(const Scene& scene) {
+  std::vector<int> usable;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    if (scene.cameras[i].unusable.empty()) usable.push_back(int(i));
+  return usable;
+}
+
+double distanceAhead(const Camera& camera, const Bounds& bounds) {
+  const double radius = bounds.radius > 0 ? bounds.radius : 1;
+  const double ahead = glm::dot(camera.eye - bounds.center, camera.axes[2]);
+  return ahead > radius * 1e-3 ? ahead : radius;
+}
+
+double viewAngleOf(double halfHeight) {
+  return std::clamp(2 * std::atan(halfHeight) / radians, smallestViewAngle, largestViewAngle);
 }
 
 Camera cameraFor(const Scene& scene, const Bounds& bounds, const Look& look) {
@@ -257,8 +296,11 @@ Look definite(Look look, const Scene& scene, const Camera& camera, const Bounds&
   const auto turn = [&](const glm::dvec3& v) {
     return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
   };
-  const double ahead = glm::dot(camera.eye - bounds.center, camera.axes[2]);
-  const double distance = ahead > 0 ? ahead : bounds.radius > 0 ? bounds.radius : 1;
+  double distance = distanceAhead(camera, bounds);
+  // A parallel projection's half height is given as an angle at this distance: from about 1e-8 to
+  // 90 degrees.
+  if (camera.orthographic)
+    distance = std::clamp(distance, camera.halfHeight, camera.halfHeight * 1e10);
   const glm::dvec3 eye = bounds.center + turn(camera.eye - bounds.center);
   look.cameraPosition = eye;
   look.cameraFocalPoint = eye - turn(camera.axes[2]) * distance;
@@ -267,13 +309,14 @@ Look definite(Look look, const Scene& scene, const Camera& camera, const Bounds&
   if (look.cameraIndex && !look.clippingRange) {
     const FileCamera& of = scene.cameras[std::size_t(*look.cameraIndex)];
     if (of.near > 0 || of.far > 0)
-      look.clippingRange = {of.near > 0 ? of.near : camera.near, of.far > 0 ? of.far : camera.far};
+      // camera.far is the larger one if the file's camera ends in front of the model.
+      look.clippingRange = {of.near > 0 ? of.near : camera.near, std::max(of.far, camera.far)};
   }
   look.cameraIndex.reset();
   look.cameraAzimuthAngle = look.cameraElevationAngle = 0;
   look.cameraOrthographic = camera.orthographic;
   const double half = camera.orthographic ? camera.halfHeight / distance : camera.halfHeight;
-  if (!look.cameraIntrinsics) look.cameraViewAngle = 2 * std::atan(half) / radians;
+  if (!look.cameraIntrinsics) look.cameraViewAngle = viewAngleOf(half);
   return look;
 }
 

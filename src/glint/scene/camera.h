@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "glint/scene/look.h"
 #include "glint/scene/scene.h"
@@ -35,11 +36,23 @@ struct Camera {
   double unit = 1.0;
 };
 
+/// The indices of the file's cameras that can be shown.
+std::vector<int> usableCameras(const Scene&);
+
 /// The camera of a look at a scene. Throws InputError for a camera index that the file does not
 /// have, and for a look with intrinsics whose camera is orthographic. Every other input gives a
 /// finite camera: if the eye is at the focal point, or the view is along the up vector, another
 /// axis replaces the undefined one.
 Camera cameraFor(const Scene&, const Bounds&, const Look&);
+
+/// How far ahead on the view axis the point is that stands for what the camera looks at: beside the
+/// centre of the bounds or, if that is behind the camera or so near that the direction from the eye
+/// to this point would be lost in rounding, at the distance of the radius.
+double distanceAhead(const Camera&, const Bounds&);
+
+/// The view angle in degrees of a perspective camera with this halfHeight, within the range that a
+/// look can hold.
+double viewAngleOf(double halfHeight);
 
 /// The look with its camera turned to the right by `degrees` about +Y through the centre of the
 /// bounds; it shows the model as if that had been turned to the left.

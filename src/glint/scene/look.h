@@ -93,6 +93,10 @@ struct MaterialEdit {
 /// The axis that points up in a model's file.
 enum class UpAxis { plusX, minusX, plusY, minusY, plusZ, minusZ };
 
+/// The limits of Look::cameraViewAngle, degrees: those of a camera of a file are within them but
+/// for the last millionth.
+inline constexpr double smallestViewAngle = 1e-9, largestViewAngle = 179.999999;
+
 /// How a scene is viewed: every option that affects a picture, as a value. The table in
 /// parameters.h gives the name, unit, range, default and help of each.
 struct Look {
@@ -123,7 +127,7 @@ struct Look {
 
   std::optional<glm::dvec3> cameraPosition, cameraFocalPoint, cameraDirection;
   std::optional<glm::dvec3> cameraViewUp;
-  std::optional<double> cameraViewAngle;  ///< degrees, vertical
+  std::optional<double> cameraViewAngle;  ///< degrees, vertical; within the limits above
   /// A lens in pixels of the picture, instead of the view angle: horizontal and vertical focal
   /// length, then the principal point from the picture's top left corner, where the first pixel's
   /// centre is at (0.5, 0.5). Not for parallel projections.

@@ -102,6 +102,7 @@ void applyEdit(Material& edited, const MaterialEdit& edit) {
       edited.shading.*p.value = *(edit.*p.edit);
       edited.textured &= ~p.textured;
     }
+  if (edit.specular) edited.highlightShare.reset();
   for (const SwitchedTexture& t : switchedTextures())
     if (edit.*t.edit)
       edited.switchedOff =
@@ -113,10 +114,8 @@ void applyEdit(Material& edited, const MaterialEdit& edit) {
 
 }  // namespace
 
-Material editedMaterial(const Material& material, const Look& look) {
+Material withEdits(const Material& material, const Look& look) {
   Material edited = material;
-  if (look.normalization != Normalization::none && material.highlightShare)
-    edited.shading.specular = *material.highlightShare;
   if (!look.material.empty()) {
     const auto keys = materialKeys(material);
     for (auto key = keys.begin(); key != keys.end(); ++key) {
@@ -127,6 +126,13 @@ Material editedMaterial(const Material& material, const Look& look) {
   }
   for (const SwitchedTexture& t : switchedTextures())
     if (edited.switchedOff & t.bit) (edited.*t.texture).reset();
+  return edited;
+}
+
+Material editedMaterial(const Material& material, const Look& look) {
+  Material edited = withEdits(material, look);
+  if (look.normalization != Normalization::none && edited.highlightShare)
+    edited.shading.specular = *edited.highlightShare;
   return edited;
 }
 

@@ -30,6 +30,10 @@ struct MaterialParameter {
 /// Ambient, diffuse, specular, exponent, metalness, ior and transmission. `color` is separate.
 std::span<const MaterialParameter> materialParameters();
 
+/// The key of Material::highlightShare in extras.glint. It is not edited: an edited m_s replaces
+/// it.
+inline constexpr std::string_view shareKey = "normalized-specular";
+
 /// A texture that can be switched off: it then counts as white, or as a flat normal map.
 struct SwitchedTexture {
   std::string_view name;  ///< in texts and in extras.glint; "on" or "off", true or false
@@ -53,10 +57,13 @@ void forEachEdit(Visit visit) {
 std::array<std::optional<Texture>*, 7> texturesOf(Material&);
 std::array<const std::optional<Texture>*, 7> texturesOf(const Material&);
 
-/// A scene's material as a look shows it: its own values with the edits whose keys select it
-/// (material_key.h) applied in order of precedence. An edited number replaces a texture that
-/// supplied it. With a normalization, m_s is the share that it was converted from, unless m_s is
-/// edited.
+/// A scene's material with those of the look's edits whose keys select it (material_key.h), applied
+/// in order of precedence. An edited number replaces a texture that supplied it, and an edited m_s
+/// the share that it was converted from.
+Material withEdits(const Material&, const Look&);
+
+/// The material as the look shows it: withEdits(), but with a normalization m_s is the share that
+/// it was converted from, if it was.
 Material editedMaterial(const Material&, const Look&);
 
 /// The exponent of a material's lobe with a look: Phong's, or Blinn-Phong's.

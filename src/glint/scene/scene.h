@@ -187,6 +187,8 @@ struct FileCamera {
   double aspect = 0.0;      ///< width / height of its frame; 0: determined by the picture
   double near = 0.0;        ///< 0 if the file gives none
   double far = 0.0;         ///< 0 if the file gives none (infinite)
+  /// Why it cannot be shown, as "is ..." or "has ..." for messages; empty if it can.
+  std::string unusable = {};
 };
 
 /// A light of the file (KHR_lights_punctual).
@@ -236,6 +238,8 @@ struct Scene {
   std::vector<FileObject> objects;  ///< from a file; empty if the scene was made otherwise
   std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
   std::vector<EncodedImage> images;
+  /// At the index that each has in the file, placed by the first node of the scene that uses it;
+  /// then, camera by camera, by the further nodes that use one.
   std::vector<FileCamera> cameras;
   std::vector<FileLight> lights;
   /// The factor for the file's lights unless a look sets one; see lights.h.
