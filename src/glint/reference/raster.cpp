@@ -75,13 +75,16 @@ bool makeLine(Primitive& p, const Corner& a, const Corner& b) {
   if (!(first.window.z > 0) || !(last.window.z > 0)) return false;
   p.from = glm::dvec2(first.window) / first.window.z;
   p.to = glm::dvec2(last.window) / last.window.z;
-  p.low = glm::min(p.from, p.to);
-  p.high = glm::max(p.from, p.to);
-  // t, the position along the line on the screen, as a function of (x, y, 1).
+  p.low = glm::min(p.from, p.to) - p.width / 2;
+  p.high = glm::max(p.from, p.to) + p.width / 2;
+  // t, the position along the line on the screen, as a function of (x, y, 1). All fragments of a
+  // column (of a row, if steep) have the values of the line there, as GL prefers for wide lines
+  // (OpenGL 3.3, 3.5.2.1); those of a rectangle have the values at their foot on the line.
   const glm::dvec2 way = p.to - p.from;
   const double square = glm::dot(way, way);
-  glm::dvec3 t(0.0);
-  if (square > 0) t = glm::dvec3(way, -glm::dot(way, p.from)) / square;
+  const glm::dvec2 across = isSteep(p) ? glm::dvec2(0, 1) : glm::dvec2(1, 0);
+  const glm::dvec2 slope = p.multisampled ? way / square : across / glm::dot(way, across);
+  const glm::dvec3 t(slope, -glm::dot(slope, p.from));
   const glm::dvec3 begin = (glm::dvec3(0, 0, 1) - t) / first.window.z, end = t / last.window.z;
   p.edges[0] = begin * (1 - low) + end * (1 - high);
   p.edges[1] = begin * low + end * high;
@@ -90,7 +93,9 @@ bool makeLine(Primitive& p, const Corner& a, const Corner& b) {
 
 bool makePoint(Primitive& p, const Corner& a) {
   if (a.toNear() < 0 || a.toFar() < 0 || !(a.window.z > 0)) return false;
-  p.from = p.to = p.low = p.high = glm::dvec2(a.window) / a.window.z;
+  p.from = p.to = glm::dvec2(a.window) / a.window.z;
+  p.low = p.from - p.width / 2;
+  p.high = p.from + p.width / 2;
   p.edges[0] = {0, 0, 1 / a.window.z};
   return true;
 }
@@ -136,6 +141,8 @@ std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertice
                                        std::uint32_t number) {
   Primitive p;
   p.topology = item.mesh->topology;
+  p.width = item.thickness;
+  p.multisampled = item.multisampled;
   const std::size_t count = cornersOf(p.topology);
   std::array<Corner, 3> corners{};
   for (std::size_t i = 0; i < count; ++i) {
@@ -151,9 +158,22 @@ std::optional<Primitive> makePrimitive(const Item& item, const Vertices& vertice
   return p;
 }
 
-Columns columnsAt(const Primitive& p, double y, int width) {
+std::array<glm::dvec3, 4> outlineOf(const Primitive& p) {
+  if (p.topology == Topology::points) {
+    const glm::dvec2 low = p.from - p.width / 2, high = p.from + p.width / 2;
+    return {glm::dvec3(1, 0, -low.x), {-1, 0, high.x}, {0, 1, -low.y}, {0, -1, high.y}};
+  }
+  const glm::dvec2 along = glm::normalize(p.to - p.from), left(-along.y, along.x);
+  const auto edge = [](const glm::dvec2& inwards, const glm::dvec2& through) {
+    return glm::dvec3(inwards, -glm::dot(inwards, through));
+  };
+  return {edge(along, p.from), edge(-along, p.to), edge(left, p.from - left * (p.width / 2)),
+          edge(-left, p.from + left * (p.width / 2))};
+}
+
+Columns columnsAt(const Primitive& p, std::span<const glm::dvec3> edges, double y, int width) {
   double low = p.low.x - 1, high = p.high.x;
-  for (const glm::dvec3& edge : p.edges) {
+  for (const glm::dvec3& edge : edges) {
     // One extra column on either side: each sample is tested anyway.
     if (edge.x > 0)
       low = std::max(low, -(edge.y * y + edge.z) / edge.x - 1.5);
@@ -169,15 +189,23 @@ std::optional<int> lineSample(const Primitive& line, int along) {
   const auto turned = [steep](const glm::dvec2& v) { return steep ? glm::dvec2(v.y, v.x) : v; };
   const glm::dvec2 from = turned(line.from), to = turned(line.to);
   const double center = along + 0.5, t = (center - from.x) / (to.x - from.x);
-  const double across = std::floor(from.y + t * (to.y - from.y));
-  if (!(std::abs(across) < 1e9)) return std::nullopt;
+  const double height = from.y + t * (to.y - from.y);
+  if (!(std::abs(height) < 1e9)) return std::nullopt;
+  // The first of the samples within half of a width of the line. Where samples lie on both edges,
+  // the lower edge owns them if it is a left or a bottom one (ownsEdge).
+  const bool ownsLower = steep || (to.y - from.y) / (to.x - from.x) <= 0;
+  const auto lowest = [&](double width) {
+    const double edge = height - width / 2 - 0.5;
+    return ownsLower ? std::ceil(edge) : std::floor(edge) + 1;
+  };
+  const double next = lowest(1) + 0.5;
   const auto inDiamond = [&](const glm::dvec2& v) {
-    return std::abs(v.x - center) + std::abs(v.y - (across + 0.5)) < 0.5;
+    return std::abs(v.x - center) + std::abs(v.y - next) < 0.5;
   };
   const bool begins = t >= 0 || inDiamond(from);
   const bool leaves = t < 1 && !inDiamond(to);
   if (!begins || !leaves) return std::nullopt;
-  return int(across);
+  return int(lowest(line.width));
 }
 
 }  // namespace glint::reference

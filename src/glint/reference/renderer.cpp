@@ -70,9 +70,7 @@ void ReferenceRenderer::sortIntoStrips() {
 
 double ReferenceRenderer::depthAt(const reference::Primitive& p, int column, int row,
                                   const glm::dvec2& sample) const {
-  const bool whole = p.topology != Topology::triangles;  // lines and points cover whole pixels
-  const glm::dvec2 place = whole ? glm::dvec2(0.0) : sample;
-  return p.footprint(column + 0.5 + place.x, stage_.grid.y - row - 0.5 + place.y).depth;
+  return p.footprint(column + 0.5 + sample.x, stage_.grid.y - row - 0.5 + sample.y).depth;
 }
 
 double ReferenceRenderer::alphaAt(const reference::Item& item, const reference::Primitive& p,

@@ -18,8 +18,9 @@ namespace glint {
 ///
 /// Rasterises by GL's rules (pixel centres, samples on left and bottom edges belong to a triangle,
 /// perspective-correct interpolation, samples between the near and the far plane) but does not snap
-/// vertices to a subpixel grid. With multisampling, a pixel that a triangle covers in part is
-/// shaded at the mean of the samples covered. Where depths agree to 1e-12, the first drawn stays in
+/// vertices to a subpixel grid. Points and lines are one pixel of the picture wide. With
+/// multisampling, a pixel that a triangle covers in part is shaded at the mean of the samples
+/// covered. Where depths agree to 1e-12, the first drawn stays in
 /// front. Blended surfaces are composited exactly, back to front at every sample.
 class ReferenceRenderer {
  public:

@@ -1,5 +1,6 @@
 #include "glint/reference/samples.h"
 
+#include <algorithm>
 #include <span>
 #include <string>
 
@@ -48,7 +49,12 @@ std::vector<glm::dvec2> samplePattern(const AntiAliasing& antiAliasing) {
 
 glm::dvec2 shadingPlace(const Primitive& p, const std::vector<glm::dvec2>& samples, double middleX,
                         double middleY) {
-  if (samples.empty() || p.topology != Topology::triangles) return glm::dvec2(0.0);
+  if (samples.empty() || p.topology == Topology::points) return glm::dvec2(0.0);
+  if (p.topology == Topology::lines) {
+    const glm::dvec2 way = p.to - p.from;
+    const double foot = glm::dot(glm::dvec2(middleX, middleY) - p.from, way) / glm::dot(way, way);
+    return (std::clamp(foot, 0.0, 1.0) - foot) * way;
+  }
   glm::dvec2 sum(0.0);
   std::size_t covered = 0;
   for (const glm::dvec2& sample : samples)

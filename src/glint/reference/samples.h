@@ -14,9 +14,10 @@ namespace glint::reference {
 /// numbers of samples.
 std::vector<glm::dvec2> samplePattern(const AntiAliasing&);
 
-/// Where in a pixel a primitive is shaded, from the pixel's centre: the mean of the samples that it
-/// covers, which is never outside the primitive; the centre itself if it covers all or none of
-/// them. Lines and points cover whole pixels.
+/// Where in a pixel a primitive is shaded, from the pixel's centre: for a triangle the mean of the
+/// samples that it covers; the centre itself if it covers all or none of them. For a line the
+/// centre, whose foot on the line it is that counts; beyond an end of the line, that end. So the
+/// place is never outside the primitive.
 glm::dvec2 shadingPlace(const Primitive&, const std::vector<glm::dvec2>& samples, double middleX,
                         double middleY);
 

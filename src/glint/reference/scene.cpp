@@ -201,12 +201,15 @@ Stage::Stage(const Scene& scene, const DecodedImages& images, const DrawList& li
     : frame(frameFor(withFileLights(scene, look), list.camera)), camera(list.camera) {
   frame.image = list.environment.get();
   const bool ssaa = look.antiAliasing.mode == AntiAliasing::Mode::ssaa;
-  grid = look.resolution * (ssaa ? look.antiAliasing.count : 1);
+  const int scale = ssaa ? look.antiAliasing.count : 1;
+  grid = look.resolution * scale;
   samples = samplePattern(look.antiAliasing);
   const glm::dmat4 toClip = projection(camera, glm::dvec2(0.0), glm::dvec2(1.0), true);
   std::map<int, std::size_t> placed;  // by instance: where its vertices are
   for (const DrawItem& from : list.items) {
     Item& item = items.emplace_back(itemFor(from, scene, images, look));
+    item.thickness = scale;
+    item.multisampled = !samples.empty();
     const auto [place, isNew] = placed.try_emplace(from.instance, vertices.size());
     item.vertices = place->second;
     if (!isNew) continue;

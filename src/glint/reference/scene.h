@@ -39,6 +39,8 @@ struct Item {
   bool mask = false, blended = false, mirrored = false;
   double alphaCutoff = 0;
   FaceSide faces = FaceSide::both;
+  double thickness = 1;       ///< of lines and points, in samples of the grid
+  bool multisampled = false;  ///< lines are rectangles (Primitive)
   std::optional<TextureSampler> colorTexture, emissionTexture, normalTexture;
   std::vector<glm::dvec2> colorTexcoords, emissionTexcoords, normalTexcoords;  ///< of these
   double normalScale = 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -59,7 +60,11 @@ class GpuScene {
 
   const Scene& scene() const { return *scene_; }
 
-  /// Warnings about textures since the last call, for users.
+  /// Adds a warning, unless it is empty or was given before.
+  void warn(const std::string& text) {
+    if (!text.empty() && warned_.insert(text).second) warnings_.push_back(text);
+  }
+  /// Warnings since the last call, for users.
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -67,6 +72,7 @@ class GpuScene {
   bool inPlace_;
   DecodedImages images_;
   std::vector<std::string> warnings_;
+  std::set<std::string> warned_;
   std::map<std::pair<int, bool>, Geometry> geometries_;
   struct Uploaded {
     TextureHandle texture;

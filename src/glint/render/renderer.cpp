@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "glint/gl/check.h"
 #include "glint/image/clock.h"
 #include "glint/image/srgb.h"
+#include "glint/render/block_buffer.h"
 #include "glint/render/composition.h"
+#include "glint/render/thin.h"
 
 namespace glint {
 namespace {
@@ -59,41 +62,6 @@ const Program& builtOnce(Kept& kept, const typename Kept::key_type& key, const C
   return kept.emplace(key, std::move(program)).first->second;
 }
 
-void fill(const Buffer& buffer, std::size_t size, const void* from, GLenum usage) {
-  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(size), from, usage);
-}
-
-// Packs blocks into one uniform buffer, each at an offset with the driver's alignment.
-class BlockBuffer {
- public:
-  BlockBuffer() {
-    GLint alignment = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    step_ = std::size_t(std::max(alignment, 1));
-  }
-  /// The offset at which the next block begins.
-  GLintptr begin() {
-    bytes_.resize((bytes_.size() + step_ - 1) / step_ * step_);
-    return GLintptr(bytes_.size());
-  }
-  template <typename Block>
-  void add(const Block& block) {
-    const auto* from = reinterpret_cast<const char*>(&block);
-    bytes_.insert(bytes_.end(), from, from + sizeof block);
-  }
-  /// `room` bytes follow the last block, since a block that is not full is bound at its full
-  /// length.
-  void upload(const Buffer& buffer, std::size_t room = 0) {
-    bytes_.resize(bytes_.size() + room);
-    fill(buffer, bytes_.size(), bytes_.data(), GL_STREAM_DRAW);
-  }
-
- private:
-  std::size_t step_ = 1;
-  std::vector<char> bytes_;
-};
-
 void setFaces(const DrawItem& item) {
   glFrontFace(item.mirrored ? GL_CW : GL_CCW);
   if (item.faces == FaceSide::both) {
@@ -129,7 +97,8 @@ Renderer::Renderer(GlslSources sources)
       fileNames_(fileNamesInLines()),
       clipControl_(GLINT_GLAD_GL_ARB_clip_control != 0),
       noVertices_(VertexArray::make()),
-      frame_(Buffer::make()) {}
+      frame_(Buffer::make()),
+      thinFrame_(Buffer::make()) {}
 
 const Program& Renderer::programFor(const Variant& variant, bool instanced) {
   return builtOnce(programs_, {variant, instanced}, [&] {
@@ -198,7 +167,9 @@ Renderer::Picture::Picture(Renderer& renderer, GpuScene& scene, DrawList list, c
       lights_(Buffer::make()),
       draws_(Buffer::make()),
       materials_(Buffer::make()),
-      calls_(drawCalls(list_.items)) {
+      calls_(drawCalls(list_.items)),
+      wideThins_(hasWideThins(scene.scene(), list_, layout_)) {
+  if (wideThins_) scene.warn(thinWarning(thinLimits(), layout_.scale));
   {
     const Stopwatch time(times_.compile);
     for (const DrawCall& call : calls_)
@@ -280,8 +251,19 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
       frame.rayScale = (upper - lower) * reach;
       frame.rayOffset = (upper + lower - 1.0 + list_.camera.shift) * reach;
     }
+    std::optional<ThinWidth> thinWidth;
+    if (wideThins_) {
+      // A pixel more on every side: GL drops points whose middle is outside, and cuts lines there.
+      const glm::dvec2 pixel = 1.0 / whole;
+      frame.projection =
+          glm::mat4(projection(list_.camera, lower - pixel, upper + pixel, renderer_.clipControl_));
+      fill(renderer_.thinFrame_, sizeof frame, &frame, GL_STREAM_DRAW);
+      frame.projection = projection_;
+      thinWidth.emplace(layout_.scale);
+    }
     fill(renderer_.frame_, sizeof frame, &frame, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, renderer_.frame_.id());
+    inThinFrame_ = false;
     if (!list_.lights.empty()) glBindBufferBase(GL_UNIFORM_BUFFER, lightBinding, lights_.id());
     if (renderer_.curve_) glBindBufferBase(GL_UNIFORM_BUFFER, curveBinding, renderer_.curve_.id());
 
@@ -321,6 +303,7 @@ void Renderer::Picture::drawTile(const Tile& tile, float* rows) {
       if (box.z > 0 && box.w > 0) drawLayers(next);
       glDisable(GL_SCISSOR_TEST);
     }
+    thinWidth.reset();
     target.resolve();
     if (rows) glFinish();  // read-back would wait anyway; this separates the two times
     checkGl("draw");
@@ -345,6 +328,14 @@ void Renderer::Picture::bindDraw(std::size_t i) {
   glBindBufferRange(GL_UNIFORM_BUFFER, drawBinding, draws_.id(), drawOffsets_[i],
                     GLsizeiptr(places * sizeof(DrawBlock)));
   setFaces(list_.items[call.first]);
+  const Mesh& mesh = scene_.scene().meshes[std::size_t(list_.items[call.first].mesh)];
+  const bool thin = wideThins_ && mesh.topology != Topology::triangles;
+  if (thin == inThinFrame_) return;
+  inThinFrame_ = thin;
+  const Buffer& frame = thin ? renderer_.thinFrame_ : renderer_.frame_;
+  glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.id());
+  const int extra = thin ? layout_.scale : 0;
+  glViewport(-extra, -extra, tilePixels_.x + 2 * extra, tilePixels_.y + 2 * extra);
 }
 
 void Renderer::Picture::drawCall(std::size_t i, const Buffer* indices) {

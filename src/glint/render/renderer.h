@@ -81,6 +81,8 @@ class Renderer {
     const Program* used_ = nullptr;                                       ///< by the previous call
     glm::mat4 projection_{1};  ///< of the tile being drawn
     glm::ivec2 tilePixels_{0};
+    bool wideThins_;            ///< points and lines need a frame of their own (thin.h)
+    bool inThinFrame_ = false;  ///< which of the two is bound
     RenderTimes times_;
   };
 
@@ -132,7 +134,7 @@ class Renderer {
   int askedSamples_ = 0;
   std::vector<float> scratch_;  ///< for ssaa; kept, since fresh memory costs more than its use
   VertexArray noVertices_;
-  Buffer frame_;
+  Buffer frame_, thinFrame_;
   Buffer curve_;  ///< made when a texture holds sRGB codes
 };
 
