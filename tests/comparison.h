@@ -12,6 +12,7 @@
 #include "glint/gltf/scene_file.h"
 #include "glint/image/srgb.h"
 #include "glint/reference/renderer.h"
+#include "glint/scene/look_text.h"
 #include "stage.h"
 
 namespace glint::test {

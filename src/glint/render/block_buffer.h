@@ -9,6 +9,12 @@
 
 namespace glint {
 
+/// Gives a uniform buffer these bytes.
+inline void fill(const Buffer& buffer, std::size_t size, const void* from, GLenum usage) {
+  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
+  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(size), from, usage);
+}
+
 /// Packs blocks into one uniform buffer, each at an offset with the driver's alignment.
 class BlockBuffer {
  public:
@@ -31,8 +37,7 @@ class BlockBuffer {
   /// length.
   void upload(const Buffer& buffer, std::size_t room = 0) {
     bytes_.resize(bytes_.size() + room);
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-    glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes_.size()), bytes_.data(), GL_STREAM_DRAW);
+    fill(buffer, bytes_.size(), bytes_.data(), GL_STREAM_DRAW);
   }
 
  private:

@@ -102,7 +102,7 @@ glm::ivec4 Renderer::Picture::pixelsOf(std::size_t first) const {
       high = glm::max(high, place);
     }
   }
-  // Points and lines are a pixel of the picture wide; more than half of it, since all is rounded.
+  // Points and lines are a pixel of the picture wide, and all of this is rounded.
   const double extra = 1.0 + layout_.scale;
   const glm::ivec2 begin(glm::clamp(glm::floor(low - extra), glm::dvec2(0), size));
   const glm::ivec2 end(glm::clamp(glm::ceil(high + extra), glm::dvec2(begin), size));

@@ -62,11 +62,6 @@ const Program& builtOnce(Kept& kept, const typename Kept::key_type& key, const C
   return kept.emplace(key, std::move(program)).first->second;
 }
 
-void fill(const Buffer& buffer, std::size_t size, const void* from, GLenum usage) {
-  glBindBuffer(GL_UNIFORM_BUFFER, buffer.id());
-  glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(size), from, usage);
-}
-
 void setFaces(const DrawItem& item) {
   glFrontFace(item.mirrored ? GL_CW : GL_CCW);
   if (item.faces == FaceSide::both) {
