@@ -271,9 +271,9 @@ def test_job_everything_is_taken_back_and_done_again():
         again, start = job.picture()
         assert again == first and not set(start) - {"glint-look", "resolution", "shading",
                                                     "highlight"} - set(look), start
-        for shown in seen[1:-1]:
+        for step, shown in enumerate(seen[1:-1]):
             job.key("ctrl+shift+z")
-            wait_for("the next step", lambda: job.crop(job.capture(), (900, 700)) == shown, 20)
+            wait_for("step %d again" % step, lambda: job.crop(job.capture(), (900, 700)) == shown, 20)
         job.key("ctrl+shift+z")
         assert job.picture()[0] == last
 
