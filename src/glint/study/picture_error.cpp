@@ -12,6 +12,7 @@
 #include "glint/image/task.h"
 #include "glint/reference/renderer.h"
 #include "glint/study/statistics.h"
+#include "glint/study/study.h"
 #include "glint/study/variants.h"
 
 namespace glint {
@@ -232,6 +233,25 @@ double flipOf(const Image& picture, const StudyMask& mask, const Radiances& trut
                             std::size_t(width));
               })
       .mean;
+}
+
+const std::vector<std::string>& errorMetrics() {
+  static const std::vector<std::string> names{"rmse", "max", "p999", "relative-rmse", "flip"};
+  return names;
+}
+
+double metricOf(const VariantError& e, const std::string& metric) {
+  if (metric == "max") return e.whole.max;
+  if (metric == "p999") return e.whole.percentile999;
+  if (metric == "relative-rmse") return e.whole.relativeRmse;
+  if (metric == "flip") return e.flip;
+  return e.whole.rmse;
+}
+
+const VariantError* errorAgainst(const VariantResult& variant, Shading model) {
+  for (const VariantError& error : variant.errors)
+    if (error.against == model) return &error;
+  return nullptr;
 }
 
 }  // namespace glint

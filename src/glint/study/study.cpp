@@ -378,25 +378,6 @@ class Study {
 
 }  // namespace
 
-const std::vector<std::string>& errorMetrics() {
-  static const std::vector<std::string> names{"rmse", "max", "p999", "relative-rmse", "flip"};
-  return names;
-}
-
-double metricOf(const VariantError& e, const std::string& metric) {
-  if (metric == "max") return e.whole.max;
-  if (metric == "p999") return e.whole.percentile999;
-  if (metric == "relative-rmse") return e.whole.relativeRmse;
-  if (metric == "flip") return e.flip;
-  return e.whole.rmse;
-}
-
-const VariantError* errorAgainst(const VariantResult& variant, Shading model) {
-  for (const VariantError& error : variant.errors)
-    if (error.against == model) return &error;
-  return nullptr;
-}
-
 double exactFrame(const StudyScene& scene, const Look& given) {
   GpuScene gpu(scene.scene, scene.images);
   Renderer renderer;
