@@ -279,7 +279,7 @@ TEST(GltfCamera, CamerasKeepTheirNumbersOfTheFile) {
   EXPECT_EQ(refusal(2),
             "--camera-index 2: sample: cameras[2] \"c2\" is used by no node of the scene" + advice);
   EXPECT_EQ(refusal(3),
-            "--camera-index 3: sample: cameras[3] \"c3\" has a yfov not between 0 and pi" + advice);
+            "--camera-index 3: sample: cameras[3] \"c3\" has a yfov outside 0 to pi" + advice);
   EXPECT_EQ(refusal(5),
             "--camera-index 5: sample: cameras[5] \"c0\" is at a node of scale 0" + advice);
   EXPECT_EQ(refusal(8), "--camera-index 8: sample has 8 cameras" + advice);
