@@ -22,7 +22,11 @@ void main() {
 #endif
   vec4 base = vec4(material.color, material.alpha);
 #if VERTEX_COLORS
-  base *= finiteOrZero(AT_PLACE(vColor));
+  vec4 ofVertices = AT_PLACE(vColor);
+#if ALPHA_MASK
+  ofVertices.a = 1.0 - ofVertices.a;  // as vertex.glsl passes it
+#endif
+  base *= finiteOrZero(ofVertices);
 #endif
 #if COLOR_TEXTURE
   base *= TEXTURE_AT(colorTexture, COLOR_RULE, vColorTexcoord);

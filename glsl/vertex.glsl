@@ -55,6 +55,10 @@ void main() {
 #endif
 #if VERTEX_COLORS
   vColor = vertexColor;
+#if ALPHA_MASK
+  // A mask may cut at just the alpha of opaque vertices: interpolated zeros are exact, ones not.
+  vColor.a = 1.0 - vertexColor.a;
+#endif
 #endif
 #if COLOR_TEXTURE
   vColorTexcoord = colorTexcoord;

@@ -215,6 +215,36 @@ TEST_P(Blending, TexelsThatAreUsedDecide) {
     }
 }
 
+// A mask that cuts at just the alpha of an opaque vertex colour leaves no holes, though
+// perspective weights of vertices do not sum to exactly 1.
+TEST_P(Blending, AMaskAtTheAlphaOfOpaqueVerticesKeepsEveryPixel) {
+  Mesh mesh = sphere(12, 8);
+  mesh.colors.assign(mesh.positions.size(), glm::vec4(1));
+  for (std::size_t i = 0; i < mesh.colors.size(); ++i) mesh.colors[i].g = float(i % 3) / 2;
+  for (const double alpha : {0.5, 1.0})
+    for (const AntiAliasing& kind : kinds()) {
+      Scene scene = sceneOf(mesh, pane(glm::dvec3(1), alpha));
+      Look look;
+      look.resolution = {64, 64};
+      look.antiAliasing = kind;
+      const auto both = [&](AlphaMode mode) {
+        scene.materials[0].alphaMode = mode;
+        const Bounds bounds = boundsOf(scene);
+        ReferenceRenderer reference(scene, {}, bounds, look);
+        return std::array{draw(scene, look), reference.draw()};
+      };
+      scene.materials[0].alphaCutoff = alpha;
+      const auto whole = both(AlphaMode::opaque), kept = both(AlphaMode::mask);
+      scene.materials[0].alphaCutoff = std::nextafter(float(alpha), 2.f);
+      const auto none = both(AlphaMode::mask);
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(kept[i].values, whole[i].values) << alpha << " " << i;
+        EXPECT_GT(pixel(whole[i], 32, 32).g, pixel(none[i], 32, 32).g);
+        EXPECT_EQ(glm::vec3(pixel(none[i], 32, 32)), glm::vec3(look.backgroundColor));
+      }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Software, Blending, softwareBackends(), nameOfBackend);
 
 }  // namespace blending_gl_test

@@ -122,8 +122,12 @@ Numbers numbersAt(const Item& item, std::span<const std::uint32_t> vertices) {
 
 glm::dvec4 baseColor(const Item& item, const Footprint& f) {
   glm::dvec4 base = item.color;
-  if (!item.mesh->colors.empty())
-    base *= mean(f, [&](std::uint32_t i) { return glm::dvec4(item.mesh->colors[i]); });
+  if (!item.mesh->colors.empty()) {
+    // Equal alphas of vertices must not round: a mask may cut at just this alpha.
+    const glm::dvec4 start(0, 0, 0, item.mesh->colors[f.vertex[0]].a);
+    base *=
+        start + mean(f, [&](std::uint32_t i) { return glm::dvec4(item.mesh->colors[i]) - start; });
+  }
   if (item.colorTexture) base *= sampleTexture(*item.colorTexture, item.colorTexcoords, f);
   return base;
 }
