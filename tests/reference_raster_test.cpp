@@ -157,6 +157,42 @@ TEST(ReferenceDepth, OfCoincidentSurfacesTheFirstDrawnIsSeen) {
   }
 }
 
+// Whatever the order of their vertices, the sides that they show, and their places in meshes.
+TEST(ReferenceDepth, OfCoincidentBlendedSurfacesTheLastDrawnLiesOnTop) {
+  Material glass;
+  glass.unlit = glass.doubleSided = true;
+  glass.alphaMode = glint::AlphaMode::blend;
+  glass.alpha = 0.5;
+  Material red = glass, green = glass;
+  red.shading.color = {1, 0, 0};
+  green.shading.color = {0, 1, 0};
+  const Mesh one = triangles({{-3, -2, 0.3f}, {2.7f, -2.2f, -0.9f}, {0.2f, 3.1f, 1.1f}});
+  const auto above = [](const glm::dvec3& top, const glm::dvec3& below) {
+    return 0.5 * top + 0.5 * (0.5 * below + 0.5 * glm::dvec3(0.0331047665));
+  };
+  for (const std::vector<std::uint32_t>& order :
+       {std::vector<std::uint32_t>{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
+    Mesh turned = one;
+    turned.indices = order;
+    for (const bool first : {false, true}) {
+      const Scene scene =
+          first ? sceneOf({{turned, green}, {one, red}}) : sceneOf({{one, red}, {turned, green}});
+      const glm::dvec3 expected = first ? above(red.shading.color, green.shading.color)
+                                        : above(green.shading.color, red.shading.color);
+      const auto image = draw(scene, plainLook(48, 48));
+      int covered = 0;
+      for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 48; ++x) {
+          const glm::dvec3 c(pixel(image, x, y));
+          if (std::abs(c.r - c.b) < 1e-6) continue;
+          ++covered;
+          ASSERT_NEAR(glm::length(c - expected), 0, 1e-6) << x << "," << y << " " << first;
+        }
+      EXPECT_GT(covered, 300);
+    }
+  }
+}
+
 TEST(ReferenceDepth, TheNearerIsSeenWhateverTheOrder) {
   Material red, green;
   red.unlit = green.unlit = true;

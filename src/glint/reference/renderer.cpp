@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "glint/image/error.h"
 #include "glint/image/task.h"
@@ -170,15 +171,22 @@ void ReferenceRenderer::blend(int firstRow, int endRow, Strip& strip) const {
       const std::size_t at = width * std::size_t(row - firstRow) + std::size_t(column);
       const double depth = depthAt(*p, column, row, strip.sample);
       if (!(depth > strip.depth[at] * (1 + sameDepth)) || depth > 1) return;
-      strip.fragments.push_back(
-          {at, depth, shader.fragment(int(from->item), from->primitive, column, row)});
+      strip.fragments.push_back({at, strip.fragments.size(), depth,
+                                 shader.fragment(int(from->item), from->primitive, column, row)});
     };
     reference::forEachSample(*p, stage_.grid, firstRow, endRow, strip.sample, visit);
   }
-  // Stable: of coinciding surfaces, the last drawn lies on top.
-  std::ranges::stable_sort(strip.fragments, [](const Fragment& a, const Fragment& b) {
-    return a.at != b.at ? a.at < b.at : a.depth < b.depth;
+  std::ranges::sort(strip.fragments, [](const Fragment& a, const Fragment& b) {
+    return std::tie(a.at, a.depth, a.number) < std::tie(b.at, b.depth, b.number);
   });
+  // Of coinciding surfaces, the last drawn lies on top.
+  for (auto first = strip.fragments.begin(); first != strip.fragments.end();) {
+    const auto last = std::find_if(first, strip.fragments.end(), [&](const Fragment& f) {
+      return f.at != first->at || f.depth > first->depth * (1 + sameDepth);
+    });
+    std::ranges::sort(first, last, {}, &Fragment::number);
+    first = last;
+  }
   for (const Fragment& f : strip.fragments) {
     const glm::dvec4& over = f.color;
     strip.color[f.at] =

@@ -64,7 +64,8 @@ class ReferenceRenderer {
     std::uint32_t item, primitive;
   };
   struct Fragment {
-    std::size_t at;  ///< in the strip
+    std::size_t at;      ///< in the strip
+    std::size_t number;  ///< in the order of drawing
     double depth;
     glm::dvec4 color;
   };
