@@ -128,7 +128,7 @@ bool App::somethingDue() {
   if (tooltipDue_ && now >= *tooltipDue_) due = true;
   if (shownResult_.request.preview && seconds(now - lastChange_) >= pace_.rest()) due = true;
   if (recovery_.waiting())
-    recovery_.keep(session_.document.a, session_.unsaved(),
+    recovery_.keep(session_.lookForFile(session_.document.a), session_.unsaved(),
                    session_.model ? session_.model->path : std::filesystem::path());
   return due;
 }
@@ -199,7 +199,7 @@ void App::run() {
     window_.present();
     setTitle();
     tellLog();
-    recovery_.keep(session_.document.a, session_.unsaved(),
+    recovery_.keep(session_.lookForFile(session_.document.a), session_.unsaved(),
                    session_.model ? session_.model->path : std::filesystem::path());
     uiMilliseconds_ = (seconds(Clock::now() - start) - waited) * 1000;
   }

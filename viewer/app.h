@@ -139,6 +139,7 @@ class App {
   void open(const std::string& path);
   void openEnvironment(const std::string& path);
   void openMeasured(const std::string& path);
+  void openLook(const std::filesystem::path& file);
   static std::string endingOf(const std::filesystem::path&);
   std::string freeName(const std::string& stem, const std::string& ending) const;
   void load(const std::filesystem::path& path);

@@ -176,28 +176,30 @@ void App::openMeasured(const std::string& path) {
   });
 }
 
+void App::openLook(const fs::path& file) {
+  attempt([&] {
+    Look look;
+    readLookFile(look, file.string());
+    if (session_.model) checkMaterialNames(session_.model->scene, look);
+    if (session_.lookPath != file) forgetReadFile(session_.lookPath.string());
+    session_.document.a = look;
+    session_.saved = session_.lookOnDisk = look;
+    session_.lookPath = file;
+    lookState_ = stateOf(file);
+    session_.say("loaded the look " + file.string());
+  });
+}
+
 void App::open(const std::string& path) {
   const fs::path file(path);
   const std::string ending = endingOf(file);
   if (ending == ".hdr" || ending == ".exr") return openEnvironment(path);
   if (ending == ".binary") return openMeasured(path);
-  if (file.extension() == ".json" || file.extension() == ".look") {
-    attempt([&] {
-      Look look;
-      readLookFile(look, path);
-      if (session_.model) checkMaterialNames(session_.model->scene, look);
-      if (session_.lookPath != file) forgetReadFile(session_.lookPath.string());
-      session_.document.a = look;
-      session_.saved = session_.lookOnDisk = look;
-      session_.lookPath = file;
-      lookState_ = stateOf(file);
-      session_.say("loaded the look " + path);
-    });
-    return;
-  }
-  if (!session_.unsaved()) return load(file);
+  const bool isLook = ending == ".json" || ending == ".look";
+  const auto openIt = [this, file, isLook] { isLook ? openLook(file) : load(file); };
+  if (!session_.unsaved()) return openIt();
   dialogs_.ask("Not saved", "Edits are not saved. Open " + file.filename().string() + " anyway?",
-               {{"Open without saving", [this, file] { load(file); }}, {"Cancel", {}}});
+               {{"Open without saving", openIt}, {"Cancel", {}}});
 }
 
 bool App::asksFirst(const std::string& path, bool sure, const std::function<void()>& replace,
@@ -241,7 +243,7 @@ void App::saveModelTo(const std::string& path, bool sure) {
 
 void App::savePictureTo(const std::string& path, glm::ivec2 size, bool transparent, bool sure) {
   if (asksFirst(path, sure, [=, this] { savePictureTo(path, size, transparent, true); })) return;
-  Look look = session_.document.a;
+  Look look = session_.lookForFile(session_.document.a);
   look.resolution = size;
   look.noBackground = transparent;
   attempt([&] {

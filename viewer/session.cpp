@@ -11,16 +11,34 @@
 #include "glint/options/outputs.h"
 #include "glint/options/parameters.h"
 #include "glint/scene/material_key.h"
+#include "glint/scene/material_parameters.h"
 #include "look_merge.h"
 #include "materials.h"
 
 namespace glint::viewer {
+
+namespace {
+
+// The bytes of the model's file; of one that is deleted, those that it had when it was opened.
+std::vector<std::byte> bytesOf(const Model& model) {
+  const std::string path = model.path.string();
+  if (!isMissing(path)) return readFile(path, Noted::no);
+  std::vector<std::byte> bytes(model.original ? model.original->size() : 0);
+  if (bytes.empty() || !model.original->read(bytes.data(), 0, bytes.size()))
+    throw InputError(path + ": no longer exists and cannot be read: save the look instead");
+  return bytes;
+}
+
+}  // namespace
 
 std::unique_ptr<Model> loadModel(const std::filesystem::path& path, const PoseRequest& pose) {
   const auto start = Clock::now();
   auto model = std::make_unique<Model>();
   model->path = path;
   model->pose = pose;
+  std::string error;
+  model->original = std::make_shared<const gltf::RegularFile>(path, "", error);
+  if (!error.empty()) model->original.reset();
   SceneFile file(path);
   model->scene = file.take(pose);
   model->bounds = boundsOf(model->scene);
@@ -62,14 +80,16 @@ bool Session::unsaved() const { return withoutCamera(document.a) != withoutCamer
 void Session::saveModel(const std::filesystem::path& path) {
   if (!model) throw InputError("there is no model to save");
   const auto& materials = model->scene.materials;
-  std::set<std::size_t> edited = writtenMaterials;
+  std::map<std::size_t, Material> edited = written;
   for (const int index : drawnMaterials(model->scene))
-    if (isEdited(materials[std::size_t(index)], document.a)) edited.insert(std::size_t(index));
+    if (isEdited(materials[std::size_t(index)], document.a)) edited[std::size_t(index)];
   std::vector<MaterialPatch> patches;
-  for (const std::size_t i : edited)
-    patches.push_back(patchOf(i, withEdits(materials[i], document.a)));
+  for (auto& [i, material] : edited) {
+    material = withEdits(materials[i], document.a);
+    patches.push_back(patchOf(i, material));
+  }
   const std::string source = model->path.string();
-  const std::vector<std::byte> original = readFile(source, Noted::no);
+  const std::vector<std::byte> original = bytesOf(*model);
   const auto folder = [](const std::filesystem::path& p) {
     return std::filesystem::weakly_canonical(p).parent_path();
   };
@@ -82,13 +102,28 @@ void Session::saveModel(const std::filesystem::path& path) {
   file.write(bytes);
   file.commit();
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(model->path))
-    writtenMaterials = edited;
+    written = std::move(edited);
   saved.material = document.a.material;
   say("saved the materials into " + path.string());
 }
 
+Look Session::lookForFile(Look look) const {
+  for (const auto& [i, file] : written) {
+    const Material now = withEdits(model->scene.materials[i], look);
+    MaterialEdit edit;
+    for (const MaterialParameter& p : materialParameters())
+      if (now.shading.*p.value != file.shading.*p.value) edit.*p.edit = now.shading.*p.value;
+    if (now.shading.color != file.shading.color) edit.color = now.shading.color;
+    for (const SwitchedTexture& t : switchedTextures())
+      if ((now.switchedOff & t.bit) != (file.switchedOff & t.bit))
+        edit.*t.edit = (now.switchedOff & t.bit) == 0;
+    if (edit != MaterialEdit{}) mergeEdit(look.material[glint::materialKey(now)], edit);
+  }
+  return look;
+}
+
 void Session::saveLook(const std::filesystem::path& path, glm::ivec2 resolution) {
-  Look look = document.a;
+  Look look = lookForFile(document.a);
   look.resolution = resolution;
   const std::string text = glint::saveLook(look);
   forgetReadFile(lookPath.string());  // the edited look's own file
@@ -112,6 +147,11 @@ void Session::reloadLook() {
 void Session::take(std::shared_ptr<const Model> loaded) {
   const bool same = model && model->path == loaded->path;
   const bool first = !model;
+  if (same) {  // the file has what was written to it
+    document.a = lookForFile(document.a);
+    if (document.b) document.b = lookForFile(*document.b);
+  }
+  written.clear();
   model = std::move(loaded);
   playing = false;
   if (!same && !first) {  // another model is framed anew and has its own history
@@ -130,7 +170,6 @@ void Session::take(std::shared_ptr<const Model> loaded) {
     log.push_back(model->path.string() + " has no " + missing + ": the look ignores it");
   if (document.b) dropMissing(*document.b, model->scene);
   if (!same) {
-    writtenMaterials.clear();
     const std::vector<int> drawn = drawnMaterials(model->scene);
     material = drawn.size() == 1 ? drawn.front() : -1;
     history = History(document);

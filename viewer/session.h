@@ -3,13 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "document.h"
+#include "glint/gltf/file.h"
 #include "glint/gltf/scene_file.h"
 #include "glint/render/gpu_scene.h"
 #include "glint/scene/camera.h"
@@ -24,8 +25,9 @@ namespace glint::viewer {
 /// A model read from its file.
 struct Model {
   std::filesystem::path path;
-  std::shared_ptr<ModelFile> file;  ///< for posing; null if nothing in it moves
-  Scene scene;                      ///< without the bytes of its images
+  std::shared_ptr<ModelFile> file;                    ///< for posing; null if nothing in it moves
+  std::shared_ptr<const gltf::RegularFile> original;  ///< as opened, even if it is deleted later
+  Scene scene;                                        ///< without the bytes of its images
   Bounds bounds;
   std::shared_ptr<const DecodedImages> images;
   PoseRequest pose;                         ///< the pose of the scene
@@ -76,11 +78,16 @@ struct Session {
   std::filesystem::path lookPath;  ///< saveLook() writes here without asking; empty: asks
   Look saved;                      ///< as opened or last saved
   Look lookOnDisk;                 ///< the content of lookPath when it was last read or written
-  /// Materials written to the model's file since it was opened, by their indices in it.
-  std::set<std::size_t> writtenMaterials;
+  /// Materials as written to the model's file since it was opened, by their indices in it. The
+  /// model here keeps those it was opened with, on which the edits of the history are based.
+  std::map<std::size_t, Material> written;
 
   void say(const std::string& text);
   void fail(const std::string& text);
+
+  /// The look with which the model's file, as it is now, gives the picture of `look` here: edits
+  /// that were written there and then undone have values of their own.
+  Look lookForFile(Look look) const;
 
   /// Whether closing would lose something.
   bool unsaved() const;
