@@ -11,6 +11,7 @@
 #include "glint/scene/material_parameters.h"
 #include "gltf_text.h"
 #include "scenes.h"
+#include "viewer/widgets.h"
 
 namespace glint::test::viewer_session_test {
 
@@ -72,6 +73,14 @@ TEST(SavedModel, OfADeletedFileIsWhatWasOpened) {
   opened.session.saveModel(kept);
   EXPECT_EQ(loadGltf(kept).materials[0].shading.exponent, 55);
   EXPECT_FALSE(std::filesystem::exists(opened.path));
+}
+
+// ImGui takes what follows "##" for an identity and shows nothing of it.
+TEST(ShownNames, KeepAllTheirLetters) {
+  using viewer::widgets::shownName;
+  EXPECT_EQ(shownName("Metal#2"), "Metal#2");
+  EXPECT_EQ(shownName("Metal##rust"), "Metal# #rust");
+  EXPECT_EQ(shownName("###"), "# # #");
 }
 
 }  // namespace glint::test::viewer_session_test

@@ -90,7 +90,7 @@ void App::paletteWindow() {
     const bool here = int(i) == palette_.at;
     const float right = ImGui::GetContentRegionAvail().x;
     ImGui::PushID(int(i));
-    if (ImGui::Selectable(each.text.c_str(), here)) chosen = each;
+    if (ImGui::Selectable(widgets::shownName(each.text).c_str(), here)) chosen = each;
     ImGui::PopID();
     if (here && palette_.at != shown) ImGui::SetScrollHereY();
     if (each.keys.empty()) continue;

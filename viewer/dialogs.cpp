@@ -131,7 +131,7 @@ bool Dialogs::drawFiles(float width) {
       const fs::path chosen = fs::path(listedFolder_) / name;
       const bool now = text_ == chosen.lexically_normal().string();
       if (ImGui::Selectable(
-              name.c_str(), now,
+              widgets::shownName(name).c_str(), now,
               ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowDoubleClick)) {
         text_ = name.back() == '/' ? fs::weakly_canonical(chosen, error).string() + "/"
                                    : chosen.lexically_normal().string();

@@ -144,7 +144,8 @@ void drawCameraTab(PanelContext& context) {
   ImGui::TextDisabled("Cameras of the file");
   for (const int i : cameras) {
     const std::string& name = scene.cameras[std::size_t(i)].name;
-    const std::string text = std::to_string(i) + "  " + (name.empty() ? "camera" : name);
+    const std::string text =
+        std::to_string(i) + "  " + (name.empty() ? "camera" : widgets::shownName(name));
     if (ImGui::Selectable(text.c_str(), session.document.a.cameraIndex == i)) {
       resetCamera(session.document.a);
       session.document.a.cameraIndex = i;
@@ -170,7 +171,7 @@ void drawAnimation(PanelContext& context) {
     widgets::label(p.name, !look.animation.empty());
     const auto label = [&](std::size_t i) {
       const std::string& name = scene.animations[i].name;
-      return std::to_string(i) + (name.empty() ? "" : "  " + name);
+      return std::to_string(i) + (name.empty() ? "" : "  " + widgets::shownName(name));
     };
     std::size_t now = 0;
     for (std::size_t i = 0; i < scene.animations.size(); ++i)

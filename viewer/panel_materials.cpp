@@ -34,7 +34,7 @@ void materialList(PanelContext& context) {
       -1;  // the selection when the list was last drawn; a different one is scrolled into view
   const FitForm form{usesBlinn(session.document.a.shading), session.document.a.blinnFactor};
   const auto entry = [&](int index) {
-    const std::string name = materialLabel(scene, index);
+    const std::string name = widgets::shownName(materialLabel(scene, index));
     const bool edited = session.document.a.material.contains(materialKey(scene, index));
     const std::string text = name + (edited ? "  (edited)" : "") + "##" + std::to_string(index);
     // As high as a line with its spacing, so that the list's height is a whole number of lines.
@@ -144,7 +144,7 @@ void ownPresetRows(Session& session) {
   ImGui::TextDisabled("own");
   for (const OwnPreset& preset : all) {
     ImGui::PushID(preset.name.c_str());
-    const bool taken = ImGui::Selectable(preset.name.c_str());
+    const bool taken = ImGui::Selectable(widgets::shownName(preset.name).c_str());
     if (taken || ImGui::IsItemHovered()) try {
         Look look = session.document.a;
         pasteMaterial(look, materialKey(session.model->scene, session.material),

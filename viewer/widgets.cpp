@@ -203,7 +203,7 @@ bool textCombo(const Parameter& p, Look& look, const Scene* scene,
     if (scene && p.name == "scene" && text.size() < 6) {
       const std::size_t i = std::size_t(std::atoi(text.c_str()));
       if (i < scene->scenes.size() && !scene->scenes[i].empty())
-        return text + "  " + scene->scenes[i];
+        return text + "  " + shownName(scene->scenes[i]);
     }
     return text;
   };

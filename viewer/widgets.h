@@ -26,6 +26,16 @@ Style& style();
 /// A colour of the theme for ImGui.
 ImVec4 colorOf(const glm::dvec3&);
 
+/// A name from a file as the text of a widget: ImGui hides what follows "##", so blanks go between.
+inline std::string shownName(const std::string& name) {
+  std::string shown;
+  for (const char c : name) {
+    if (c == '#' && shown.ends_with('#')) shown += ' ';
+    shown += c;
+  }
+  return shown;
+}
+
 /// A label at the left; the next widget fills the rest of the line. With `edited` it is
 /// highlighted.
 void label(const std::string& text, bool edited = false);
