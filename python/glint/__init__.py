@@ -17,10 +17,11 @@ cannot draw in its children (:class:`ContextError`); use multiprocessing's "spaw
 
 from __future__ import annotations
 
+import copy
 import io
 import os
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, Union
 
@@ -28,6 +29,8 @@ import numpy
 import numpy.typing
 
 from . import _glint
+from ._arguments import (FloatArray, argument, as_array, as_bytes, as_doubles, as_flag, as_floats,
+                         as_limits, as_names, as_options, as_pairs, as_path, as_text, as_utf8)
 from ._glint import ContextError, Error, InputError, __version__
 
 __all__ = [
@@ -45,8 +48,6 @@ __all__ = [
     "render",
 ]
 
-FloatArray = numpy.typing.NDArray[numpy.float32]
-
 
 class _Exportable(Protocol):
     """Objects that export themselves as glTF, such as meshes and scenes of trimesh."""
@@ -59,9 +60,9 @@ class _Exportable(Protocol):
 class Mesh:
     """Triangles given as arrays, in one material.
 
-    positions: (n, 3). indices: three for each triangle, counter-clockwise seen from its front, in an
-    array of any shape; by default the positions in their order. normals: (n, 3); without them,
-    faces are flat. colors: (n, 4), linear RGB and alpha in [0, 1], multiplied by the material's
+    positions: (n, 3), finite. indices: three for each triangle, counter-clockwise seen from its
+    front, in an array of any shape; by default the positions in their order. normals: (n, 3);
+    without them, faces are flat. colors: (n, 4), linear RGB and alpha in [0, 1], multiplied by the material's
     colour. texcoords: (n, 2), with (0, 0) at the picture's upper left corner. texture: the bytes of
     a PNG, JPEG or WebP. material: parameters by name, such as {"color": "#c04020", "exponent": 50}.
     name: of the material. two_sided: back faces are drawn too. place: (4, 4), the matrix from these
@@ -80,21 +81,41 @@ class Mesh:
     place: numpy.typing.ArrayLike | None = None
 
     def _arrays(self) -> _glint.Arrays:
-        def floats(values: numpy.typing.ArrayLike | None) -> FloatArray:
-            return numpy.asarray([] if values is None else values, numpy.float32)
+        def rows(name: str, width: int) -> FloatArray:
+            return argument(name, getattr(self, name), as_floats,
+                            "real numbers in an array of the shape (n, %d)" % width)
 
-        indices = numpy.asarray([] if self.indices is None else self.indices).ravel()
+        indices = argument("indices", [] if self.indices is None else self.indices, as_array,
+                           "an array of whole numbers").ravel()
         if indices.size and (indices.dtype.kind not in "iu" or int(indices.min()) < 0
                              or int(indices.max()) > 0xFFFFFFFF):
             raise InputError("indices: give whole numbers from 0 to 4294967295")
-        place = numpy.eye(4) if self.place is None else numpy.asarray(self.place, float)
+        positions = rows("positions", 3)
+        place = argument("place", numpy.eye(4) if self.place is None else self.place, as_doubles,
+                         "real numbers in an array of the shape (4, 4)")
+        checked: dict[str, numpy.typing.NDArray[Any]] = {"positions": positions, "place": place}
+        for name, values in checked.items():
+            if not (abs(values) <= numpy.finfo(numpy.float32).max).all():  # nor if NaN
+                raise InputError("%s: some are not finite in single precision: give numbers from "
+                                 "-3.4e38 to 3.4e38" % name)
         return _glint.Arrays(
-            floats(self.positions), indices.astype(numpy.uint32), floats(self.normals),
-            floats(self.colors), floats(self.texcoords), bytes(self.texture), self.name,
-            _pairs(self.material), self.two_sided, place)
+            positions, indices.astype(numpy.uint32), rows("normals", 3), rows("colors", 4),
+            rows("texcoords", 2),
+            argument("texture", self.texture, as_bytes, "the bytes of a PNG, JPEG or WebP"),
+            argument("name", self.name, as_utf8, "a text"),
+            argument("material", self.material, lambda given: as_utf8(as_pairs(given)),
+                     "parameters by name"),
+            argument("two_sided", self.two_sided, as_flag, "True or False"), place)
 
 
 ModelLike = Union[str, "os.PathLike[str]", bytes, Mesh, "Model", _Exportable, Iterable[Mesh]]
+
+
+def _meshes(value: Any) -> list[Mesh]:
+    meshes = list(value)
+    if not all(isinstance(each, Mesh) for each in meshes):
+        raise TypeError
+    return meshes
 
 
 class Model:
@@ -110,13 +131,15 @@ class Model:
         elif isinstance(source, (bytes, bytearray, memoryview)):
             self._model = _glint.Model.from_memory(bytes(source))
         elif isinstance(source, (str, os.PathLike)):
-            self._model = _glint.Model.load(os.fspath(source))
+            self._model = _glint.Model.load(as_path(source, "model"))
         elif isinstance(source, Mesh):
             self._model = _glint.Model.from_arrays([source._arrays()])
         elif hasattr(source, "export"):
-            self._model = _glint.Model.from_memory(bytes(source.export(file_type="glb")))
+            self._model = _glint.Model.from_memory(
+                argument("model", source.export(file_type="glb"), as_bytes, "an export of bytes"))
         else:
-            self._model = _glint.Model.from_arrays([each._arrays() for each in source])
+            self._model = _glint.Model.from_arrays([each._arrays() for each in argument(
+                "model", source, _meshes, "a path, the bytes of a file, a Mesh or several")])
 
     @property
     def warnings(self) -> list[str]:
@@ -139,12 +162,27 @@ class Picture(numpy.ndarray):  # type: ignore[type-arg]
     #: Exposure in EV: codes() multiplies by 2 to this power.
     exposure: float
     #: Parts of the picture by name, if render() was asked for them: "depth" (height, width),
-    #: "normal" and "id" (height, width, 3), terms of light (height, width, 4).
+    #: "normal" and "id" (height, width, 3), terms of light (height, width, 4). Copies have a dict
+    #: of their own. Slices keep the layers of the whole picture.
     layers: dict[str, numpy.typing.NDArray[Any]]
 
     def __array_finalize__(self, other: Any) -> None:
         self.exposure = getattr(other, "exposure", 0.0)
-        self.layers = getattr(other, "layers", {})
+        self.layers = dict(getattr(other, "layers", {}))
+
+    # NumPy's own pickles and deep copies leave out what a subclass adds.
+    def __reduce__(self) -> tuple[Any, ...]:
+        build, arguments, state = super().__reduce__()  # type: ignore[misc]
+        return build, arguments, (state, self.__dict__)
+
+    def __setstate__(self, state: Any) -> None:
+        super().__setstate__(state[0])
+        self.__dict__.update(state[1])
+
+    def __deepcopy__(self, memo: dict[int, Any] | None) -> Picture:
+        other: Picture = super().__deepcopy__(memo)
+        other.__dict__.update(copy.deepcopy(self.__dict__, memo))
+        return other
 
     def codes(self) -> numpy.typing.NDArray[numpy.uint8]:
         """The picture as stored in a PNG: uint8 (height, width, 4), sRGB, straight alpha."""
@@ -152,8 +190,8 @@ class Picture(numpy.ndarray):  # type: ignore[type-arg]
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the picture: .png, .jpg, .webp (sRGB, exposed), .exr, .pfm (linear)."""
-        name = os.fspath(path)
-        if name.lower().endswith((".exr", ".pfm")):
+        name = as_path(path)
+        if name.lower().endswith((b".exr", b".pfm")):
             _glint.write(name, numpy.asarray(self))
         else:
             _glint.write_codes(name, self.codes())
@@ -179,87 +217,7 @@ def _picture(values: numpy.typing.ArrayLike, exposure: float = 0.0) -> Picture:
     return picture
 
 
-def _text(value: Any) -> str:
-    """A value as the text of an option."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, os.PathLike):
-        return str(os.fspath(value))
-    if isinstance(value, (bool, numpy.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (int, numpy.integer)):
-        return str(int(value))
-    if isinstance(value, (float, numpy.floating)):
-        return repr(float(value))
-    if isinstance(value, (Sequence, numpy.ndarray)):
-        return ",".join(_text(each) for each in value)
-    raise InputError("a value of the type %s: give a text, a number, or several numbers"
-                     % type(value).__name__)
-
-
-def _pairs(parameters: Mapping[str, Any]) -> str:
-    return ",".join("%s=%s" % (key, _text(value)) for key, value in parameters.items())
-
-
-def _materials(value: Any) -> list[str]:
-    if isinstance(value, str):
-        return [value]
-    if not isinstance(value, Mapping):
-        return [_text(each) for each in value]
-    own = {key: each for key, each in value.items() if not isinstance(each, Mapping)}
-    texts = [_pairs(own)] if own else []
-    return texts + ["%s:%s" % (name, _pairs(each)) for name, each in value.items()
-                    if isinstance(each, Mapping)]
-
-
-def _camera(value: Any) -> list[tuple[str, str]]:
-    """Options for a camera: its index in the file, parameters by name, or a pose (4, 4) from camera
-    to world, where the camera looks along its -Z, with +Y up."""
-    if isinstance(value, (int, numpy.integer)):
-        return [("camera-index", _text(value))]
-    if isinstance(value, Mapping):
-        return [("camera-" + key.replace("_", "-"), _text(each)) for key, each in value.items()]
-    pose = numpy.asarray(value, float)
-    if pose.shape != (4, 4):
-        raise InputError("camera: give the number of one in the file, parameters by name, or a "
-                         "matrix of the shape (4, 4)")
-    position = pose[:3, 3]
-    return [("camera-position", _text(position)),
-            ("camera-focal-point", _text(position - pose[:3, 2])),
-            ("camera-view-up", _text(pose[:3, 1]))]
-
-
-def _intrinsics(value: numpy.typing.ArrayLike) -> str:
-    """The option for fx, fy, cx, cy, with the first pixel's centre at (0.5, 0.5); or for an OpenCV
-    matrix (3, 3), with that centre at (0, 0)."""
-    given = numpy.asarray(value, float)
-    if given.shape == (3, 3):
-        if given[0, 1] != 0:
-            raise InputError("intrinsics: a skew of %s cannot be drawn: give 0" % given[0, 1])
-        return _text([given[0, 0], given[1, 1], given[0, 2] + 0.5, given[1, 2] + 0.5])
-    if given.shape != (4,):
-        raise InputError("intrinsics: give fx, fy, cx, cy or a matrix of the shape (3, 3)")
-    return _text(given)
-
-
-def _options(look: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The options of the command line for these keywords."""
-    options: list[tuple[str, str]] = []
-    for keyword, value in look.items():
-        name = keyword.replace("_", "-")
-        if value is None:
-            continue
-        if name == "camera":
-            options += _camera(value)
-        elif name == "intrinsics":
-            options.append(("camera-intrinsics", _intrinsics(value)))
-        elif name == "material":
-            options += [(name, each) for each in _materials(value)]
-        elif name == "light" and not isinstance(value, str):
-            options += [(name, _text(each)) for each in value]
-        else:
-            options.append((name, _text(value)))
-    return options
+_BACKENDS = "auto, egl, egl-software, osmesa or reference"
 
 
 class Session:
@@ -269,7 +227,7 @@ class Session:
     """
 
     def __init__(self, backend: str = "auto") -> None:
-        self._session = _glint.Session(backend)
+        self._session = _glint.Session(argument("backend", backend, as_utf8, _BACKENDS))
 
     @property
     def description(self) -> str:
@@ -279,22 +237,26 @@ class Session:
     def render(self, model: ModelLike, *, layers: Iterable[str] | None = None,
                **look: Any) -> Picture:
         """Like :func:`render`, with this session."""
-        options = _options(look)
+        options = as_options(look)
         own = model if isinstance(model, Model) else Model(model)
-        picture = _picture(self._session.draw(own._model, options),
-                           float(look.get("exposure") or 0.0))
-        if layers is not None:
-            names = [layers] if isinstance(layers, str) else list(layers)
-            for name, values in self._session.layers(own._model, options,
-                                                     [] if names == ["all"] else names).items():
-                if name == "depth":
-                    picture.layers[name] = values[:, :, 0]
-                elif name == "normal":
-                    picture.layers[name] = values[:, :, :3]
-                elif name == "id":
-                    picture.layers[name] = values[:, :, :3].astype(numpy.int32)
-                else:
-                    picture.layers[name] = values
+        names = [] if layers is None else argument("layers", layers, as_names, "a name or several")
+        exposure = look.get("exposure")
+        try:
+            picture = _picture(self._session.draw(own._model, options),
+                               0.0 if exposure is None else float(as_text(exposure)))
+            parts = {} if layers is None else self._session.layers(
+                own._model, options, [] if names == [b"all"] else names)
+        except MemoryError as error:
+            raise InputError("out of memory: give a smaller model or resolution") from error
+        for name, values in parts.items():
+            if name == "depth":
+                picture.layers[name] = values[:, :, 0]
+            elif name == "normal":
+                picture.layers[name] = values[:, :, :3]
+            elif name == "id":
+                picture.layers[name] = values[:, :, :3].astype(numpy.int32)
+            else:
+                picture.layers[name] = values
         return picture
 
 
@@ -320,6 +282,7 @@ def render(model: ModelLike, *, backend: str = "auto", layers: Iterable[str] | N
 
     The process keeps one session for each backend.
     """
+    backend = argument("backend", backend, as_text, _BACKENDS)
     with _sessions_lock:
         session = _sessions.get(backend)
     if session is None:
@@ -331,7 +294,7 @@ def render(model: ModelLike, *, backend: str = "auto", layers: Iterable[str] | N
 
 def read(path: str | os.PathLike[str]) -> Picture:
     """Reads a picture (PNG, EXR, PFM, HDR, JPEG, WebP, TIFF ...) as linear light."""
-    return _picture(_glint.read(os.fspath(path)))
+    return _picture(_glint.read(as_path(path)))
 
 
 @dataclass(frozen=True)
@@ -359,12 +322,17 @@ class Differences:
 PictureLike = Union[str, "os.PathLike[str]", numpy.typing.NDArray[Any]]
 
 
+def _pixels(value: Any) -> numpy.typing.NDArray[Any]:
+    array = numpy.asarray(read(value) if isinstance(value, (str, os.PathLike)) else value)
+    if array.dtype.kind in "OSU":  # what NumPy makes of no numbers
+        raise TypeError
+    return array
+
+
 def _comparable(picture: PictureLike) -> numpy.typing.NDArray[Any]:
     """The picture as an array (height, width, 4) of floats or uint8."""
-    if isinstance(picture, (str, os.PathLike)):
-        array: numpy.typing.NDArray[Any] = numpy.asarray(read(picture))
-    else:
-        array = numpy.asarray(picture)
+    array = argument("a picture", picture, _pixels, "the path of a file, or an array of float "
+                     "(linear light) or uint8 (sRGB)")
     if array.ndim == 2:
         array = numpy.repeat(array[:, :, None], 3, axis=2)
     if array.ndim != 3 or array.shape[2] not in (3, 4):
@@ -387,23 +355,26 @@ def compare(a: PictureLike, b: PictureLike, *, metrics: Iterable[str] = (), tole
     (sRGB, straight alpha). A file and a Picture, or uint8 and float, are compared as 8-bit codes, as
     in a PNG. limits: the largest value of each metric that counts as the same (psnr, ssim: the
     smallest), with _ for -: max, mean, rmse, relative_rmse, psnr, pixels, ssim, flip, hdr_flip.
-    Without any, the pictures must be equal. metrics: others to report. tolerance: that of "pixels".
+    Without any, the pictures must be equal. A limit is a number, and from 0 for differences.
+    metrics: others to report. tolerance: that of "pixels".
     """
-    rules = ([(name.replace("_", "-"), float(limit)) for name, limit in limits.items()],
-             list(metrics), tolerance, ignore_alpha)
+    rules = ([(as_utf8(name), limit) for name, limit in as_limits(limits).items()],
+             argument("metrics", metrics, as_names, "a name or several"),
+             as_limits({"tolerance": tolerance})["tolerance"],
+             argument("ignore_alpha", ignore_alpha, as_flag, "True or False"))
 
-    def is_codes(picture: PictureLike) -> bool:
+    def is_codes(picture: PictureLike, array: numpy.typing.NDArray[Any]) -> bool:
         if isinstance(picture, (str, os.PathLike)):
-            return not os.fspath(picture).lower().endswith((".exr", ".pfm", ".hdr"))
-        return picture.dtype == numpy.uint8
+            return not as_path(picture).lower().endswith((b".exr", b".pfm", b".hdr"))
+        return array.dtype == numpy.uint8
 
     if isinstance(a, (str, os.PathLike)) and isinstance(b, (str, os.PathLike)):
-        return Differences(**_glint.compare_files(os.fspath(a), os.fspath(b), *rules))
-    if is_codes(a) or is_codes(b):
-        one, other = (_codes(each, _comparable(each)) for each in (a, b))
-        return Differences(**_glint.compare_codes(one, other, *rules))
-    return Differences(**_glint.compare_linear(_comparable(a).astype(numpy.float32),
-                                               _comparable(b).astype(numpy.float32), *rules))
+        return Differences(**_glint.compare_files(as_path(a), as_path(b), *rules))
+    one, other = _comparable(a), _comparable(b)
+    if is_codes(a, one) or is_codes(b, other):
+        return Differences(**_glint.compare_codes(_codes(a, one), _codes(b, other), *rules))
+    return Differences(**_glint.compare_linear(one.astype(numpy.float32),
+                                               other.astype(numpy.float32), *rules))
 
 
 def _codes(picture: PictureLike, array: numpy.typing.NDArray[Any]) -> numpy.typing.NDArray[numpy.uint8]:

@@ -21,6 +21,7 @@ import numpy
 import pytest
 
 from . import Picture, _comparable, _glint
+from ._arguments import as_limits
 
 _SCRIPT = pathlib.Path(__file__).with_name("image_test.sh")
 
@@ -93,8 +94,8 @@ def image_baseline(request: pytest.FixtureRequest) -> ImageBaseline:
         baseline = path.parent / "baselines" / (called + ending)
         folder = _folder(config)
         words = []
-        for metric, limit in limits.items():
-            words += ["--metric", metric.replace("_", "-"), "--threshold", repr(float(limit))]
+        for metric, limit in as_limits(limits).items():
+            words += ["--metric", metric, "--threshold", repr(limit)]
         if max_pixels is not None:
             words += ["--max-pixels", str(max_pixels)]
         words += options or []
@@ -105,7 +106,7 @@ def image_baseline(request: pytest.FixtureRequest) -> ImageBaseline:
         array = _comparable(picture)
         exposure = picture.exposure if isinstance(picture, Picture) else 0.0
         if array.dtype == numpy.uint8:
-            _glint.write_codes(str(made), array)
+            _glint.write_codes(os.fsencode(made), array)
         else:
             linear = array.astype(numpy.float32).view(Picture)
             linear.exposure = exposure

@@ -2,9 +2,12 @@
 sessions, threads and processes."""
 
 import concurrent.futures
+import copy
+import io
 import multiprocessing
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -124,6 +127,39 @@ def test_compares():
         glint.compare(grey.astype(numpy.int16), other)
 
 
+def _assert_same_picture(other, picture):
+    assert type(other) is glint.Picture and other.exposure == picture.exposure == 2
+    assert numpy.array_equal(other, picture)
+    assert numpy.array_equal(other.codes(), picture.codes())
+    assert list(other.layers) == list(picture.layers) == ["depth", "id"]
+    assert all(numpy.array_equal(other.layers[name], picture.layers[name]) for name in other.layers)
+
+
+def _exposed():
+    return glint.render(TORUS, resolution=(32, 24), exposure=2, layers=["depth", "id"])
+
+
+def test_copies_and_pickles_are_the_same_picture():
+    picture = _exposed()
+    copies = [pickle.loads(pickle.dumps(picture, protocol))
+              for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+    copies += [copy.copy(picture), copy.deepcopy(picture), picture.copy(), picture.view()]
+    for other in copies:
+        _assert_same_picture(other, picture)
+        other.layers["mine"] = other.layers["depth"]
+        assert "mine" not in picture.layers
+    deep = copy.deepcopy(picture)
+    deep.layers["depth"][:] = 0
+    deep[:] = 0
+    assert picture.layers["depth"].max() > 0 and picture.max() > 0
+    # Columns and slices, which NumPy stores otherwise.
+    turned = pickle.loads(pickle.dumps(picture.transpose(1, 0, 2)[::2], 5))
+    assert numpy.array_equal(turned, picture.transpose(1, 0, 2)[::2]) and turned.exposure == 2
+    with concurrent.futures.ProcessPoolExecutor(
+            1, multiprocessing.get_context("spawn")) as processes:
+        _assert_same_picture(processes.submit(_exposed).result(timeout=60), picture)
+
+
 @pytest.mark.parametrize("given, said", [
     (dict(shading="pbr"), "--shading"),
     (dict(shine=3), "shine"),
@@ -136,6 +172,110 @@ def test_refuses_in_one_line(given, said):
     with pytest.raises(glint.InputError, match=re.escape(said)) as caught:
         glint.render(TORUS, **dict(dict(resolution=(8, 8)), **given))
     assert "\n" not in str(caught.value)
+
+
+TRIANGLE = numpy.array(SQUARE["positions"][:3], float)
+PIXELS = numpy.zeros((4, 6), numpy.float32)
+
+
+@pytest.mark.parametrize("call, said", [
+    (lambda: glint.render(None), "model: None cannot be used: give a path"),
+    (lambda: glint.render(5), "model: 5 cannot"),
+    (lambda: glint.render([None]), "model: [None] cannot"),
+    (lambda: glint.render(TRIANGLE), "model: an array of float64 of the shape (3, 3) cannot"),
+    (lambda: glint.render(io.BytesIO(b"x")), "model: <_io.BytesIO"),
+    (lambda: glint.render("a\0b"), "model: 'a\\x00b' cannot"),
+    (lambda: glint.render("\udcff.glb"), "\\xff.glb: does not exist"),
+    (lambda: glint.render("\ud800.glb"), "model: '\\ud800.glb' cannot"),
+    (lambda: glint.render(TORUS, material=5), "material: 5 cannot"),
+    (lambda: glint.render(TORUS, material=[{"exponent": 3}]), "material: [{'exponent': 3}] cannot"),
+    (lambda: glint.render(TORUS, material={"exponent": None}), "exponent: None cannot"),
+    (lambda: glint.render(TORUS, material={"\ud800": 1}), "material: '\\ud800=1' cannot"),
+    (lambda: glint.render(TORUS, light=5), "light: 5 cannot"),
+    (lambda: glint.render(TORUS, light=[None]), "light: [None] cannot"),
+    (lambda: glint.render(TORUS, layers=5), "layers: 5 cannot"),
+    (lambda: glint.render(TORUS, layers=[5]), "no layer '5'"),
+    (lambda: glint.render(TORUS, layers=[None]), "layers: [None] cannot"),
+    (lambda: glint.render(TORUS, camera="x"), "camera: 'x' cannot"),
+    (lambda: glint.render(TORUS, camera={5: 5}), "camera: {5: 5} cannot"),
+    (lambda: glint.render(TORUS, camera={"position": None}), "camera position: None cannot"),
+    (lambda: glint.render(TORUS, camera=numpy.eye(4) * 1j), "camera: an array of complex128"),
+    (lambda: glint.render(TORUS, intrinsics="x"), "intrinsics: 'x' cannot"),
+    (lambda: glint.render(TORUS, exposure=10**5000), "exposure: a value of the type int cannot"),
+    (lambda: glint.render(TORUS, hdri_file=b"x"), "hdri_file: b'x' cannot"),
+    (lambda: glint.render(TORUS, backend=[None]), "backend: [None] cannot"),
+    (lambda: glint.Session(5), "backend: 5 cannot be used: give auto, egl"),
+    (lambda: glint.read(None), "path: None cannot"),
+    (lambda: glint.render(TORUS, resolution=(8, 8)).save(None), "path: None cannot"),
+    (lambda: glint.Model(glint.Mesh("abc")), "positions: 'abc' cannot"),
+    (lambda: glint.Model(glint.Mesh([[0, 0, 0], [1]])), "positions: [[0, 0, 0], [1]] cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE * 1j)), "positions: an array of complex128"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE * numpy.nan)), "positions: some are not finite"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE * 1e300)), "positions: some are not finite"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, place=numpy.full((4, 4), numpy.inf))), "place: some"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, place=5j)), "place: 5j cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, normals=TRIANGLE * 1j)), "normals: an array"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, [[0, 1], [2]])), "indices: [[0, 1], [2]] cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, material=5)), "material: 5 cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, texture=5)), "texture: 5 cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, name=5)), "name: 5 cannot"),
+    (lambda: glint.Model(glint.Mesh(TRIANGLE, two_sided="no")), "two_sided: 'no' cannot"),
+    (lambda: glint.compare(PIXELS, None), "a picture: None cannot"),
+    (lambda: glint.compare([[1], [1, 2]], PIXELS), "a picture: [[1], [1, 2]] cannot"),
+    (lambda: glint.compare(PIXELS, PIXELS, flip="a"), "flip: 'a' cannot be used: give a number"),
+    (lambda: glint.compare(PIXELS, PIXELS, flip=None), "flip: None cannot"),
+    (lambda: glint.compare(PIXELS, PIXELS, psnr=float("nan")), "psnr: nan cannot"),
+    (lambda: glint.compare(PIXELS, PIXELS, relative_rmse=-1), "relative_rmse: the limit -1.0 is"),
+    (lambda: glint.compare(PIXELS, PIXELS, tolerance=float("nan")), "tolerance: nan cannot"),
+    (lambda: glint.compare(PIXELS, PIXELS, metrics=5), "metrics: 5 cannot"),
+    (lambda: glint.compare(PIXELS, PIXELS, ignore_alpha="no"), "ignore_alpha: 'no' cannot"),
+])
+@pytest.mark.filterwarnings("error")
+def test_refuses_arguments_of_other_types(call, said):
+    with pytest.raises(glint.InputError, match=re.escape(said)) as caught:
+        call()
+    assert re.fullmatch(".*(: give |there are ).*", str(caught.value))
+
+
+def test_out_of_memory_is_an_error_of_input():
+    text = ("import glint, resource, sys\n"
+            "session = glint.Session('reference')\n"
+            "resource.setrlimit(resource.RLIMIT_AS, (1 << 32, 1 << 32))\n"
+            "try:\n"
+            "    session.render(sys.argv[1], resolution=(65535, 65535))\n"
+            "except glint.InputError as error:\n"
+            "    print(error)\n")
+    said = subprocess.run([sys.executable, "-c", text, TORUS], check=True, timeout=60,
+                          stdout=subprocess.PIPE, text=True).stdout
+    assert said == "out of memory: give a smaller model or resolution\n"
+
+
+def test_numbers_of_all_kinds():
+    expected = glint.render(TORUS, resolution=(32, 24), material={"exponent": 3}, exposure=2)
+    given = glint.render(TORUS, resolution=numpy.array([32, 24]), exposure=numpy.array(2),
+                         material={"exponent": numpy.array(3, numpy.float32)})
+    assert numpy.array_equal(given, expected) and given.exposure == 2
+    one = glint.render(glint.Mesh(**SQUARE), **FRONTAL)
+    angle = dict(FRONTAL["camera"], view_angle=numpy.array(40.0))
+    assert numpy.array_equal(glint.render(glint.Mesh(**SQUARE), **dict(FRONTAL, camera=angle)), one)
+    with pytest.raises(glint.InputError, match="--camera-index 0: torus has no camera"):
+        glint.render(TORUS, camera=numpy.array(0))
+    # PSNR and SSIM may be negative. Three of four channels differ by 2: -10 log10(3) = -4.77.
+    assert glint.compare(PIXELS, PIXELS + 2, psnr=-5, ssim=-1)
+    assert not glint.compare(PIXELS, PIXELS + 2, psnr=-4)
+    assert glint.compare([[0.0, 0.5]], [[0.0, 0.5]], metrics="flip").values["flip"] == 0
+
+
+def test_names_of_files_that_are_not_utf8(tmp_path):
+    name = os.fsdecode(os.fsencode(tmp_path) + b"/\xff")
+    pathlib.Path(name + ".glb").write_bytes(TORUS.read_bytes())
+    picture = glint.render(name + ".glb", resolution=(16, 16))
+    assert numpy.array_equal(picture, glint.render(TORUS, resolution=(16, 16)))
+    picture.save(pathlib.Path(name + ".exr"))
+    assert numpy.array_equal(glint.read(name + ".exr"), picture)
+    assert glint.compare(name + ".exr", picture) and glint.compare(name + ".exr", name + ".exr")
+    lit = glint.render(TORUS, resolution=(16, 16), shading="environment", hdri_file=name + ".exr")
+    assert not numpy.array_equal(lit, picture)
 
 
 def test_refuses_models(tmp_path):
