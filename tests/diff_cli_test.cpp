@@ -103,6 +103,8 @@ TEST(DiffStatus, Table) {
       {"a.png b.png --threshold 1", 2, "give the metric before it"},
       {"a.png b.png --metric max --threshold x", 2, "give a number"},
       {"a.png b.png --metric max --threshold nan", 2, "give a number"},
+      {"a.png b.png --metric flip --threshold -1", 2, "give 0 or more for flip"},
+      {"a.png b.png --metric psnr --threshold -1", 0, "psnr"},
       {"a.png b.png --max-pixels -1", 2, "give a number of pixels"},
       {"a.png b.png --max-pixels 101%", 2, "0% to 100%"},
       {"a.png b.png --max-pixels %", 2, "give a number"},

@@ -171,7 +171,11 @@ DiffSettings comparisonSettings(const CLI::App& command, const ComparisonArgumen
       continue;
     }
     ++i;
-    options.conditions.push_back({name, numberOf(ordered[i].second, "--threshold")});
+    const double limit = numberOf(ordered[i].second, "--threshold");
+    if (limit < 0 && !isSimilarity(name))  // a similarity may be negative, a difference not
+      throw InputError("--threshold '" + printablePath(ordered[i].second) +
+                       "': give 0 or more for " + name);
+    options.conditions.push_back({name, limit});
   }
   for (std::string text : given.maxPixels) {
     const std::string asGiven = text;
